@@ -1,0 +1,119 @@
+package stillwater.estimate
+
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+
+/** What the bounded filter does when new evidence crosses the other bound. */
+public enum class CrossingPolicy {
+    /** Both bounds stand as the evidence set them, even crossed: Algorithm 1 as printed. */
+    PLAIN,
+
+    /** The other bound moves along to the new one, so that they meet: the original code's "soft" variant. */
+    SOFT,
+
+    /** The contradicted bound returns to the prior's end: the newest evidence is believed, the old is forgotten. */
+    RESET,
+}
+
+/**
+ * Settings of a [BoundedFilter].
+ *
+ * @property medianWindow samples in the median window, odd, at least 1.
+ * @property slopeWindow medians in the regression window, at least 2.
+ * @property epsilon smallest slope that counts as one, sensor units/s, at least 0.
+ * @property clearOnEntry whether both windows are emptied when the boat enters a cell. The report does not say. Not
+ *   cleared, slopes mix the water of two cells and bounds become wrong.
+ * @property crossing what happens when bounds cross.
+ * @throws IllegalArgumentException if a number is out of its range.
+ */
+public data class BoundedFilterSettings(
+    val epsilon: Double,
+    val medianWindow: Int = 3,
+    val slopeWindow: Int = 5,
+    val clearOnEntry: Boolean = true,
+    val crossing: CrossingPolicy = CrossingPolicy.PLAIN,
+) {
+    init {
+        require(medianWindow >= 1 && medianWindow % 2 == 1) {
+            "medianWindow ($medianWindow samples) must be odd and at least 1"
+        }
+        require(slopeWindow >= 2) { "slopeWindow ($slopeWindow medians) must be at least 2" }
+        require(epsilon >= 0 && epsilon.isFinite()) { "epsilon ($epsilon sensor units/s) must be at least 0 and finite" }
+    }
+}
+
+/**
+ * Bounds the field in each cell by the direction in which a slow sensor moves there; no sensor model is needed.
+ *
+ * A rising sensor is below the truth, so its reading is a lower bound; a falling one is above it. The slope is the
+ * least-squares slope over a window of running medians, and counts when it exceeds ε. A cell's value is the midpoint
+ * of its bounds.
+ *
+ * Guaranteed to contain the truth for a noise-free first-order sensor in a field that is constant within a cell and
+ * inside the prior, with windows cleared on entry. Noise, dead time, a second-order response or uncleared windows
+ * can make a bound wrong; what the caller then sees is conflicts.
+ *
+ * Source: the report, section 5, Algorithm 1. Differs: both branches there read "gradient < ε"; the first is taken as
+ * gradient > ε, the second as gradient < −ε. Crossing policies and clearing are not in the report. O(windows), no
+ * allocation.
+ *
+ * @param grid the cells.
+ * @param prior bounds of a cell before any evidence, sensor units.
+ * @property settings windows, ε and policies.
+ */
+public class BoundedFilter(
+    grid: Grid,
+    prior: Interval,
+    public val settings: BoundedFilterSettings,
+) : CellEstimator(grid, prior) {
+    private val medians = MedianWindow(settings.medianWindow)
+    private val slopes = SlopeWindow(settings.slopeWindow)
+    private val epsilon = settings.epsilon
+
+    override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
+        if (entered && settings.clearOnEntry) {
+            medians.clear()
+            slopes.clear()
+        }
+        medians.add(seconds, value)
+        if (!medians.full) return
+        slopes.add(medians.time, medians.median)
+        if (!slopes.full) return
+        val slope = slopes.slope()
+        if (slope > epsilon) raiseLower(cell, value) else if (slope < -epsilon) lowerUpper(cell, value)
+    }
+
+    private fun raiseLower(cell: Int, value: Double) {
+        if (value <= map.lower(cell)) return
+        var upper = map.upper(cell)
+        if (value > upper) {
+            map.countConflict(cell)
+            upper = when (settings.crossing) {
+                CrossingPolicy.PLAIN -> upper
+                CrossingPolicy.SOFT -> value
+                CrossingPolicy.RESET -> maxOf(value, map.prior.upper)
+            }
+        }
+        believe(cell, value, upper)
+    }
+
+    private fun lowerUpper(cell: Int, value: Double) {
+        if (value >= map.upper(cell)) return
+        var lower = map.lower(cell)
+        if (value < lower) {
+            map.countConflict(cell)
+            lower = when (settings.crossing) {
+                CrossingPolicy.PLAIN -> lower
+                CrossingPolicy.SOFT -> value
+                CrossingPolicy.RESET -> minOf(value, map.prior.lower)
+            }
+        }
+        believe(cell, lower, value)
+    }
+
+    private fun believe(cell: Int, lower: Double, upper: Double) {
+        map.setBounds(cell, lower, upper)
+        map.setValue(cell, (lower + upper) / 2)
+    }
+}

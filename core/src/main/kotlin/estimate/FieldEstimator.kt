@@ -1,0 +1,53 @@
+package stillwater.estimate
+
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Reading
+
+/** What an estimator did with a reading. */
+public enum class ReadingUse {
+    /** The reading was taken into the map. */
+    USED,
+
+    /** The reading lay in no cell of the grid and was counted as such. */
+    OUTSIDE,
+
+    /** The reading, its time or its place was not finite; it was counted as rejected. */
+    NOT_FINITE,
+
+    /** The reading was older than one already taken; it was counted as rejected. */
+    OUT_OF_ORDER,
+}
+
+/**
+ * Turns readings of one sensor into a map of the field.
+ *
+ * Readings come in the order of their times; equal times are allowed. No reading makes an estimator throw: what it
+ * cannot use it counts in [map] and says so. Confined to one thread.
+ */
+public interface FieldEstimator {
+    /** What is believed so far. The same object for the estimator's life, kept up to date by [update]. */
+    public val map: FieldMap
+
+    /**
+     * Takes one reading. Allocates nothing.
+     *
+     * @param time when the sample was taken.
+     * @param x metres east in the local frame where it was taken.
+     * @param y metres north in the local frame where it was taken.
+     * @param value what the sensor said, sensor units.
+     * @param conditions what else was measured at [time].
+     */
+    public fun update(
+        time: BoatTime,
+        x: Double,
+        y: Double,
+        value: Double,
+        conditions: Conditions = Conditions.NONE,
+    ): ReadingUse
+}
+
+/** Takes [reading]; see [FieldEstimator.update]. */
+public fun FieldEstimator.update(reading: Reading): ReadingUse =
+    update(reading.time, reading.position.x, reading.position.y, reading.value, reading.conditions)

@@ -1,0 +1,56 @@
+package stillwater.sensor
+
+import stillwater.model.Conditions
+import kotlin.math.expm1
+
+/**
+ * A sensor that closes a fixed share of its distance to the truth per unit of time: exponential response.
+ *
+ * τ ṡ = ψ − s. For a truth ψ that is constant over the step Δt the solution is exact whatever its length:
+ * s ← s + (1 − exp(−Δt/τ)) (ψ − s).
+ *
+ * Source: the report, section 2. Differs: its eq. 1 has the gain αᵗ and its eq. 2 diverges as printed; here the gain
+ * per sample is α = 1 − exp(−Δt/τ), so τ = −Δt / ln(1 − α).
+ *
+ * @property timeConstant τ, s, above 0 and finite: after τ seconds 63 % of a step is shown.
+ * @param initial the sensor's state before the first step, sensor units, finite.
+ * @throws IllegalArgumentException if a number is out of its range.
+ */
+public class FirstOrderLag(public val timeConstant: Double, initial: Double) : SensorModel {
+    init {
+        require(timeConstant > 0 && timeConstant.isFinite()) {
+            "timeConstant ($timeConstant s) must be above 0 and finite"
+        }
+        require(initial.isFinite()) { "initial ($initial) must be finite" }
+    }
+
+    private var state = initial
+    private var gainDt = 0.0
+    private var gain = 0.0
+
+    override fun step(input: Double, dt: Double, conditions: Conditions): Double {
+        if (!input.isFinite() || !(dt > 0)) return state
+        if (dt != gainDt) {
+            gainDt = dt
+            gain = -expm1(-dt / timeConstant)
+        }
+        state += gain * (input - state)
+        return state
+    }
+
+    public companion object {
+        /**
+         * The time constant of a sensor that closes the share [alpha] of its distance each [period].
+         *
+         * @param alpha gain per sample, dimensionless, above 0 and below 1.
+         * @param period time between samples, s, above 0.
+         * @return τ, s.
+         * @throws IllegalArgumentException if a number is out of its range.
+         */
+        public fun timeConstant(alpha: Double, period: Double): Double {
+            require(alpha > 0 && alpha < 1) { "alpha ($alpha) must be above 0 and below 1" }
+            require(period > 0 && period.isFinite()) { "period ($period s) must be above 0 and finite" }
+            return -period / kotlin.math.ln(1 - alpha)
+        }
+    }
+}

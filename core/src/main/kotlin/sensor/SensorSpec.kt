@@ -1,0 +1,105 @@
+package stillwater.sensor
+
+import kotlinx.serialization.SerialName
+import kotlinx.serialization.Serializable
+import kotlinx.serialization.SerializationException
+import kotlinx.serialization.json.Json
+import kotlin.random.Random
+
+/**
+ * One part of a sensor as data. The parts of a sensor act in the order in which they are listed.
+ *
+ * Each is checked when it is built or read: an impossible number throws IllegalArgumentException with the reason.
+ */
+@Serializable
+public sealed interface SensorStage {
+    /** A [SensorModel] of this stage that has settled at [initial], drawing what is random in it from [random]. */
+    public fun build(initial: Double, random: Random): SensorModel
+
+    /** [FirstOrderLag] with [timeConstant] τ, s. */
+    @Serializable
+    @SerialName("first-order-lag")
+    public data class Lag(@SerialName("time_constant_s") val timeConstant: Double) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel = FirstOrderLag(timeConstant, initial)
+    }
+
+    /** [SlewLimit] at [rate], sensor units/s. */
+    @Serializable
+    @SerialName("slew-limit")
+    public data class Slew(@SerialName("rate_per_s") val rate: Double) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel = SlewLimit(rate, initial)
+    }
+
+    /** [GaussianNoise] of [standardDeviation], sensor units. */
+    @Serializable
+    @SerialName("noise")
+    public data class Noise(@SerialName("standard_deviation") val standardDeviation: Double) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel = GaussianNoise(standardDeviation, random)
+    }
+
+    /** [Quantisation] to multiples of [step], sensor units. */
+    @Serializable
+    @SerialName("quantisation")
+    public data class Quantum(val step: Double) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel = Quantisation(step)
+    }
+}
+
+/**
+ * A sensor as data: what the simulator runs, an estimator may assume and a diagnosis hands on.
+ *
+ * The JSON form is `{"name": "...", "stages": [{"type": "first-order-lag", "time_constant_s": 9.5}, ...]}`; the types
+ * are those of [SensorStage].
+ *
+ * @property name what tables call the sensor.
+ * @property stages its parts in the order in which they act on the truth; empty is a perfect sensor.
+ */
+@Serializable
+public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
+    /**
+     * A sensor of this kind that has settled at [initial].
+     *
+     * @param initial truth at which the sensor has come to rest, sensor units, finite.
+     * @param random where its noise comes from. Retained.
+     */
+    public fun build(initial: Double, random: Random): SensorModel =
+        SensorChain(Array(stages.size) { stages[it].build(initial, random) })
+
+    /** The JSON form, indented. */
+    public fun toJson(): String = FORMAT.encodeToString(serializer(), this)
+
+    public companion object {
+        private val FORMAT = Json {
+            prettyPrint = true
+            prettyPrintIndent = "  "
+        }
+
+        /**
+         * Reads the JSON form.
+         *
+         * @throws IllegalArgumentException if [json] is not of that form or a number is out of its range; the message
+         *   is one line that says where and what was expected.
+         */
+        public fun fromJson(json: String): SensorSpec = try {
+            FORMAT.decodeFromString(serializer(), json)
+        } catch (e: SerializationException) {
+            throw IllegalArgumentException("not a sensor spec: ${e.message?.lineSequence()?.first()}", e)
+        }
+    }
+}
