@@ -19,9 +19,9 @@ internal fun gradleBuild(root: File): BuildFacts {
         projectVersion = properties.getProperty("version"),
         versions = catalogue.versions,
         modules =
-            includedModule.findAll(settings).map { it.groupValues[1] }.associateWith { module ->
-                dependenciesOf(root.resolve("$module/build.gradle.kts").readText(), catalogue)
-            },
+        includedModule.findAll(settings).map { it.groupValues[1] }.associateWith { module ->
+            dependenciesOf(root.resolve("$module/build.gradle.kts").readText(), catalogue)
+        },
     )
 }
 

@@ -18,13 +18,13 @@ internal fun mavenBuild(root: File): BuildFacts {
         projectVersion = parent.text("version"),
         versions = pomVersions(root.resolve("pom.xml")),
         modules =
-            parent.child("modules").children("module").associate { module ->
-                val name = module.textContent.trim()
-                val own = pom(root.resolve("$name/pom.xml"))
-                val ownParent = own.child("parent").text("version")
-                check(ownParent == parent.text("version")) { "$name/pom.xml: parent's version is $ownParent" }
-                name to (shared + own.dependencies(bills)).filter { it.name != STANDARD_LIBRARY }.toSet()
-            },
+        parent.child("modules").children("module").associate { module ->
+            val name = module.textContent.trim()
+            val own = pom(root.resolve("$name/pom.xml"))
+            val ownParent = own.child("parent").text("version")
+            check(ownParent == parent.text("version")) { "$name/pom.xml: parent's version is $ownParent" }
+            name to (shared + own.dependencies(bills)).filter { it.name != STANDARD_LIBRARY }.toSet()
+        },
     )
 }
 
