@@ -74,7 +74,13 @@ private fun catalogueAccessors(file: File): String {
     val project = ProjectBuilder.builder().withProjectDir(scratch).withGradleUserHomeDir(scratch).build()
     val problems = (project as ProjectInternal).services.get(InternalProblems::class.java)
     val source = StringWriter()
-    LibrariesSourceGenerator.generateSource(source, parse(file, project, problems), "accessors", CATALOGUE_CLASS, problems)
+    LibrariesSourceGenerator.generateSource(
+        source,
+        parse(file, project, problems),
+        "accessors",
+        CATALOGUE_CLASS,
+        problems,
+    )
     scratch.deleteRecursively()
     return source.toString()
 }

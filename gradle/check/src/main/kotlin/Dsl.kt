@@ -44,4 +44,6 @@ public fun DependencyHandler.testRuntimeOnly(notation: Any): Dependency? = never
 
 public fun DependencyHandler.project(path: String): Dependency = neverRun()
 
-public inline fun <reified T : org.gradle.api.Task> TaskCollection<in T>.withType(): TaskCollection<T> = error("compiled, never run")
+public inline fun <reified T : org.gradle.api.Task> TaskCollection<in T>.withType(): TaskCollection<T> = error(
+    "compiled, never run",
+)
