@@ -65,7 +65,7 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
         /** Whether [pattern] exists on [grid]: only [LawnmowerPattern.HAMILTONIAN_CYCLE] asks for a certain shape. */
         public fun fits(grid: Grid, pattern: LawnmowerPattern): Boolean =
             pattern != LawnmowerPattern.HAMILTONIAN_CYCLE ||
-                grid.columns >= 2 && grid.rows >= 2 && grid.size % 2 == 0
+                (grid.columns >= 2 && grid.rows >= 2 && grid.size % 2 == 0)
 
         /**
          * The cells in the order [pattern] visits them, one period; the first follows the last.
