@@ -38,6 +38,19 @@ internal class Stroke(
         )
     }
 
+    /** The points of this stroke that can be drawn on [axes], all of them. */
+    fun visible(axes: Axes): Stroke {
+        val kept = x.indices.filter { axes.showsX(x[it]) && axes.showsY(y[it]) }
+        return Stroke(
+            x = DoubleArray(kept.size) { x[kept[it]] },
+            y = DoubleArray(kept.size) { y[kept[it]] },
+            lower = absent(kept.size),
+            upper = absent(kept.size),
+            colour = colour,
+            line = line,
+        )
+    }
+
     internal companion object {
         fun of(x: DoubleArray, y: DoubleArray, lower: DoubleArray?, upper: DoubleArray?, colour: String, line: String) =
             Stroke(x, y, lower ?: absent(x.size), upper ?: absent(x.size), colour, line)
