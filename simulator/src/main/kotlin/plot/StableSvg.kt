@@ -59,7 +59,8 @@ internal object StableSvg {
     }
 
     private fun compact(shapes: String): String {
-        val dense = emptyElement.replace(indentation.replace(shapes, ""), "/>")
+        val plain = shapes.replace("font-family:sans-serif;", "")
+        val dense = emptyElement.replace(indentation.replace(plain, ""), "/>")
         return attribute.replace(dense) { match ->
             val value = match.groupValues[1]
             if ('.' in value) "=\"" + longNumber.replace(value) { rounded(it.value) } + "\"" else match.value
