@@ -62,7 +62,7 @@ internal class Sheet(val title: String, val subtitle: String, val width: Int, va
         axisTicksLength = 5,
         panelGridMajor = elementLine(color = Palette.GRID, size = 1),
         panelGridMinor = elementBlank(),
-        legendTitle = elementText(color = Palette.TEXT, size = 14, face = "bold"),
+        legendTitle = elementText(color = Palette.MUTED, size = 14),
         legendText = elementText(color = Palette.TEXT, size = 14),
         plotTitle = elementText(color = Palette.TEXT, size = 19, face = "bold"),
         plotSubtitle = elementText(color = Palette.MUTED, size = 14),
