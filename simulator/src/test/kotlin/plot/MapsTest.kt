@@ -75,6 +75,8 @@ class MapsTest {
         assertEquals(49, parts.all("circle").count { it.getAttribute("r").toDouble() < 3 })
         assertContains(parts.texts, "start")
         assertContains(parts.texts, "end")
+        val silent = SvgParts(TrackMap("Track", "", x, x, DoubleArray(50) { Double.NaN }, "mg/L").draw())
+        assertEquals(50, silent.all("circle").count { it.getAttribute("fill") == SvgParts.GREY })
         assertEquals(2, parts.strokes("rgb(138,144,150)").size, "the missing position breaks the track in two")
     }
 
