@@ -51,7 +51,10 @@ public class TrackMap(
             // Points without position between two placed ones make the difference grow: a new part.
             "part" to placed.mapIndexed { index, point -> point - index },
         )
-        val track = letsPlot(table) { this.x = "east"; this.y = "north" } +
+        val track = letsPlot(table) {
+            this.x = "east"
+            this.y = "north"
+        } +
             geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
             points(placed, scale.colour(unit, frame.isFlat)) + frame.axes()
         val plot = if (ends) track + start(x, y, frame.size) + end(x, y, frame.size) else track

@@ -17,7 +17,9 @@ public object ShortestNumber {
         if (abs(value) >= java.lang.Double.MIN_NORMAL) {
             null
         } else {
-            (1 until FIFTEEN).firstNotNullOfOrNull { n -> exact.round(MathContext(n)).takeIf { it.toDouble() == value } }
+            (1 until FIFTEEN).firstNotNullOfOrNull { n ->
+                exact.round(MathContext(n)).takeIf { it.toDouble() == value }
+            }
         }
 
     private const val FIFTEEN = 15
