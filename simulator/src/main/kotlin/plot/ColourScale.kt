@@ -1,0 +1,76 @@
+package stillwater.plot
+
+import org.jetbrains.letsPlot.intern.Feature
+import org.jetbrains.letsPlot.scale.guideColorbar
+import org.jetbrains.letsPlot.scale.scaleColorViridis
+import org.jetbrains.letsPlot.scale.scaleFillViridis
+import kotlin.math.abs
+
+/** A continuous, perceptually even colour scale (viridis) from [from] to [to], in the figure's unit. */
+internal class ColourScale private constructor(private val from: Double, private val to: Double) {
+    /** [value] on the scale: moved to the nearer end if beyond, null (drawn grey) if there is none. */
+    fun place(value: Double): Double? = if (value.isNaN()) null else value.coerceIn(from, to)
+
+    /** The scale for areas; its bar lies flat if the legend stands below the figure. */
+    fun fill(unit: String, flat: Boolean): Feature {
+        val ticks = ticks()
+        return scaleFillViridis(
+            name = unit,
+            limits = from to to,
+            breaks = ticks.places,
+            labels = ticks.labels,
+            naValue = Palette.ABSENT,
+            guide = bar(flat),
+        )
+    }
+
+    /** The scale for lines and points; without a bar of its own if [flat] is null. */
+    fun colour(unit: String, flat: Boolean?): Feature {
+        val ticks = ticks()
+        return scaleColorViridis(
+            name = unit,
+            limits = from to to,
+            breaks = ticks.places,
+            labels = ticks.labels,
+            naValue = Palette.ABSENT,
+            guide = flat?.let(::bar) ?: "none",
+        )
+    }
+
+    private fun ticks() = Ticks.linear(from, to, TICKS)
+
+    private fun bar(flat: Boolean) = guideColorbar(
+        barWidth = if (flat) BAR_LENGTH else BAR_BREADTH,
+        barHeight = if (flat) BAR_BREADTH else BAR_LENGTH,
+        nbin = SHADES,
+    )
+
+    internal companion object {
+        private const val BAR_BREADTH = 20
+        private const val BAR_LENGTH = 220
+        private const val SHADES = 64
+        private const val TICKS = 6
+        private const val LARGEST = 1e300
+        private const val SMALLEST_SHARE = 1e-9
+
+        /** The scale for [values], with ends [wanted] if given. A constant stands in the middle of the scale. */
+        fun of(values: List<Double>, wanted: ClosedFloatingPointRange<Double>?): ColourScale {
+            if (wanted != null) {
+                require(wanted.start < wanted.endInclusive && (wanted.endInclusive - wanted.start).isFinite()) {
+                    "colours ($wanted) must go from a lower to a higher finite value"
+                }
+                return ColourScale(wanted.start, wanted.endInclusive)
+            }
+            val finite = values.filter { abs(it) <= LARGEST }
+            if (finite.isEmpty()) return ColourScale(0.0, 1.0)
+            val low = finite.min()
+            val high = finite.max()
+            val size = maxOf(abs(low), abs(high))
+            return when {
+                high - low > size * SMALLEST_SHARE -> ColourScale(low, high)
+                size > 0 -> ColourScale(low - size / 2, high + size / 2)
+                else -> ColourScale(-1.0, 1.0)
+            }
+        }
+    }
+}
