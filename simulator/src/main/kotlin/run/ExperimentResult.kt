@@ -18,7 +18,13 @@ class Curve(val field: String, val filter: String, val planner: String, val erro
         return ErrorSummary(
             mean = statistics.mean,
             // One environment shows no spread.
-            standardError = if (errors.size > 1) statistics.standardDeviation / sqrt(errors.size.toDouble()) else Double.NaN,
+            standardError = if (errors.size >
+                1
+            ) {
+                statistics.standardDeviation / sqrt(errors.size.toDouble())
+            } else {
+                Double.NaN
+            },
             p10 = statistics.getPercentile(10.0),
             p90 = statistics.getPercentile(90.0),
         )

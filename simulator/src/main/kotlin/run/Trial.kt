@@ -54,7 +54,13 @@ class Trial(
         for (move in 1..checkpoints.last()) {
             if (move > 1) {
                 if (waypoint == plan.size) {
-                    val outcome = planner.plan(estimators.first().map, Position(x, y), reading, StopCondition.NEVER, plan)
+                    val outcome = planner.plan(
+                        estimators.first().map,
+                        Position(x, y),
+                        reading,
+                        StopCondition.NEVER,
+                        plan,
+                    )
                     check(outcome == PlanOutcome.Planned || plan.size == 0) { "$outcome with ${plan.size} waypoints" }
                     waypoint = 0
                 }
