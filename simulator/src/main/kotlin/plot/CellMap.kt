@@ -1,0 +1,88 @@
+package stillwater.plot
+
+import org.jetbrains.letsPlot.geom.geomPolygon
+import org.jetbrains.letsPlot.letsPlot
+import org.jetbrains.letsPlot.sampling.samplingNone
+import kotlin.math.cos
+import kotlin.math.sin
+
+/**
+ * One cell of a map: an outline in a local frame (x east, y north) and a value.
+ *
+ * @param east the corners' x, m, in order around the cell, at least 3. Retained, not modified.
+ * @param north the corners' y, m, as many. Retained, not modified.
+ * @property value in the map's unit; NaN means that nothing is known here.
+ */
+public class MapCell(internal val east: DoubleArray, internal val north: DoubleArray, public val value: Double) {
+    init {
+        require(east.size >= 3 && east.size == north.size) {
+            "a cell needs 3 or more corners with east and north each, got ${east.size} and ${north.size}"
+        }
+        require(east.all(Double::isFinite) && north.all(Double::isFinite)) { "a cell's corners must be finite" }
+    }
+
+    public companion object {
+        /**
+         * A rectangular cell.
+         *
+         * @param centreEast x of the centre, m. @param centreNorth y of the centre, m.
+         * @param width side along the cell's own x axis, m. @param height side along its y axis, m.
+         * @param rotation angle of the cell's x axis from east, counter-clockwise, rad.
+         */
+        public fun rectangle(
+            centreEast: Double,
+            centreNorth: Double,
+            width: Double,
+            height: Double,
+            rotation: Double,
+            value: Double,
+        ): MapCell {
+            val across = doubleArrayOf(-width / 2, width / 2, width / 2, -width / 2)
+            val along = doubleArrayOf(-height / 2, -height / 2, height / 2, height / 2)
+            val c = cos(rotation)
+            val s = sin(rotation)
+            return MapCell(
+                DoubleArray(across.size) { centreEast + c * across[it] - s * along[it] },
+                DoubleArray(across.size) { centreNorth + s * across[it] + c * along[it] },
+                value,
+            )
+        }
+    }
+}
+
+/**
+ * A map of cells coloured by value, true to scale: one metre is as long on either axis.
+ *
+ * @param cells the cells in any order; those with a NaN value are drawn grey and explained in the subtitle.
+ * @param unit what the colours mean, such as `Oxygen (mg/L)`.
+ * @param colours the values at the ends of the colour scale; by default those of the cells. Values beyond take the
+ *   colour of the nearer end.
+ */
+public class CellMap(
+    private val title: String,
+    private val subtitle: String = "",
+    private val cells: List<MapCell>,
+    private val unit: String,
+    private val colours: ClosedFloatingPointRange<Double>? = null,
+) : Drawing {
+    override fun draw(): Figure {
+        if (cells.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no cells")
+        val frame = MapFrame.around(cells.map { it.east }, cells.map { it.north })
+        val unknown = cells.count { !it.value.isFinite() }
+        val note = if (unknown > 0) "grey: no value ($unknown of ${cells.size} cells)" else ""
+        val scale = ColourScale.of(cells.map { it.value }, colours)
+        val corner = cells.flatMap { cell -> List(cell.east.size) { cell } }
+        val plot = letsPlot(
+            mapOf(
+                "east" to cells.flatMap { it.east.asList() },
+                "north" to cells.flatMap { it.north.asList() },
+                "cell" to cells.flatMapIndexed { index, cell -> List(cell.east.size) { index } },
+                "value" to corner.map { scale.place(it.value) },
+            ),
+        ) { x = "east"; y = "north"; group = "cell" } +
+            // An outline in the cell's own colour closes the hairlines between neighbours.
+            geomPolygon(size = 0.25, sampling = samplingNone) { fill = "value"; color = "value" } +
+            scale.fill(unit) + scale.colour(unit, shown = false) + frame.axes()
+        return frame.sheet(title, listOf(subtitle, note).filter { it.isNotEmpty() }.joinToString("; ")).figure(plot)
+    }
+}

@@ -1,0 +1,41 @@
+package stillwater.plot
+
+/**
+ * A finished drawing: one self-contained SVG (no script, no outside font), and the same as PNG on request.
+ *
+ * The SVG is a function of the input alone: the same data give the same bytes, also when figures are drawn in
+ * parallel. PNG bytes depend on the fonts of the machine as well. Immutable.
+ *
+ * @property title the title as drawn, also the SVG's accessible name.
+ * @property svg the document, UTF-8 text without an XML declaration, so that a page can hold it inline.
+ * @property width drawn width, CSS px.
+ * @property height drawn height, CSS px.
+ */
+public class Figure internal constructor(
+    public val title: String,
+    public val svg: String,
+    public val width: Int,
+    public val height: Int,
+) {
+    private val doubleSize: ByteArray by lazy { PngImage.of(this, DEFAULT_SCALE) }
+
+    /**
+     * The figure as a PNG image on white.
+     *
+     * @param scale image px per CSS px, dimensionless, more than 0 and at most 8; 2 gives at least 1200 px of width.
+     * @return the file's bytes. The caller's own copy.
+     * @throws FigureException if this machine cannot draw text (a Java without any font).
+     */
+    public fun png(scale: Double = DEFAULT_SCALE): ByteArray {
+        require(scale > 0 && scale <= MAX_SCALE) { "scale ($scale) must be above 0 and at most $MAX_SCALE" }
+        return if (scale == DEFAULT_SCALE) doubleSize.copyOf() else PngImage.of(this, scale)
+    }
+
+    private companion object {
+        const val DEFAULT_SCALE = 2.0
+        const val MAX_SCALE = 8.0
+    }
+}
+
+/** A figure that could not be made; the message is one line and says what to do. */
+public class FigureException(message: String, cause: Throwable? = null) : RuntimeException(message, cause)

@@ -1,0 +1,22 @@
+package stillwater.plot
+
+/**
+ * The colours of this project's figures, distinguishable with the common kinds of colour blindness.
+ *
+ * Source: Okabe and Ito, 2008, Color Universal Design, without its yellow, which is too light for a line on white.
+ */
+internal object Palette {
+    val groups = listOf("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+
+    const val PAPER = "#FFFFFF"
+    const val TEXT = "#222222"
+    const val MUTED = "#666666"
+    const val GRID = "#E3E6E8"
+    const val AXIS = "#8A9096"
+
+    /** Cells or stretches without a value. */
+    const val ABSENT = "#D9DCDF"
+
+    /** The colour of the n-th group (from 0), repeating after the last. */
+    fun of(index: Int): String = groups[index % groups.size]
+}

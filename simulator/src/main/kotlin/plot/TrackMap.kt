@@ -1,0 +1,82 @@
+package stillwater.plot
+
+import org.jetbrains.letsPlot.Stat
+import org.jetbrains.letsPlot.geom.geomPath
+import org.jetbrains.letsPlot.geom.geomPoint
+import org.jetbrains.letsPlot.geom.geomText
+import org.jetbrains.letsPlot.letsPlot
+import org.jetbrains.letsPlot.sampling.samplingNone
+
+/**
+ * A boat's track in a local frame (x east, y north), coloured by what its sensor read, true to scale.
+ *
+ * Points without a finite position are left out and interrupt the track; those without a value are grey. Give some
+ * thousand points at most: each becomes an element of the SVG.
+ *
+ * @param east x of each point, m, length n, in order of time. Retained, not modified.
+ * @param north y of each point, m, length n. Retained, not modified.
+ * @param value reading at each point, length n, in the map's unit. Retained, not modified.
+ * @param unit what the colours mean, such as `Oxygen (mg/L)`.
+ * @param ends whether to mark where the track starts and ends.
+ * @param colours the values at the ends of the colour scale; by default those of the track.
+ */
+public class TrackMap(
+    private val title: String,
+    private val subtitle: String = "",
+    private val east: DoubleArray,
+    private val north: DoubleArray,
+    private val value: DoubleArray,
+    private val unit: String,
+    private val ends: Boolean = true,
+    private val colours: ClosedFloatingPointRange<Double>? = null,
+) : Drawing {
+    init {
+        require(east.size == north.size && east.size == value.size) {
+            "east, north and value must be as long, got ${east.size}, ${north.size} and ${value.size}"
+        }
+    }
+
+    override fun draw(): Figure {
+        val placed = east.indices.filter { east[it].isFinite() && north[it].isFinite() }
+        if (placed.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no positions")
+        val x = DoubleArray(placed.size) { east[placed[it]] }
+        val y = DoubleArray(placed.size) { north[placed[it]] }
+        val frame = MapFrame.around(listOf(x), listOf(y))
+        val scale = ColourScale.of(placed.map { value[it] }, colours)
+        val table = mapOf(
+            "east" to x.asList(),
+            "north" to y.asList(),
+            "value" to placed.map { scale.place(value[it]) },
+            // Points without position between two placed ones make the difference grow: a new part.
+            "part" to placed.mapIndexed { index, point -> point - index },
+        )
+        val track = letsPlot(table) { this.x = "east"; this.y = "north" } +
+            geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
+            geomPoint(size = 2.2, sampling = samplingNone) { color = "value" } +
+            scale.colour(unit, shown = true) + frame.axes()
+        val plot = if (ends) track + marker(x.first(), y.first(), "start") + marker(x.last(), y.last(), "end") else track
+        return frame.sheet(title, subtitle).figure(plot)
+    }
+
+    private fun marker(x: Double, y: Double, label: String) =
+        geomPoint(
+            data = mapOf("east" to listOf(x), "north" to listOf(y)),
+            shape = if (label == "start") CIRCLE else SQUARE,
+            size = 5,
+            stroke = 1.6,
+            color = Palette.TEXT,
+            fill = Palette.PAPER,
+        ) + geomText(
+            data = mapOf("east" to listOf(x), "north" to listOf(y), "label" to listOf(label)),
+            stat = Stat.identity,
+            size = 6,
+            color = Palette.TEXT,
+            fontface = "bold",
+            hjust = if (label == "start") 1.35 else -0.35,
+        ) { this.label = "label" }
+
+    private companion object {
+        const val CIRCLE = 21
+        const val SQUARE = 22
+    }
+}
