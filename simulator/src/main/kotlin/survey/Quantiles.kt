@@ -1,0 +1,26 @@
+package stillwater.survey
+
+/**
+ * Order statistics of a set of numbers.
+ *
+ * @param numbers finite numbers in any order. Copied.
+ */
+class Quantiles(numbers: DoubleArray) {
+    private val sorted = numbers.copyOf().apply { sort() }
+
+    /** Number of numbers. */
+    val count: Int get() = sorted.size
+
+    /** The [share] quantile (0 to 1), linear between neighbours; NaN where there are no numbers. */
+    operator fun get(share: Double): Double {
+        require(share in 0.0..1.0) { "quantile ($share) must be in 0..1" }
+        if (sorted.isEmpty()) return Double.NaN
+        val place = share * (sorted.size - 1)
+        val below = place.toInt()
+        val above = minOf(below + 1, sorted.size - 1)
+        return sorted[below] + (sorted[above] - sorted[below]) * (place - below)
+    }
+
+    /** The middle. */
+    val median: Double get() = get(0.5)
+}
