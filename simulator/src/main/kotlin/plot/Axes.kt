@@ -2,11 +2,10 @@ package stillwater.plot
 
 import org.jetbrains.letsPlot.intern.Feature
 import org.jetbrains.letsPlot.scale.scaleXContinuous
-import org.jetbrains.letsPlot.scale.scaleXLog10
 import org.jetbrains.letsPlot.scale.scaleYContinuous
-import org.jetbrains.letsPlot.scale.scaleYLog10
 import kotlin.math.abs
 import kotlin.math.log10
+import kotlin.math.pow
 
 /** The two axes of a figure: scales that the data allow, and the range they cover. */
 internal class Axes private constructor(
@@ -33,15 +32,43 @@ internal class Axes private constructor(
 
     /** The library's scales for these axes. */
     fun scales(xLabel: String, yLabel: String): Feature {
-        val across = when (x) {
-            AxisScale.LINEAR -> scaleXContinuous(name = xLabel, format = Ticks.format(fromX, toX))
-            AxisScale.LOG10 -> Ticks.log(fromX, toX).let { scaleXLog10(name = xLabel, breaks = it.first, labels = it.second) }
+        val (left, right) = widened(fromX, toX, x, AT_SIDES)
+        val (foot, top) = widened(fromY, toY, y, ABOVE_AND_BELOW)
+        val across = ticks(left, right, x, ACROSS)
+        val up = ticks(foot, top, y, UP)
+        return scaleXContinuous(
+            name = xLabel,
+            breaks = across.places,
+            labels = across.labels,
+            limits = left to right,
+            expand = NO_MORE,
+            trans = transform(x),
+        ) + scaleYContinuous(
+            name = yLabel,
+            breaks = up.places,
+            labels = up.labels,
+            limits = foot to top,
+            expand = NO_MORE,
+            trans = transform(y),
+        )
+    }
+
+    private fun transform(scale: AxisScale) = if (scale == AxisScale.LOG10) "log10" else null
+
+    private fun ticks(from: Double, to: Double, scale: AxisScale, most: Int) =
+        if (scale == AxisScale.LOG10) Ticks.log(from, to, most) else Ticks.linear(from, to, most)
+
+    /** The range with [share] of its length added at either end; a single value gets room around it. */
+    private fun widened(from: Double, to: Double, scale: AxisScale, share: Double): Pair<Double, Double> {
+        val low = length(from, scale)
+        val high = length(to, scale)
+        val size = maxOf(abs(low), abs(high))
+        val room = when {
+            high - low > size * SAME -> (high - low) * share
+            scale == AxisScale.LOG10 -> DOUBLED
+            else -> if (size > 0) size / 2 else 1.0
         }
-        val up = when (y) {
-            AxisScale.LINEAR -> scaleYContinuous(name = yLabel, format = Ticks.format(fromY, toY))
-            AxisScale.LOG10 -> Ticks.log(fromY, toY).let { scaleYLog10(name = yLabel, breaks = it.first, labels = it.second) }
-        }
-        return across + up
+        return if (scale == AxisScale.LOG10) TEN.pow(low - room) to TEN.pow(high + room) else low - room to high + room
     }
 
     internal companion object {
@@ -49,6 +76,14 @@ internal class Axes private constructor(
         const val SMALLEST_STEP = 1.0 / 1600
 
         private const val LARGEST = 1e300
+        private const val SAME = 1e-9
+        private const val TEN = 10.0
+        private const val DOUBLED = 0.30103
+        private const val AT_SIDES = 0.015
+        private const val ABOVE_AND_BELOW = 0.04
+        private const val ACROSS = 10
+        private const val UP = 8
+        private val NO_MORE = listOf(0.0, 0.0)
 
         /** Axes that hold all that can be drawn of [strokes]; null if that is nothing. */
         fun around(strokes: List<Stroke>, wantedX: AxisScale, wantedY: AxisScale): Axes? {
@@ -75,7 +110,7 @@ internal class Axes private constructor(
         private const val BELOW = 3.0
 
         private fun shows(value: Double, scale: AxisScale) =
-            abs(value) <= LARGEST && (scale == AxisScale.LINEAR || value > 0)
+            abs(value) <= LARGEST && (scale == AxisScale.LINEAR || value >= 1 / LARGEST)
 
         private fun length(value: Double, scale: AxisScale) = if (scale == AxisScale.LOG10) log10(value) else value
     }

@@ -67,7 +67,7 @@ public class CellMap(
 ) : Drawing {
     override fun draw(): Figure {
         if (cells.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no cells")
-        val frame = MapFrame.around(cells.map { it.east }, cells.map { it.north })
+        val frame = MapFrame.around(cells.map { it.east }, cells.map { it.north }, MARGIN)
         val unknown = cells.count { !it.value.isFinite() }
         val note = if (unknown > 0) "grey: no value ($unknown of ${cells.size} cells)" else ""
         val scale = ColourScale.of(cells.map { it.value }, colours)
@@ -82,7 +82,12 @@ public class CellMap(
         ) { x = "east"; y = "north"; group = "cell" } +
             // An outline in the cell's own colour closes the hairlines between neighbours.
             geomPolygon(size = 0.25, sampling = samplingNone) { fill = "value"; color = "value" } +
-            scale.fill(unit) + scale.colour(unit, shown = false) + frame.axes()
-        return frame.sheet(title, listOf(subtitle, note).filter { it.isNotEmpty() }.joinToString("; ")).figure(plot)
+            scale.fill(unit, frame.isFlat) + scale.colour(unit, flat = null) + frame.axes()
+        val below = listOf(subtitle, note).filter { it.isNotEmpty() }.joinToString("; ")
+        return frame.sheet(title, below).figure(plot, frame.legend())
+    }
+
+    private companion object {
+        const val MARGIN = 0.03
     }
 }

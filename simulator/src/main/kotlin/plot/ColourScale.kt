@@ -11,24 +11,45 @@ internal class ColourScale private constructor(private val from: Double, private
     /** [value] on the scale: moved to the nearer end if beyond, null (drawn grey) if there is none. */
     fun place(value: Double): Double? = if (value.isNaN()) null else value.coerceIn(from, to)
 
-    fun fill(unit: String): Feature =
-        scaleFillViridis(name = unit, limits = from to to, naValue = Palette.ABSENT, format = format(), guide = bar())
+    /** The scale for areas; its bar lies flat if the legend stands below the figure. */
+    fun fill(unit: String, flat: Boolean): Feature {
+        val ticks = ticks()
+        return scaleFillViridis(
+            name = unit,
+            limits = from to to,
+            breaks = ticks.places,
+            labels = ticks.labels,
+            naValue = Palette.ABSENT,
+            guide = bar(flat),
+        )
+    }
 
-    fun colour(unit: String, shown: Boolean): Feature = scaleColorViridis(
-        name = unit,
-        limits = from to to,
-        naValue = Palette.ABSENT,
-        format = format(),
-        guide = if (shown) bar() else "none",
+    /** The scale for lines and points; without a bar of its own if [flat] is null. */
+    fun colour(unit: String, flat: Boolean?): Feature {
+        val ticks = ticks()
+        return scaleColorViridis(
+            name = unit,
+            limits = from to to,
+            breaks = ticks.places,
+            labels = ticks.labels,
+            naValue = Palette.ABSENT,
+            guide = flat?.let(::bar) ?: "none",
+        )
+    }
+
+    private fun ticks() = Ticks.linear(from, to, TICKS)
+
+    private fun bar(flat: Boolean) = guideColorbar(
+        barWidth = if (flat) BAR_LENGTH else BAR_BREADTH,
+        barHeight = if (flat) BAR_BREADTH else BAR_LENGTH,
+        nbin = SHADES,
     )
 
-    private fun bar() = guideColorbar(barWidth = BAR_WIDTH, barHeight = BAR_HEIGHT)
-
-    private fun format() = Ticks.format(from, to)
-
     internal companion object {
-        private const val BAR_WIDTH = 22
-        private const val BAR_HEIGHT = 220
+        private const val BAR_BREADTH = 20
+        private const val BAR_LENGTH = 220
+        private const val SHADES = 64
+        private const val TICKS = 6
         private const val LARGEST = 1e300
         private const val SMALLEST_SHARE = 1e-9
 

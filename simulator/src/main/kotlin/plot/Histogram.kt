@@ -36,6 +36,9 @@ public class Histogram(
     override fun draw(): Figure {
         if (counts.all { it == 0L }) return sheet.empty("no data")
         val bins = counts.indices
+        val top = counts.max() * HEADROOM
+        val x = Ticks.linear(edges.first(), edges.last(), ACROSS)
+        val y = Ticks.linear(0.0, top, UP.coerceAtMost(maxOf(1, counts.max().coerceAtMost(UP.toLong()).toInt())))
         val plot = letsPlot(
             mapOf(
                 "from" to bins.map { edges[it] },
@@ -50,12 +53,14 @@ public class Histogram(
                 ymin = "foot"
                 ymax = "count"
             } +
-            scaleXContinuous(name = valueLabel, format = Ticks.format(edges.first(), edges.last())) +
-            scaleYContinuous(name = countLabel, format = ",d", expand = listOf(0.0, 0.0), limits = 0.0 to counts.max() * HEADROOM)
+            scaleXContinuous(valueLabel, x.places, x.labels) +
+            scaleYContinuous(countLabel, y.places, y.labels, limits = 0.0 to top, expand = listOf(0.0, 0.0))
         return sheet.figure(plot)
     }
 
     public companion object {
+        private const val ACROSS = 10
+        private const val UP = 6
         private const val HEADROOM = 1.05
 
         /**

@@ -38,20 +38,31 @@ internal class Sheet(val title: String, val subtitle: String, val width: Int, va
         val plot = letsPlot(mapOf("x" to listOf(0.0), "y" to listOf(0.0), "label" to listOf(reason))) +
             geomText(stat = Stat.identity, size = 7, color = Palette.MUTED) { x = "x"; y = "y"; label = "label" } +
             scaleXContinuous(name = " ") + scaleYContinuous(name = " ")
-        return figure(plot, theme(axis = elementBlank(), panelGrid = elementBlank()))
+        return figure(plot, bare())
     }
+
+    private fun bare() = theme(
+        axisTitle = elementBlank(),
+        axisTextX = elementBlank(),
+        axisTextY = elementBlank(),
+        axisLine = elementBlank(),
+        axisTicks = elementBlank(),
+        panelGridMajor = elementBlank(),
+    )
 
     private fun look() = themeMinimal() + theme(
         text = elementText(color = Palette.TEXT),
         title = elementText(color = Palette.TEXT, size = 15),
         axisTitle = elementText(color = Palette.TEXT, size = 15),
         axisText = elementText(color = Palette.TEXT, size = 14),
+        // Level, or the library turns labels whose neighbours come near.
+        axisTextX = elementText(color = Palette.TEXT, size = 14, angle = 0),
         axisLine = elementLine(color = Palette.AXIS, size = 1),
         axisTicks = elementLine(color = Palette.AXIS, size = 1),
         axisTicksLength = 5,
         panelGridMajor = elementLine(color = Palette.GRID, size = 1),
         panelGridMinor = elementBlank(),
-        legendTitle = elementText(color = Palette.TEXT, size = 14, face = "bold"),
+        legendTitle = elementText(color = Palette.MUTED, size = 14),
         legendText = elementText(color = Palette.TEXT, size = 14),
         plotTitle = elementText(color = Palette.TEXT, size = 19, face = "bold"),
         plotSubtitle = elementText(color = Palette.MUTED, size = 14),

@@ -18,6 +18,7 @@ internal object StableSvg {
     private val styleRule = Regex("""(?s)#(\w+) \.([\w-]+) \{\s*(.*?)\s*\}""")
     private val usedClass = Regex("""class="([\w-]+)"""")
     private val indentation = Regex("""\n\s*""")
+    private val unused = Regex("""font-family:sans-serif;| clip-bounds-jfx="[^"]*"""")
     private val emptyElement = Regex("""></(?:rect|path|line|circle|polygon|polyline)>""")
     private const val FONTS = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
@@ -59,7 +60,8 @@ internal object StableSvg {
     }
 
     private fun compact(shapes: String): String {
-        val dense = emptyElement.replace(indentation.replace(shapes, ""), "/>")
+        val plain = unused.replace(shapes, "")
+        val dense = emptyElement.replace(indentation.replace(plain, ""), "/>")
         return attribute.replace(dense) { match ->
             val value = match.groupValues[1]
             if ('.' in value) "=\"" + longNumber.replace(value) { rounded(it.value) } + "\"" else match.value

@@ -41,7 +41,7 @@ public class TrackMap(
         if (placed.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no positions")
         val x = DoubleArray(placed.size) { east[placed[it]] }
         val y = DoubleArray(placed.size) { north[placed[it]] }
-        val frame = MapFrame.around(listOf(x), listOf(y))
+        val frame = MapFrame.around(listOf(x), listOf(y), if (ends) ROOM_FOR_LABELS else MARGIN)
         val scale = ColourScale.of(placed.map { value[it] }, colours)
         val table = mapOf(
             "east" to x.asList(),
@@ -53,30 +53,40 @@ public class TrackMap(
         val track = letsPlot(table) { this.x = "east"; this.y = "north" } +
             geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
             geomPoint(size = 2.2, sampling = samplingNone) { color = "value" } +
-            scale.colour(unit, shown = true) + frame.axes()
-        val plot = if (ends) track + marker(x.first(), y.first(), "start") + marker(x.last(), y.last(), "end") else track
-        return frame.sheet(title, subtitle).figure(plot)
+            scale.colour(unit, frame.isFlat) + frame.axes()
+        val plot = if (ends) track + start(x, y, frame.size) + end(x, y, frame.size) else track
+        return frame.sheet(title, subtitle).figure(plot, frame.legend())
     }
 
-    private fun marker(x: Double, y: Double, label: String) =
-        geomPoint(
-            data = mapOf("east" to listOf(x), "north" to listOf(y)),
-            shape = if (label == "start") CIRCLE else SQUARE,
-            size = 5,
-            stroke = 1.6,
-            color = Palette.TEXT,
-            fill = Palette.PAPER,
-        ) + geomText(
-            data = mapOf("east" to listOf(x), "north" to listOf(y), "label" to listOf(label)),
-            stat = Stat.identity,
-            size = 6,
-            color = Palette.TEXT,
-            fontface = "bold",
-            hjust = if (label == "start") 1.35 else -0.35,
-        ) { this.label = "label" }
+    /** The start's label stands below it and the end's above, so that both can be read where they meet. */
+    private fun start(x: DoubleArray, y: DoubleArray, size: Double) =
+        marker(x.first(), y.first(), CIRCLE) + label(x.first(), y.first() - size * LABEL_DISTANCE, "start")
+
+    private fun end(x: DoubleArray, y: DoubleArray, size: Double) =
+        marker(x.last(), y.last(), SQUARE) + label(x.last(), y.last() + size * LABEL_DISTANCE, "end")
+
+    private fun marker(x: Double, y: Double, shape: Int) = geomPoint(
+        data = mapOf("east" to listOf(x), "north" to listOf(y)),
+        shape = shape,
+        size = 4.5,
+        stroke = 1.6,
+        color = Palette.TEXT,
+    )
+
+    private fun label(x: Double, y: Double, text: String) = geomText(
+        data = mapOf("east" to listOf(x), "north" to listOf(y)),
+        stat = Stat.identity,
+        label = text,
+        size = 6,
+        color = Palette.TEXT,
+        fontface = "bold",
+    )
 
     private companion object {
-        const val CIRCLE = 21
-        const val SQUARE = 22
+        const val MARGIN = 0.03
+        const val ROOM_FOR_LABELS = 0.06
+        const val LABEL_DISTANCE = 0.028
+        const val CIRCLE = 1
+        const val SQUARE = 0
     }
 }

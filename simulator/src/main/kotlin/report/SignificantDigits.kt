@@ -24,13 +24,14 @@ public class SignificantDigits(public val digits: Int) {
         value.isInfinite() -> if (value > 0) "∞" else "−∞"
         value == 0.0 -> "0"
         abs(value) >= LARGE || abs(value) < SMALL -> scientific(BigDecimal(value).round(context))
-        else -> plain(BigDecimal(value).round(context))
+        else -> plain(BigDecimal(value))
     }
 
-    private fun plain(rounded: BigDecimal): String {
-        // Whole digits before the point stay even if they are more than asked for: 123456, not 1.23e5.
+    private fun plain(exact: BigDecimal): String {
+        // Rounded before counting, since 9.999 becomes 10.0. Whole digits stay even if there are more than asked for.
+        val rounded = exact.round(context)
         val decimals = maxOf(0, digits - (rounded.precision() - rounded.scale()))
-        return rounded.setScale(decimals, RoundingMode.HALF_EVEN).toPlainString()
+        return exact.setScale(decimals, RoundingMode.HALF_EVEN).toPlainString()
     }
 
     private fun scientific(rounded: BigDecimal): String {
