@@ -48,6 +48,19 @@ class LogOptions : OptionGroup(
         help = "Platypus logs: longest time between a reading and the poses it is placed by",
     ).number("a number of seconds above 0") { it > 0 }.default(LogChoice().maxPoseAge)
 
+    /** The flags given, with their values, for writing the command down. */
+    fun flags(): List<Pair<String, Any?>> = listOf(
+        "--time" to time,
+        "--lat" to latitude,
+        "--lon" to longitude,
+        "--x" to x,
+        "--y" to y,
+        "--value" to value,
+        "--condition" to conditions.toMap(),
+        "--skip-bad-rows" to skipBadRows,
+        "--max-pose-age" to maxPoseAge.takeIf { it != LogChoice().maxPoseAge },
+    )
+
     /** The options as the readers take them. */
     fun choice(): LogChoice = LogChoice(
         time = time,

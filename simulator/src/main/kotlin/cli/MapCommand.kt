@@ -131,7 +131,7 @@ class MapCommand : CliktCommand("map") {
         OutputDirectory(Path.of(out)).use { directory ->
             val map = read(opened, file)
             val summary = MapSummary(map)
-            MapFiles(map, summary, currentContext.commandLine()).write(directory)
+            MapFiles(map, summary, commandLine()).write(directory)
             val written = directory.commit()
             when {
                 json -> echo(MapJson.text(map, written))
@@ -171,6 +171,24 @@ class MapCommand : CliktCommand("map") {
         crossing = crossing,
         clearOnEntry = !keepWindows,
     )
+
+    private fun commandLine(): String {
+        val own = listOf(
+            "--out" to out,
+            "--filter" to filters.joinToString(",") { it.label },
+            "--cell" to cell,
+            "--grid" to gridSize?.let { (columns, rows) -> "${columns.toInt()}x${rows.toInt()}" },
+            "--rotation" to rotation.takeIf { it != 0.0 },
+            "--range" to range?.let { (low, high) -> "$low:$high" },
+            "--epsilon" to epsilon.takeIf { !it.isNaN() },
+            "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
+            "--median" to medianWindow,
+            "--slope" to slopeWindow,
+            "--crossing" to crossing.name.lowercase(),
+            "--keep-windows" to keepWindows,
+        )
+        return commandLineText("stillwater map", log, logOptions.flags() + own)
+    }
 
     private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)
 

@@ -21,6 +21,17 @@ class Quantiles(numbers: DoubleArray) {
         return sorted[below] + (sorted[above] - sorted[below]) * (place - below)
     }
 
+    /** How many numbers lie in each bin between neighbouring [edges], ascending; those outside in the outer bins. */
+    fun counts(edges: DoubleArray): LongArray {
+        val counts = LongArray(edges.size - 1)
+        for (number in sorted) {
+            val found = edges.binarySearch(number)
+            val bin = if (found >= 0) found else -found - 2
+            counts[bin.coerceIn(counts.indices)]++
+        }
+        return counts
+    }
+
     /** The middle. */
     val median: Double get() = get(0.5)
 }
