@@ -24,9 +24,9 @@ internal object PngImage {
             throw failed
         } catch (failed: RuntimeException) {
             throw noImage(figure, failed)
-        } catch (failed: LinkageError) {
-            throw noImage(figure, failed)
-        } catch (failed: InternalError) {
+        } catch (failed: Error) {
+            // Java reports missing fonts as a plain Error, InternalError or LinkageError, depending on what is missing.
+            if (failed is OutOfMemoryError || failed is StackOverflowError) throw failed
             throw noImage(figure, failed)
         }
     }
@@ -103,7 +103,7 @@ internal object PngImage {
     }
 
     private fun noImage(figure: Figure, cause: Throwable) = FigureException(
-        "cannot draw \"${figure.title}\" as PNG (${cause.message ?: cause.javaClass.simpleName}); " +
+        "cannot draw \"${figure.title}\" as PNG (${(cause.message ?: cause.javaClass.simpleName).trimEnd('.')}); " +
             "Java needs fontconfig and one font, such as the package fonts-dejavu-core; SVG needs none",
         cause,
     )

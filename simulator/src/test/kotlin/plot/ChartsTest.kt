@@ -1,0 +1,87 @@
+package stillwater.plot
+
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+
+class ChartsTest {
+    private val time = DoubleArray(100) { it.toDouble() }
+
+    @Test
+    fun eachSeriesHasALineInItsOwnColourAndALegendEntry() {
+        val plot = LinePlot("Probe", "", listOf(Series("truth", time, time), Series("probe", time, time, time, time)), "s", "mg/L")
+        val parts = SvgParts(plot.draw())
+        assertEquals(1, parts.strokes(SvgParts.BLUE).size)
+        assertEquals(1, parts.strokes(SvgParts.VERMILION).size)
+        assertEquals(1, parts.fills(SvgParts.VERMILION).size, "the band")
+        for (text in listOf("Probe", "truth", "probe", "s", "mg/L")) assertContains(parts.texts, text)
+    }
+
+    @Test
+    fun pointsAreAllDrawnAndASeriesWithoutNameHasNoLegend() {
+        val y = DoubleArray(100) { if (it % 10 == 0) Double.NaN else it - 50.0 }
+        val plot = LinePlot("Residuals", "", listOf(Series("", time, y, mark = Mark.POINTS)), "s", "mg/L", references = listOf(0.0))
+        val parts = SvgParts(plot.draw())
+        assertEquals(90, parts.all("circle").size)
+        assertEquals(1, parts.all("line").count { it.getAttribute("stroke-width") == "1.76" }, "the line at 0")
+    }
+
+    @Test
+    fun aBandReachingBelowALogarithmicAxisIsCutNotLost() {
+        val low = DoubleArray(100) { -1.0 }
+        val plot = LinePlot("t", "", listOf(Series("a", time, time, low, time)), "s", "u", yScale = AxisScale.LOG10)
+        assertEquals(1, SvgParts(plot.draw()).fills(SvgParts.BLUE).size)
+    }
+
+    @Test
+    fun emptyChartsSayThatThereIsNoData() {
+        assertContains(SvgParts(LinePlot("t", "", emptyList(), "x", "y").draw()).texts, "no data")
+        assertContains(SvgParts(Bars("t", "", listOf(Bar("a", Double.NaN)), "u").draw()).texts, "no data")
+        assertContains(SvgParts(Histogram.of("t", "", doubleArrayOf(Double.NaN), 5, "u").draw()).texts, "no data")
+    }
+
+    @Test
+    fun aHistogramCountsEveryFiniteValueOnce() {
+        val values = doubleArrayOf(0.0, 0.1, 0.5, 0.9, 1.0, Double.NaN, Double.POSITIVE_INFINITY)
+        val parts = SvgParts(Histogram.of("t", "", values, 2, "u").draw())
+        val bars = parts.all("rect").filter { it.getAttribute("fill") == SvgParts.BLUE }
+        val heights = bars.map { it.getAttribute("height").toDouble() }
+        assertEquals(2, bars.size)
+        // 0.0 and 0.1 below, 0.5, 0.9 and 1.0 above; heights are rounded to 0.01 px.
+        assertEquals(1.5, heights[1] / heights[0], 1e-3)
+    }
+
+    @Test
+    fun constantAndSingleValuesMakeOneBar() {
+        for (value in listOf(0.0, 5.0, -1e12, 1e300)) {
+            val bars = SvgParts(Histogram.of("t", "", doubleArrayOf(value, value), 9, "u").draw()).all("rect")
+            assertEquals(1, bars.count { it.getAttribute("fill") == SvgParts.BLUE }, "$value")
+        }
+    }
+
+    @Test
+    fun histogramsThatMakeNoSenseAreRefused() {
+        assertFailsWith<IllegalArgumentException> { Histogram("t", "", doubleArrayOf(0.0, 1.0), longArrayOf(1, 2), "u") }
+        assertFailsWith<IllegalArgumentException> { Histogram("t", "", doubleArrayOf(1.0, 0.0), longArrayOf(1), "u") }
+        assertFailsWith<IllegalArgumentException> { Histogram("t", "", doubleArrayOf(0.0, 1.0), longArrayOf(-1), "u") }
+    }
+
+    @Test
+    fun barsShowTheirWholeNames() {
+        val name = "legs heading north-east, against the light wind"
+        val texts = SvgParts(Bars("t", "", listOf(Bar(name, 1.0, 0.5, 1.5), Bar("turns", -2.0)), "u").draw()).texts
+        assertContains(texts, name)
+        assertFalse(texts.any { it.endsWith("..") })
+    }
+
+    @Test
+    fun ticksAreRoundAndWithinTheAxis() {
+        assertEquals(listOf("0", "5", "10"), Ticks.linear(-1.0, 11.0, 4).labels)
+        assertEquals(listOf("−0.2", "0.0", "0.2"), Ticks.linear(-0.25, 0.3, 4).labels)
+        assertEquals(listOf("1", "10", "100", "1000"), Ticks.log(1.0, 2000.0, 6).labels)
+        assertEquals(listOf("0.05", "0.1", "0.2"), Ticks.log(0.04, 0.25, 8).labels)
+        assertEquals(listOf("0", "1e299", "2e299", "3e299"), Ticks.linear(0.0, 3e299, 4).labels)
+    }
+}

@@ -1,0 +1,86 @@
+package stillwater.plot
+
+import java.util.Locale
+import javax.imageio.ImageIO
+import kotlin.test.Test
+import kotlin.test.assertContentEquals
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class FigureTest {
+    private val x = DoubleArray(30) { it + 1.0 }
+
+    private fun drawings(): List<Drawing> = listOf(
+        ErrorCurves("Errors", "a < b & c", listOf(ErrorCurve("walk", "bounded", x, x), ErrorCurve("lawn", "averaging", x, x))),
+        CellMap("Cells", "", List(12) { MapCell.rectangle(it * 5.0, 0.0, 5.0, 5.0, 0.3, it * 1.5) }, "mg/L"),
+        TrackMap("Track", "", x, x, x, "mg/L"),
+        LinePlot("Lines", "", listOf(Series("a", x, x), Series("b", x, x, mark = Mark.LINE_AND_POINTS)), "s", "m"),
+        Histogram.of("Histogram", "", x, 5, "s"),
+        Bars("Bars", "", listOf(Bar("one", 1.0, 0.5, 1.5)), "m"),
+        CellMap("Nothing", "", emptyList(), "u"),
+    )
+
+    @Test
+    fun theSameDataGiveTheSameBytesAlsoInParallelAndInAnotherLocale() {
+        val first = drawings().map { it.draw().svg }
+        val before = Locale.getDefault()
+        try {
+            Locale.setDefault(Locale.forLanguageTag("ar-EG"))
+            assertEquals(first, drawings().map { it.draw().svg })
+        } finally {
+            Locale.setDefault(before)
+        }
+        assertEquals(first, drawings().drawAll().map { it.svg })
+    }
+
+    @Test
+    fun aFigureNeedsNothingFromOutsideAndRunsNothing() {
+        for (figure in drawings().map { it.draw() }) {
+            val outside = Regex("(?i)<script|@import|href=|url\\((?!#)|<image|<foreignObject|on\\w+=").find(figure.svg)
+            assertEquals(null, outside?.value, figure.title)
+            assertEquals("0 0 ${figure.width} ${figure.height}", SvgParts(figure).root.getAttribute("viewBox"))
+        }
+    }
+
+    @Test
+    fun idsAreUniqueAcrossTheFiguresOfAPage() {
+        val ids = drawings().flatMap { drawing -> Regex("id=\"([^\"]+)\"").findAll(drawing.draw().svg).map { it.groupValues[1] } }
+        assertEquals(ids.distinct(), ids)
+    }
+
+    @Test
+    fun titleIsEscapedAndNamesTheFigure() {
+        val figure = Histogram.of("1 < 2 & \"3\"", "", x, 5, "s").draw()
+        assertEquals("1 < 2 & \"3\"", SvgParts(figure).all("title").single().textContent)
+    }
+
+    @Test
+    fun pngIsTwiceTheSizeOnWhiteAndHasInk() {
+        for (figure in drawings().drawAll(png = true)) {
+            val image = ImageIO.read(figure.png().inputStream())
+            assertEquals(2 * figure.width to 2 * figure.height, image.width to image.height)
+            assertTrue(image.width >= 1200, "${figure.title}: ${image.width} px")
+            assertEquals(-1, image.getRGB(1, 1), "white corner of ${figure.title}")
+            val ink = (0 until image.width).count { px -> (0 until image.height).any { image.getRGB(px, it) != -1 } }
+            assertTrue(ink > 20, "columns with ink in ${figure.title}: $ink")
+        }
+    }
+
+    @Test
+    fun pngBytesRepeatAndAreTheCallersOwn() {
+        val figure = Histogram.of("t", "", x, 5, "s").draw()
+        val bytes = figure.png()
+        bytes.fill(0)
+        assertContentEquals(Histogram.of("t", "", x, 5, "s").draw().png(), figure.png())
+        assertFalse(figure.png(1.0).contentEquals(figure.png()))
+        assertFailsWith<IllegalArgumentException> { figure.png(0.0) }
+    }
+
+    @Test
+    fun thePainterRefusesWhatItDoesNotKnow() {
+        val strange = Figure("t", "<svg xmlns='http://www.w3.org/2000/svg'><ellipse rx='1' ry='2'/></svg>", 300, 300)
+        assertEquals("cannot paint the SVG element <ellipse>", assertFailsWith<FigureException> { strange.png() }.message)
+    }
+}

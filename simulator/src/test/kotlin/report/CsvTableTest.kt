@@ -1,0 +1,78 @@
+package stillwater.report
+
+import java.io.ByteArrayOutputStream
+import java.util.Locale
+import kotlin.math.abs
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+
+class CsvTableTest {
+    private fun csv(vararg header: String, rows: CsvTable.() -> Unit): String =
+        ByteArrayOutputStream().also { out -> CsvTable(out, header.toList()).use(rows) }.toString(Charsets.UTF_8)
+
+    @Test
+    fun fieldsAreQuotedOnlyWhereNeeded() {
+        val text = csv("name", "note") {
+            row("plain", "a,b")
+            row("quote \" inside", "two\nlines")
+        }
+        assertEquals("name,note\nplain,\"a,b\"\n\"quote \"\" inside\",\"two\nlines\"\n", text)
+    }
+
+    @Test
+    fun missingValuesAreEmptyAndNumbersAreTheSameInEveryLocale() {
+        val before = Locale.getDefault()
+        try {
+            Locale.setDefault(Locale.GERMANY)
+            assertEquals("a,b,c,d\n0.1,,,7\n", csv("a", "b", "c", "d") { row(0.1, Double.NaN, null, 7L) })
+        } finally {
+            Locale.setDefault(before)
+        }
+    }
+
+    @Test
+    fun aRowOfTheWrongLengthIsRefused() {
+        csv("a", "b") { assertFailsWith<IllegalArgumentException> { row(1) } }
+        assertFailsWith<IllegalArgumentException> { CsvTable(ByteArrayOutputStream(), emptyList()) }
+    }
+
+    @Test
+    fun numbersAreShortestAndReadBackTheSame() {
+        val known = mapOf(
+            0.1 to "0.1",
+            -0.0 to "0",
+            100.0 to "100",
+            1e15 to "1000000000000000",
+            2e23 to "2e23",
+            1.0E-7 to "1e-7",
+            0.1 + 0.2 to "0.30000000000000004",
+            // Java 17 writes 2.2250738585072014E-308 and 4.9E-324 here; the second is one digit too many.
+            java.lang.Double.MIN_NORMAL to "2.2250738585072014e-308",
+            Double.MIN_VALUE to "5e-324",
+            Double.MAX_VALUE to "1.7976931348623157e308",
+        )
+        for ((value, text) in known) assertEquals(text, ShortestNumber.text(value))
+        val random = Random(5)
+        repeat(20_000) {
+            val value = Double.fromBits(random.nextLong())
+            if (value.isFinite()) assertEquals(value, ShortestNumber.text(value).toDouble())
+            val usual = random.nextDouble()
+            assertEquals(usual, ShortestNumber.text(usual).toDouble())
+        }
+    }
+
+    @Test
+    fun significantDigitsAreKeptWhateverTheSize() {
+        val three = SignificantDigits(3)
+        val known = mapOf(
+            0.0 to "0", 1.0 to "1.00", -0.0396 to "-0.0396", 0.17012 to "0.170", 9.999 to "10.0", 99.96 to "100",
+            123456.789 to "123457", 1.2e-7 to "1.20e-7", 9.9999e9 to "1.00e10", Double.NaN to "–",
+            Double.NEGATIVE_INFINITY to "−∞",
+        )
+        for ((value, text) in known) assertEquals(text, three.format(value), "$value")
+        assertEquals("0.2", SignificantDigits(1).format(0.15 + abs(-1e-9)))
+        assertFailsWith<IllegalArgumentException> { SignificantDigits(0) }
+    }
+}

@@ -1,0 +1,149 @@
+package stillwater.report
+
+import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.io.TempDir
+import java.nio.file.Files
+import java.nio.file.Path
+import kotlin.io.path.createDirectories
+import kotlin.io.path.createDirectory
+import kotlin.io.path.exists
+import kotlin.io.path.listDirectoryEntries
+import kotlin.io.path.name
+import kotlin.io.path.readText
+import kotlin.io.path.writeText
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class OutputDirectoryTest {
+    @TempDir
+    lateinit var home: Path
+
+    private fun everything() = Files.walk(home).use { all -> all.map { home.relativize(it).toString() }.toList().sorted() }
+
+    @Test
+    fun commitMovesEverythingInTheOrderOfWritingAndCreatesParents() {
+        val out = home.resolve("a/b/out")
+        val written = OutputDirectory(out).use {
+            it.write("z.txt", "last letter, first file")
+            it.write("figures/a.bin", byteArrayOf(1, 2))
+            it.commit()
+        }
+        assertEquals(listOf(out.resolve("z.txt"), out.resolve("figures/a.bin")), written)
+        assertEquals("last letter, first file", out.resolve("z.txt").readText())
+        assertEquals(listOf("", "a", "a/b", "a/b/out", "a/b/out/figures", "a/b/out/figures/a.bin", "a/b/out/z.txt"), everything())
+    }
+
+    @Test
+    fun aCommitReplacesItsOwnNamesAndLeavesOthersAlone() {
+        val out = home.resolve("out").createDirectory()
+        out.resolve("results.csv").writeText("old")
+        out.resolve("notes.txt").writeText("mine")
+        OutputDirectory(out).use {
+            it.write("results.csv", "new")
+            it.commit()
+        }
+        assertEquals("new", out.resolve("results.csv").readText())
+        assertEquals("mine", out.resolve("notes.txt").readText())
+    }
+
+    @Test
+    fun withoutCommitNothingChangesAndNothingIsLeft() {
+        val out = home.resolve("out").createDirectory()
+        out.resolve("results.csv").writeText("old")
+        val before = everything()
+        assertFailsWith<IllegalStateException> {
+            OutputDirectory(out).use {
+                it.write("results.csv", "half")
+                error("stopped")
+            }
+        }
+        assertEquals("old", out.resolve("results.csv").readText())
+        assertEquals(before, everything())
+        OutputDirectory(home.resolve("new/deep")).use { it.write("a", "b") }
+        assertEquals(before, everything(), "parents made for nothing go again")
+    }
+
+    @Test
+    fun nothingIsVisibleBeforeCommit() {
+        val out = home.resolve("out")
+        OutputDirectory(out).use {
+            it.write("a.txt", "a")
+            assertFalse(out.exists())
+            assertEquals(1, home.listDirectoryEntries().size)
+            assertTrue(home.listDirectoryEntries().single().name.startsWith(".out-unfinished-"))
+            it.commit()
+        }
+        assertEquals(listOf("", "out", "out/a.txt"), everything())
+    }
+
+    @Test
+    fun aFileInTheWayIsNamedInOneLine() {
+        val file = home.resolve("file").also { it.writeText("x") }
+        assertEquals("output $file is a file; name a directory", assertFailsWith<OutputException> { OutputDirectory(file) }.message)
+        val below = assertFailsWith<OutputException> { OutputDirectory(file.resolve("below")) }.message.orEmpty()
+        assertContains(below, "cannot create output directory ${file.resolve("below")}")
+        assertFalse('\n' in below)
+    }
+
+    @Test
+    fun aDirectoryInAFilesPlaceIsFoundBeforeAnythingMoves() {
+        val out = home.resolve("out")
+        out.resolve("b.txt").createDirectories()
+        out.resolve("a.txt").writeText("old")
+        val message = assertFailsWith<OutputException> {
+            OutputDirectory(out).use {
+                it.write("a.txt", "new")
+                it.write("b.txt", "new")
+                it.commit()
+            }
+        }.message
+        assertEquals("cannot write ${out.resolve("b.txt")}: a directory of this name is in the way", message)
+        assertEquals("old", out.resolve("a.txt").readText())
+        assertEquals(listOf("", "out", "out/a.txt", "out/b.txt"), everything())
+    }
+
+    @Test
+    fun aDirectoryThatMayNotBeWrittenIsRefused() {
+        val out = home.resolve("locked").createDirectory()
+        assumeTrue(out.toFile().setWritable(false) && !Files.isWritable(out), "root may write anywhere")
+        assertEquals("output directory $out is not writable", assertFailsWith<OutputException> { OutputDirectory(out) }.message)
+    }
+
+    @Test
+    fun aFullDiskIsAnOutputErrorAndLeavesTheOldFile() {
+        val out = home.resolve("out").createDirectory()
+        out.resolve("a.txt").writeText("old")
+        val failed = assertFailsWith<OutputException> {
+            OutputDirectory(out).use { it.stream("a.txt") { throw java.io.IOException("No space left on device") } }
+        }
+        assertEquals("cannot write a.txt in output directory $out: No space left on device", failed.message)
+        assertEquals("old", out.resolve("a.txt").readText())
+    }
+
+    @Test
+    fun namesOutsideTheDirectoryAndUseAfterCommitAreBugs() {
+        OutputDirectory(home.resolve("out")).use {
+            assertFailsWith<IllegalArgumentException> { it.write("../evil", "x") }
+            assertFailsWith<IllegalArgumentException> { it.write("", "x") }
+            it.commit()
+            assertFailsWith<IllegalStateException> { it.write("late", "x") }
+            assertFailsWith<IllegalStateException> { it.commit() }
+        }
+    }
+
+    @Test
+    fun writingANameTwiceKeepsTheLast() {
+        val out = home.resolve("out")
+        val written = OutputDirectory(out).use {
+            it.write("a", "1")
+            it.write("a", "2")
+            it.commit()
+        }
+        assertEquals(1, written.size)
+        assertEquals("2", out.resolve("a").readText())
+    }
+}
