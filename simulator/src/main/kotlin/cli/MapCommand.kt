@@ -21,7 +21,6 @@ import stillwater.model.Interval
 import stillwater.plot.FigureException
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
-import stillwater.report.toTerminal
 import stillwater.survey.FilterKind
 import stillwater.survey.GridWish
 import stillwater.survey.MapFiles
@@ -136,7 +135,8 @@ class MapCommand : CliktCommand("map") {
             when {
                 json -> echo(MapJson.text(map, written))
                 !quiet -> {
-                    terminal.println(summary.table().toTerminal("Map of ${file.fileName}"))
+                    echo("Map of ${opened.quantity}")
+                    echo(summary.text())
                     for (warning in summary.warnings) echo("warning: $warning", err = true)
                     echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}")
                 }

@@ -9,7 +9,6 @@ import kotlin.math.floor
 import kotlin.math.log10
 import kotlin.math.pow
 import kotlin.math.sin
-import kotlin.math.sqrt
 
 /**
  * What the user said about the grid; all that is left null is chosen from the log.
@@ -27,7 +26,7 @@ data class GridWish(
 /**
  * Lays a grid over a survey.
  *
- * The side of a cell is 1, 2 or 5 times a power of ten. It is near the larger of two lengths: what the boat covers in
+ * The side of a cell is 1, 2 or 5 times a power of ten. It is a little below the larger of two lengths: what the boat covers in
  * ten readings, so that the windows of the bounded filter fill in each cell, and the mean distance between tracks,
  * area / length, so that the map has few holes. A grid gets at least ten and at most 100 cells along its longer side.
  */
@@ -84,14 +83,14 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         return if (extent.longer > 0) nice(minOf(wanted, largest)) else 1.0
     }
 
-    /** The number nearest to [length] of 1, 2 or 5 times a power of ten, by ratio; at least a centimetre. */
+    /** The number of 1, 2 or 5 times a power of ten below [length], or a little (a fifth) above; at least a centimetre. */
     private fun nice(length: Double): Double {
         val power = floor(log10(maxOf(length, SMALLEST)))
         val mantissa = maxOf(length, SMALLEST) / 10.0.pow(power)
         val step = when {
-            mantissa < sqrt(2.0) -> 1.0
-            mantissa < sqrt(10.0) -> 2.0
-            mantissa < sqrt(50.0) -> 5.0
+            mantissa * ABOVE < 2 -> 1.0
+            mantissa * ABOVE < 5 -> 2.0
+            mantissa * ABOVE < 10 -> 5.0
             else -> 10.0
         }
         // Whole powers of ten are divided by rather than multiplied with: 2 / 10 is 0.2, 2 * 0.1 may not be.
@@ -134,6 +133,7 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         const val FEWEST_CELLS_A_SIDE = 10
         const val MOST_CELLS_A_SIDE = 100
         const val SMALLEST = 0.01
+        const val ABOVE = 1.2
         const val MICROMETRE = 1e-6
     }
 }

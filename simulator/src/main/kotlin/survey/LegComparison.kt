@@ -115,6 +115,8 @@ class LegComparison(
             low = interval[LOW],
             high = interval[1 - LOW],
             mismatch = curve[best],
+            gain = estimate(scores.map { it[shifts.size / 2] - it[best] }),
+            legs = scores.size,
             limit = shifts.last(),
             shifts = shifts,
             curve = curve,

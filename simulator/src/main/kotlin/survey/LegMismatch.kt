@@ -22,6 +22,8 @@ data class LegScore(val number: Int, val opposite: Double, val same: Double)
  * @property seconds readings are best put where the boat was so many s earlier; negative for later.
  * @property low lower end of the 95 % bootstrap interval, s. @property high upper end, s.
  * @property mismatch the mismatch that is left, sensor units.
+ * @property gain what of the mismatch went, leg by leg, sensor units.
+ * @property legs number of legs compared.
  * @property limit shifts up to this were tried either way, s.
  * @property shifts shifts tried, s. Not modified.
  * @property curve mean mismatch at each of [shifts], sensor units. Not modified.
@@ -31,16 +33,27 @@ class LagShift(
     val low: Double,
     val high: Double,
     val mismatch: Double,
+    val gain: Estimate,
+    val legs: Int,
     val limit: Double,
     val shifts: DoubleArray,
     val curve: DoubleArray,
 ) {
-    /** Whether the shift is told from none: the interval leaves 0 and both ends of the range out. */
+    /**
+     * Whether the shift is told from none: from [FEWEST_LEGS] legs or more, with an interval that leaves out 0 and
+     * both ends of the range, and a gain of more than two standard errors.
+     */
     val isClear: Boolean
         get() {
             val step = shifts[1] - shifts[0]
-            return (low > 0 || high < 0) && low > -limit + step && high < limit - step
+            val inside = (low > 0 || high < 0) && low > -limit + step && high < limit - step
+            return legs >= FEWEST_LEGS && inside && gain.mean > 2 * gain.standardError
         }
+
+    companion object {
+        /** Legs below which a bootstrap over legs says nothing. */
+        const val FEWEST_LEGS = 8
+    }
 }
 
 /**

@@ -30,7 +30,8 @@ class MapFigure(val name: String, val figure: Figure, val caption: String)
 class MapFigures(private val map: SurveyMap) {
     private val quantity = map.log.quantity
     private val where = map.log.file.fileName.toString()
-    private val colours = map.statistics.values[RARE]..map.statistics.values[1 - RARE]
+    private val colours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
+        .takeIf { it.start < it.endInclusive }
 
     /** All figures, in the order in which a reader wants them. */
     fun draw(): List<MapFigure> = buildList {

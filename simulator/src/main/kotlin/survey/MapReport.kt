@@ -100,7 +100,7 @@ internal class MapReport(
         val HEADLINES = setOf("duration", "values", "grid", "opposite legs disagree by", "best shift")
         val HOW = listOf(
             "Positions are metres east and north of the first fix on the plane tangent to the WGS-84 ellipsoid there. " +
-                "The side of a cell is 1, 2 or 5 times a power of ten, near the larger of the way the boat makes in " +
+                "The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way the boat makes in " +
                 "ten readings and the mean distance between tracks (area by length of track), with 10 to 100 cells " +
                 "along the longer side.",
             "The range taken for the water is that of the readings and a tenth of it more either way, because a slow " +

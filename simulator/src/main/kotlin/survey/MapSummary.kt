@@ -2,7 +2,6 @@ package stillwater.survey
 
 import stillwater.field.FieldMap
 import stillwater.report.SignificantDigits
-import stillwater.report.Table
 import java.util.Locale
 
 /**
@@ -57,10 +56,10 @@ class MapSummary(private val map: SurveyMap) {
         if (map.log.frame == null) add("the log has no latitudes, so no cells.geojson is written")
     }
 
-    /** The facts as a table for the terminal. */
-    fun table(): Table = Table.of(facts) {
-        text("what") { it.first }
-        text("found") { it.second }
+    /** The facts for the terminal, a line each. */
+    fun text(): String {
+        val width = facts.maxOf { it.first.length }
+        return facts.joinToString("\n") { (name, value) -> "  ${name.padEnd(width)}  $value" }
     }
 
     private fun duration(seconds: Double): String {
@@ -126,13 +125,15 @@ class MapSummary(private val map: SurveyMap) {
 
     /** The shift in words. */
     fun shift(shift: LagShift): String {
-        val interval = "95 %: ${digits(shift.low)} to ${digits(shift.high)} s"
-        return if (shift.isClear) {
-            val way = if (shift.seconds > 0) "earlier" else "later"
-            "opposite legs agree best (${digits(shift.mismatch)}) with readings taken " +
-                "${digits(kotlin.math.abs(shift.seconds))} s $way ($interval)"
-        } else {
-            "none can be told from this log ($interval of ${digits(shift.limit)} s tried either way)"
+        val interval = "95 %: ${digits(shift.low, 3)} to ${digits(shift.high, 3)} s"
+        val way = if (shift.seconds > 0) "earlier" else "later"
+        val best = "${digits(kotlin.math.abs(shift.seconds), 3)} s $way"
+        return when {
+            shift.legs < LagShift.FEWEST_LEGS ->
+                "none can be told from ${shift.legs} legs; ${LagShift.FEWEST_LEGS} are needed (best $best, $interval)"
+            !shift.isClear ->
+                "none can be told from this log (best $best, $interval, up to ${digits(shift.limit, 3)} s tried)"
+            else -> "opposite legs agree best, to ${digits(shift.mismatch)}, with readings taken $best ($interval)"
         }
     }
 
