@@ -51,7 +51,7 @@ public class LocalFrame(public val origin: LatLon) {
     private val north: DoubleArray
 
     init {
-        require(abs(origin.latitudeDeg) <= 90 - 1e-6) { "origin (${origin.latitudeDeg} deg) must not be at a pole" }
+        require(canStartAt(origin)) { "origin (${origin.latitudeDeg} deg) must not be at a pole" }
         val latitude = Math.toRadians(origin.latitudeDeg)
         val longitude = Math.toRadians(origin.longitudeDeg)
         east = doubleArrayOf(-sin(longitude), cos(longitude), 0.0)
@@ -105,10 +105,14 @@ public class LocalFrame(public val origin: LatLon) {
         (a[0] * b[0] + a[1] * b[1]) / (SEMI_MAJOR_AXIS * SEMI_MAJOR_AXIS) +
             a[2] * b[2] / (SEMI_MINOR_AXIS * SEMI_MINOR_AXIS)
 
-    internal companion object {
-        const val SEMI_MAJOR_AXIS = 6_378_137.0
-        const val FLATTENING = 1 / 298.257223563
-        const val SEMI_MINOR_AXIS = SEMI_MAJOR_AXIS * (1 - FLATTENING)
-        const val ECCENTRICITY_SQUARED = FLATTENING * (2 - FLATTENING)
+    public companion object {
+        internal const val SEMI_MAJOR_AXIS: Double = 6_378_137.0
+        internal const val FLATTENING: Double = 1 / 298.257223563
+        internal const val SEMI_MINOR_AXIS: Double = SEMI_MAJOR_AXIS * (1 - FLATTENING)
+        internal const val ECCENTRICITY_SQUARED: Double = FLATTENING * (2 - FLATTENING)
+        private const val CLOSEST_TO_POLE_DEG = 1e-6
+
+        /** Whether a frame may have [place] as its origin: at a pole east has no direction. */
+        public fun canStartAt(place: LatLon): Boolean = abs(place.latitudeDeg) <= 90 - CLOSEST_TO_POLE_DEG
     }
 }

@@ -56,8 +56,9 @@ public data class Utm(val easting: Double, val northing: Double, val zone: Int, 
                 (1 + (1 - ECCENTRICITY * ECCENTRICITY) * tau * tau)
             tau += (tauPrime - residual) / slope
         }
-        val longitude = atan2(sinh(etaPrime), cos(xiPrime))
-        return LatLon(Math.toDegrees(atan(tau)), centralMeridianDeg(zone) + Math.toDegrees(longitude))
+        val longitudeDeg = centralMeridianDeg(zone) + Math.toDegrees(atan2(sinh(etaPrime), cos(xiPrime)))
+        // Beyond the date line the outer zones run past 180 degrees.
+        return LatLon(Math.toDegrees(atan(tau)), Math.IEEEremainder(longitudeDeg, FULL_TURN_DEG))
     }
 
     public companion object {

@@ -1,0 +1,19 @@
+package stillwater.cli
+
+/** A command as it would be typed: [command], its [argument] and the flags that were given; null and false are not. */
+fun commandLineText(command: String, argument: String, flags: List<Pair<String, Any?>>): String {
+    val parts = ArrayList<String>()
+    for ((flag, value) in flags) {
+        when (value) {
+            null, false -> Unit
+            true -> parts += flag
+            is Map<*, *> -> value.forEach { (key, name) -> parts += "$flag ${typed("$key=$name")}" }
+            else -> parts += "$flag ${typed(value.toString())}"
+        }
+    }
+    return (listOf(command, typed(argument)) + parts).joinToString(" ")
+}
+
+/** [text] in quotes where a shell would take it apart. */
+private fun typed(text: String) =
+    if (text.all { it.isLetterOrDigit() || it in "-_./:=,#+%" }) text else "'" + text.replace("'", "'\\''") + "'"

@@ -1,0 +1,51 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.UsageError
+import com.github.ajalt.clikt.parameters.options.NullableOption
+import com.github.ajalt.clikt.parameters.options.RawOption
+import com.github.ajalt.clikt.parameters.options.convert
+import stillwater.io.DecimalText
+
+/** Exit code of a command that was given something it cannot use. */
+const val BAD_INPUT = 2
+
+/** A flag whose value cannot be used; one line, exit code [BAD_INPUT]. */
+class BadFlag(flag: String, expected: String, found: String) :
+    UsageError("$flag: expected $expected, found $found", statusCode = BAD_INPUT)
+
+/** A finite number for which [accepts] holds; [expected] says what that means. */
+fun RawOption.number(expected: String, accepts: (Double) -> Boolean = { true }): NullableOption<Double, Double> =
+    convert { text ->
+        DecimalText.parse(text).takeIf { it.isFinite() && accepts(it) } ?: throw BadFlag(name, expected, "'$text'")
+    }
+
+/** A whole number for which [accepts] holds; [expected] says what that means. */
+fun RawOption.wholeNumber(expected: String, accepts: (Int) -> Boolean): NullableOption<Int, Int> = convert { text ->
+    text.toIntOrNull()?.takeIf(accepts) ?: throw BadFlag(name, expected, "'$text'")
+}
+
+/** Two finite numbers written with [separator] between them, the first below the second unless [anyOrder]. */
+fun RawOption.numberPair(
+    separator: Char,
+    expected: String,
+    accepts: (Double, Double) -> Boolean,
+): NullableOption<Pair<Double, Double>, Pair<Double, Double>> = convert { text ->
+    val numbers = text.split(separator).map { DecimalText.parse(it) }
+    if (numbers.size != 2 || numbers.any { !it.isFinite() } || !accepts(numbers[0], numbers[1])) {
+        throw BadFlag(name, expected, "'$text'")
+    }
+    numbers[0] to numbers[1]
+}
+
+/** One or more of [choices], separated by commas, each once. */
+fun <T> RawOption.someOf(choices: Map<String, T>): NullableOption<List<T>, List<T>> = convert { text ->
+    val expected = "some of ${choices.keys.joinToString(", ")}, separated by commas"
+    val chosen = text.split(',').map { choices[it.trim()] ?: throw BadFlag(name, expected, "'$text'") }
+    if (chosen.distinct().size != chosen.size) throw BadFlag(name, "$expected, each once", "'$text'")
+    chosen
+}
+
+/** One of [choices]. */
+fun <T : Any> RawOption.oneOf(choices: Map<String, T>): NullableOption<T, T> = convert { text ->
+    choices[text] ?: throw BadFlag(name, "one of ${choices.keys.joinToString(", ")}", "'$text'")
+}

@@ -1,0 +1,76 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.parameters.groups.OptionGroup
+import com.github.ajalt.clikt.parameters.options.convert
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.multiple
+import com.github.ajalt.clikt.parameters.options.option
+import stillwater.io.LogChoice
+
+/** The options that say what to take from a log; the same for every command that reads one. */
+class LogOptions : OptionGroup(
+    name = "What to read",
+    help = "A CSV survey needs a header line. Columns time_s or unix_time_s, lat_deg and lon_deg, or x_m and y_m " +
+        "are recognised; all others are taken by name. Platypus logs (4.0.0, 4.1.0, 4.2.0) are recognised by content.",
+) {
+    private val time by option("--time", metavar = "COLUMN", help = "column with the time in seconds")
+    private val latitude by option("--lat", metavar = "COLUMN", help = "column with the latitude in degrees")
+    private val longitude by option("--lon", metavar = "COLUMN", help = "column with the longitude in degrees")
+    private val x by option(
+        "--x",
+        metavar = "COLUMN",
+        help = "column with metres east; without --y, metres along a transect or profile",
+    )
+    private val y by option("--y", metavar = "COLUMN", help = "column with metres north")
+    private val value by option(
+        "--value",
+        metavar = "COLUMN",
+        help = "column with the readings; in a Platypus log the sensor, TYPE[#CHANNEL][.FIELD], such as ATLAS_DO " +
+            "or ES2.temp. Not needed where there is only one",
+    )
+    private val conditions by option(
+        "--condition",
+        metavar = "NAME=COLUMN",
+        help = "column with a further quantity; may be given several times",
+    ).convert { text ->
+        val (conditionName, column) = text.split('=', limit = 2).takeIf { it.size == 2 && it.all(String::isNotBlank) }
+            ?: throw BadFlag(name, "NAME=COLUMN", "'$text'")
+        conditionName to column
+    }.multiple()
+    private val skipBadRows by option(
+        "--skip-bad-rows",
+        help = "leave out rows that cannot be used and count them by reason; without it the first is an error",
+    ).flag()
+    private val maxPoseAge by option(
+        "--max-pose-age",
+        metavar = "SECONDS",
+        help = "Platypus logs: longest time between a reading and the poses it is placed by",
+    ).number("a number of seconds above 0") { it > 0 }.default(LogChoice().maxPoseAge)
+
+    /** The flags given, with their values, for writing the command down. */
+    fun flags(): List<Pair<String, Any?>> = listOf(
+        "--time" to time,
+        "--lat" to latitude,
+        "--lon" to longitude,
+        "--x" to x,
+        "--y" to y,
+        "--value" to value,
+        "--condition" to conditions.toMap(),
+        "--skip-bad-rows" to skipBadRows,
+        "--max-pose-age" to maxPoseAge.takeIf { it != LogChoice().maxPoseAge },
+    )
+
+    /** The options as the readers take them. */
+    fun choice(): LogChoice = LogChoice(
+        time = time,
+        latitude = latitude,
+        longitude = longitude,
+        x = x,
+        y = y,
+        value = value,
+        conditions = conditions.toMap(),
+        skipBadRows = skipBadRows,
+        maxPoseAge = maxPoseAge,
+    )
+}

@@ -1,0 +1,199 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.CliktCommand
+import com.github.ajalt.clikt.core.CliktError
+import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.context
+import com.github.ajalt.clikt.core.terminal
+import com.github.ajalt.clikt.parameters.arguments.argument
+import com.github.ajalt.clikt.parameters.arguments.help
+import com.github.ajalt.clikt.parameters.groups.provideDelegate
+import com.github.ajalt.clikt.parameters.options.convert
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.option
+import com.github.ajalt.clikt.parameters.options.required
+import stillwater.estimate.CrossingPolicy
+import stillwater.io.DecimalText
+import stillwater.io.LogProblem
+import stillwater.io.SurveyLog
+import stillwater.model.Interval
+import stillwater.plot.FigureException
+import stillwater.report.OutputDirectory
+import stillwater.report.OutputException
+import stillwater.survey.FilterKind
+import stillwater.survey.GridWish
+import stillwater.survey.MapFiles
+import stillwater.survey.MapJson
+import stillwater.survey.MapSettings
+import stillwater.survey.MapSummary
+import stillwater.survey.Stretch
+import stillwater.survey.SurveyMap
+import java.nio.file.Files
+import java.nio.file.Path
+
+/** `stillwater map`: a real log becomes a map, figures and a report. */
+class MapCommand : CliktCommand("map") {
+    init {
+        context { helpFormatter = { OneLineErrors(it) } }
+    }
+
+    private val log by argument("LOG").help("survey CSV or Platypus log")
+    private val out by option("--out", metavar = "DIR", help = "directory for the results").required()
+    private val logOptions by LogOptions()
+    private val filters by option(
+        "--filter",
+        metavar = "NAMES",
+        help = "filters to run: averaging, exponential, bounded",
+    ).someOf(FilterKind.entries.associateBy { it.label })
+        .default(listOf(FilterKind.AVERAGING, FilterKind.BOUNDED), defaultForHelp = "averaging,bounded")
+    private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
+        .number("a length in metres above 0") { it > 0 }
+    private val gridSize by option("--grid", metavar = "COLSxROWS", help = "number of cells instead of their size")
+        .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
+            columns >= 1 && rows >= 1 && columns % 1 == 0.0 && rows % 1 == 0.0 && columns * rows <= MOST_CELLS
+        }
+    private val rotation by option(
+        "--rotation",
+        metavar = "DEG",
+        help = "angle of the grid's columns axis, degrees counter-clockwise from east",
+    ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }.default(0.0)
+    private val range by option(
+        "--range",
+        metavar = "LOW:HIGH",
+        help = "range of the water's values; without it the readings' range and a tenth more either way",
+    ).numberPair(':', "LOW:HIGH, two numbers, the first below the second") { low, high -> low < high }
+    private val epsilon by option(
+        "--epsilon",
+        metavar = "auto|NUMBER",
+        help = "slope per second that the bounded filter takes for noise; auto finds it on a stretch of the log",
+    ).convert { text ->
+        val number = DecimalText.parse(text)
+        if (text == "auto") return@convert Double.NaN
+        if (!number.isFinite() || number < 0) throw BadFlag(name, "auto or a number of at least 0", "'$text'")
+        number
+    }.default(Double.NaN, defaultForHelp = "auto")
+    private val calibrate by option(
+        "--calibrate",
+        metavar = "FROM:TO",
+        help = "stretch for --epsilon auto, seconds after the first reading; without it the quietest",
+    ).numberPair(':', "FROM:TO, two times in seconds, the first below the second") { from, to -> from < to }
+    private val medianWindow by option("--median", metavar = "N", help = "samples in the median window")
+        .wholeNumber("an odd number within 1..$LONGEST_WINDOW") { it in 1..LONGEST_WINDOW && it % 2 == 1 }.default(3)
+    private val slopeWindow by option("--slope", metavar = "N", help = "medians in the slope window")
+        .wholeNumber("a whole number within 2..$LONGEST_WINDOW") { it in 2..LONGEST_WINDOW }.default(5)
+    private val crossing by option("--crossing", metavar = "POLICY", help = "bounds that cross: plain, soft or reset")
+        .oneOf(CrossingPolicy.entries.associateBy { it.name.lowercase() })
+        .default(CrossingPolicy.PLAIN, defaultForHelp = "plain")
+    private val keepWindows by option(
+        "--keep-windows",
+        help = "keep the windows over cell borders (the report does not say; bounds are then often wrong)",
+    ).flag()
+    private val quiet by option("--quiet", help = "no progress bar and no table").flag()
+    private val json by option("--json", help = "print a summary as JSON instead of a table").flag()
+
+    override fun help(context: Context) =
+        "Make a map, figures and a report out of a boat's log."
+
+    override fun helpEpilog(context: Context) = """
+        Writes cells.csv (every cell of every filter), cells.geojson (visited cells), figures as SVG and PNG, and
+        report.html into DIR; nothing at all when something is wrong with the log.
+
+        Examples:
+
+        ```
+        stillwater map survey.csv --value odo_percent_sat --out map
+        stillwater map platypus_20160519.txt --value ATLAS_DO --out map --cell 2
+        stillwater map profiles.csv --x pres_dbar --value doxy_umol --out map
+        stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120 --json --out map
+        ```
+    """.trimIndent()
+
+    override fun run() {
+        try {
+            work()
+        } catch (problem: LogProblem) {
+            throw failure(problem.message.orEmpty())
+        } catch (problem: OutputException) {
+            throw failure(problem.message.orEmpty())
+        } catch (problem: FigureException) {
+            throw failure(problem.message.orEmpty())
+        }
+    }
+
+    private fun work() {
+        if (cell != null && gridSize != null) throw BadFlag("--grid", "either --grid or --cell", "both")
+        if (calibrate != null && !epsilon.isNaN()) throw BadFlag("--calibrate", "it with --epsilon auto", "a number")
+        val file = Path.of(log)
+        val opened = SurveyLog.open(file, logOptions.choice())
+        // Opened first: where results cannot be written, nobody wants to wait for them.
+        OutputDirectory(Path.of(out)).use { directory ->
+            val map = read(opened, file)
+            val summary = MapSummary(map)
+            MapFiles(map, summary, commandLine()).write(directory)
+            val written = directory.commit()
+            when {
+                json -> echo(MapJson.text(map, written))
+                !quiet -> {
+                    echo("Map of ${opened.quantity}")
+                    echo(summary.text())
+                    for (warning in summary.warnings) echo("warning: $warning", err = true)
+                    echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}")
+                }
+            }
+        }
+    }
+
+    private fun read(opened: SurveyLog, file: Path): SurveyMap {
+        // Every byte is read twice.
+        return ReadingProgress(terminal, "reading", 2 * Files.size(file), shown = !quiet).use { progress ->
+            try {
+                SurveyMap.of(opened, settings(), progress::advance)
+            } catch (unfit: IllegalArgumentException) {
+                throw failure("--cell: ${unfit.message}")
+            }
+        }
+    }
+
+    private fun settings() = MapSettings(
+        filters = filters,
+        grid = GridWish(
+            cell = cell,
+            columns = gridSize?.first?.toInt(),
+            rows = gridSize?.second?.toInt(),
+            rotation = Math.toRadians(rotation),
+        ),
+        prior = range?.let { (low, high) -> Interval(low, high) },
+        epsilon = epsilon.takeIf { !it.isNaN() },
+        calibrate = calibrate?.let { (from, to) -> Stretch(from, to) },
+        medianWindow = medianWindow,
+        slopeWindow = slopeWindow,
+        crossing = crossing,
+        clearOnEntry = !keepWindows,
+    )
+
+    private fun commandLine(): String {
+        val own = listOf(
+            "--out" to out,
+            "--filter" to filters.joinToString(",") { it.label },
+            "--cell" to cell,
+            "--grid" to gridSize?.let { (columns, rows) -> "${columns.toInt()}x${rows.toInt()}" },
+            "--rotation" to rotation.takeIf { it != 0.0 },
+            "--range" to range?.let { (low, high) -> "$low:$high" },
+            "--epsilon" to epsilon.takeIf { !it.isNaN() },
+            "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
+            "--median" to medianWindow,
+            "--slope" to slopeWindow,
+            "--crossing" to crossing.name.lowercase(),
+            "--keep-windows" to keepWindows,
+        )
+        return commandLineText("stillwater map", log, logOptions.flags() + own)
+    }
+
+    private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)
+
+    private companion object {
+        const val LONGEST_WINDOW = 999
+        const val MOST_CELLS = 16e6
+    }
+}

@@ -1,0 +1,103 @@
+package stillwater.io
+
+/**
+ * Which columns of a survey CSV hold what; indices into its header.
+ *
+ * @property names the header.
+ * @property time column with the time.
+ * @property latitude column with the latitude, or [NONE] where positions are in metres.
+ * @property longitude column with the longitude, or [NONE].
+ * @property x column with metres east, or [NONE] where positions are in degrees.
+ * @property y column with metres north, or [NONE] where there is only x.
+ * @property value column with the readings.
+ * @property conditions columns of further quantities by name.
+ */
+internal data class CsvColumns(
+    val names: List<String>,
+    val time: Int,
+    val latitude: Int,
+    val longitude: Int,
+    val x: Int,
+    val y: Int,
+    val value: Int,
+    val conditions: Map<String, Int>,
+) {
+    companion object {
+        const val NONE = -1
+        private val TIMES = listOf("time_s", "unix_time_s")
+        private const val LATITUDE = "lat_deg"
+        private const val LONGITUDE = "lon_deg"
+        private const val X = "x_m"
+        private const val Y = "y_m"
+        private val RECOGNISED = TIMES + listOf(LATITUDE, LONGITUDE, X, Y)
+
+        /**
+         * The columns that [choice] means in a log with the header [names].
+         *
+         * @param sample the first row, by which columns of numbers are told from others; may be empty.
+         * @param problem makes the error for column (or null), expected, found.
+         */
+        fun of(
+            names: List<String>,
+            sample: List<String>,
+            choice: LogChoice,
+            problem: (String?, String, String) -> LogProblem,
+        ): CsvColumns {
+            fun named(name: String): Int {
+                val index = names.indexOf(name)
+                if (index < 0) throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
+                if (names.lastIndexOf(name) != index) throw problem(name, "one such column", "several")
+                return index
+            }
+
+            fun recognised(name: String) = if (name in names) named(name) else NONE
+
+            val time = choice.time?.let(::named)
+                ?: TIMES.map(::recognised).firstOrNull { it != NONE }
+                ?: throw problem(
+                    null,
+                    "a column time_s or unix_time_s, or --time COLUMN",
+                    "columns ${names.joinToString(", ")}",
+                )
+            val inMetres = choice.x != null || choice.y != null
+            val latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
+            val longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
+            val inDegrees = latitude != NONE && longitude != NONE
+            val x = if (inDegrees) NONE else choice.x?.let(::named) ?: recognised(X)
+            val y = if (inDegrees) NONE else choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
+            if (!inDegrees && (x == NONE || (y == NONE && choice.x == null))) {
+                throw problem(
+                    null,
+                    "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x",
+                    "columns ${names.joinToString(", ")}",
+                )
+            }
+            val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
+            val used = setOf(time, latitude, longitude, x, y) + conditions.values
+            val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
+            return CsvColumns(names, time, latitude, longitude, x, y, value, conditions)
+        }
+
+        private fun onlyCandidate(
+            names: List<String>,
+            sample: List<String>,
+            used: Set<Int>,
+            problem: (String?, String, String) -> LogProblem,
+        ): Int {
+            val candidates = names.indices.filter { index ->
+                val field = sample.getOrNull(index)
+                val numeric = field.isNullOrBlank() || !DecimalText.parse(field).isNaN()
+                index !in used && names[index] !in RECOGNISED && numeric
+            }
+            candidates.singleOrNull()?.let { return it }
+            throw when {
+                candidates.isEmpty() -> problem(null, "a column with readings", "columns ${names.joinToString(", ")}")
+                else -> problem(
+                    null,
+                    "--value with one of ${candidates.joinToString(", ") { names[it] }}",
+                    "${candidates.size} columns that could hold the readings",
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,236 @@
+package stillwater.io
+
+import de.siegmar.fastcsv.reader.CsvParseException
+import de.siegmar.fastcsv.reader.CsvReader
+import de.siegmar.fastcsv.reader.CsvRecord
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import java.nio.file.Path
+
+/**
+ * A survey log as comma, semicolon or tab separated values with a header line.
+ *
+ * Rows need the columns in use to hold finite numbers (conditions may be empty), times that grow, and latitudes and
+ * longitudes that exist. Positions of exactly 0, 0 degrees are a receiver's way of saying that it has no fix: such
+ * rows are left out and counted.
+ */
+internal class CsvSurvey private constructor(
+    private val content: LogContent,
+    private val separator: Char,
+    private val columns: CsvColumns,
+    private val skipBadRows: Boolean,
+) : SurveyLog {
+    override val file: Path get() = content.file
+    override val format = "survey CSV" + SEPARATORS.getValue(separator)
+    override val quantity: String = columns.names[columns.value]
+    override val oneDimensional = columns.latitude == CsvColumns.NONE && columns.y == CsvColumns.NONE
+    override val xName: String = if (columns.x == CsvColumns.NONE) "x_m" else columns.names[columns.x]
+    override var frame: LocalFrame? = null
+        private set
+
+    private val conditionNames = columns.conditions.keys.toList()
+    private val slots = slots()
+
+    // A condition taken from a column that serves otherwise too is found in that one's slot.
+    private val conditionSlots = IntArray(conditionNames.size) { i ->
+        slots[columns.conditions.getValue(conditionNames[i])]
+    }
+
+    override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
+        val pass = Pass(sink)
+        val reader = CsvReader.builder()
+            .fieldSeparator(separator)
+            .skipEmptyLines(false)
+            .allowExtraFields(true)
+            .allowMissingFields(true)
+            .maxBufferSize(LONGEST_FIELD)
+            .build(CsvRow(slots, SLOTS + conditionNames.size), content.reader(progress))
+        reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
+        return pass.end()
+    }
+
+    private inline fun inLogTerms(work: () -> Unit) {
+        try {
+            work()
+        } catch (failure: CsvParseException) {
+            val cause = failure.cause as? LogProblem
+            throw cause ?: problem(null, null, "rows of a CSV file", failure.message.orEmpty(), null)
+        }
+    }
+
+    private fun slots() = IntArray(columns.names.size) { CsvColumns.NONE }.also { slots ->
+        // A later assignment wins, so the columns that rows cannot do without come last.
+        conditionNames.forEachIndexed { i, name -> slots[columns.conditions.getValue(name)] = SLOTS + i }
+        val inDegrees = columns.latitude != CsvColumns.NONE
+        slots[columns.value] = VALUE
+        if (!inDegrees && columns.y != CsvColumns.NONE) slots[columns.y] = NORTH
+        slots[if (inDegrees) columns.longitude else columns.x] = EAST
+        if (inDegrees) slots[columns.latitude] = NORTH
+        slots[columns.time] = TIME
+    }
+
+    private fun problem(line: Long?, column: Int?, expected: String, found: String, skippable: String?) =
+        LogProblem(file, line, column?.let { columns.names[it] }, expected, found, skippable)
+
+    /** One reading of the file from its beginning. */
+    private inner class Pass(private val sink: ReadingSink) {
+        private val skips = SkipCounts()
+        private var readings = 0L
+        private var rows = 0L
+        private var headerSeen = false
+        private var lastSeconds = Double.NEGATIVE_INFINITY
+        private val inDegrees = columns.latitude != CsvColumns.NONE
+        private val northColumn = if (inDegrees) columns.latitude else columns.y
+        private val eastColumn = if (inDegrees) columns.longitude else columns.x
+
+        fun take(row: CsvRow) {
+            if (row.blank) {
+                skips.count("blank lines")
+            } else if (!headerSeen) {
+                headerSeen = true
+            } else {
+                rows++
+                val problem = problemOf(row)
+                when {
+                    problem == null -> use(row)
+                    skipBadRows && problem.skippable != null -> skips.count(problem.skippable)
+                    else -> throw problem
+                }
+            }
+        }
+
+        private fun problemOf(row: CsvRow): LogProblem? {
+            if (row.fields != columns.names.size) {
+                val expected = "${columns.names.size} fields as in the header"
+                return problem(row.line, null, expected, "${row.fields}", "rows with a wrong number of fields")
+            }
+            val time = row.numbers[TIME]
+            return numberProblem(row, TIME, columns.time)
+                ?: numberProblem(row, NORTH, northColumn)
+                ?: numberProblem(row, EAST, eastColumn)
+                ?: numberProblem(row, VALUE, columns.value)
+                ?: conditionProblem(row)
+                ?: if (inDegrees) rangeProblem(row) else null
+                ?: when {
+                    time > lastSeconds -> null
+                    time < lastSeconds -> timeProblem(row, "times going back")
+                    else -> timeProblem(row, "duplicate times")
+                }
+        }
+
+        private fun numberProblem(row: CsvRow, slot: Int, column: Int): LogProblem? {
+            if (column == CsvColumns.NONE || row.numbers[slot].isFinite()) return null
+            val text = row.textOf(column)
+            val reason = if (text.isBlank()) "rows with an empty field" else "rows with text where a number belongs"
+            return problem(row.line, column, "a finite number", quoted(text) + commaHint(text), reason)
+        }
+
+        private fun commaHint(text: String) =
+            if (!DecimalText.parse(text.replace(',', '.')).isNaN()) " (decimals need a point)" else ""
+
+        private fun conditionProblem(row: CsvRow): LogProblem? {
+            for (i in conditionNames.indices) {
+                if (conditionSlots[i] < SLOTS || row.numbers[conditionSlots[i]].isFinite()) continue
+                val column = columns.conditions.getValue(conditionNames[i])
+                val text = row.textOf(column)
+                if (text.isBlank() || text.trim().equals("nan", ignoreCase = true)) continue
+                val reason = "rows with text where a number belongs"
+                return problem(row.line, column, "a number or nothing", quoted(text), reason)
+            }
+            return null
+        }
+
+        private fun rangeProblem(row: CsvRow): LogProblem? {
+            val latitude = row.numbers[NORTH]
+            val longitude = row.numbers[EAST]
+            val reason = "positions off the globe"
+            return when {
+                latitude !in LatLon.LATITUDES_DEG ->
+                    problem(row.line, northColumn, "a latitude within -90..90", "$latitude", reason)
+                longitude !in LatLon.LONGITUDES_DEG ->
+                    problem(row.line, eastColumn, "a longitude within -180..360", "$longitude", reason)
+                latitude == 0.0 && longitude == 0.0 -> null
+                frame == null && !LocalFrame.canStartAt(LatLon(latitude, longitude)) ->
+                    problem(row.line, northColumn, "a latitude below 90 to start from", "$latitude", reason)
+                else -> null
+            }
+        }
+
+        private fun timeProblem(row: CsvRow, reason: String) = problem(
+            row.line,
+            columns.time,
+            "a time after $lastSeconds s",
+            "${row.numbers[TIME]} s",
+            reason,
+        )
+
+        private fun use(row: CsvRow) {
+            val numbers = row.numbers
+            lastSeconds = numbers[TIME]
+            var x = numbers[EAST]
+            var y = if (oneDimensional) 0.0 else numbers[NORTH]
+            if (inDegrees) {
+                if (x == 0.0 && y == 0.0) return skips.count("positions without a fix (0, 0)")
+                val place = LatLon(y, x)
+                val local = (frame ?: LocalFrame(place).also { frame = it }).toLocal(place)
+                x = local.x
+                y = local.y
+            }
+            sink.take(BoatTime(numbers[TIME]), x, y, numbers[VALUE], conditions(row))
+            readings++
+        }
+
+        private fun conditions(row: CsvRow): Conditions {
+            if (conditionNames.isEmpty()) return Conditions.NONE
+            val measured = LinkedHashMap<String, Double>()
+            conditionNames.forEachIndexed { i, name ->
+                val number = row.numbers[conditionSlots[i]]
+                if (number.isFinite()) measured[name] = number
+            }
+            return Conditions(measured)
+        }
+
+        fun end(): LogPass {
+            if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
+            return LogPass(readings, skips.toMap())
+        }
+    }
+
+    companion object {
+        private const val LONGEST_FIELD = 1 shl 20
+        private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
+
+        // Where a row's numbers are kept; conditions follow.
+        private const val TIME = 0
+        private const val NORTH = 1
+        private const val EAST = 2
+        private const val VALUE = 3
+        private const val SLOTS = 4
+
+        fun open(content: LogContent, choice: LogChoice): CsvSurvey {
+            val headerLine = content.head.indexOfFirst { it.isNotBlank() }
+            val separator = SEPARATORS.keys.maxBy { mark -> content.head[headerLine].count { it == mark } }
+            fun problem(column: String?, expected: String, found: String) =
+                LogProblem(content.file, headerLine + 1L, column, expected, found)
+
+            val header = fields(content.head[headerLine], separator)
+                ?: throw problem(null, "a header line with column names", quoted(content.head[headerLine]))
+            val sample = content.head.drop(headerLine + 1).firstOrNull { it.isNotBlank() }
+            if ('\uFFFD' in content.head[headerLine]) throw problem(null, "text in UTF-8", "another encoding")
+            if (2 * header.count { !DecimalText.parse(it).isNaN() } > header.size) {
+                throw problem(null, "a header line with column names", quoted(content.head[headerLine]))
+            }
+            val columns = CsvColumns.of(header, sample?.let { fields(it, separator) }.orEmpty(), choice, ::problem)
+            return CsvSurvey(content, separator, columns, choice.skipBadRows)
+        }
+
+        private fun fields(line: String, separator: Char): List<String>? = try {
+            CsvReader.builder().fieldSeparator(separator).ofSingleCsvRecord(line)
+                .let { record: CsvRecord -> record.fields.map { it.trim() } }
+        } catch (_: CsvParseException) {
+            null
+        }
+    }
+}

@@ -1,0 +1,34 @@
+package stillwater.io
+
+/**
+ * What to take from a log, and how strict to be.
+ *
+ * Names of columns are the log's own; null stands for the recognised ones (`time_s`, `unix_time_s`, `lat_deg`,
+ * `lon_deg`, `x_m`, `y_m`).
+ *
+ * @property time column with the time, s.
+ * @property latitude column with the latitude, degrees north.
+ * @property longitude column with the longitude, degrees east.
+ * @property x column with the distance east or along a transect, m.
+ * @property y column with the distance north, m; may be left out where [x] is given.
+ * @property value column with the readings, or sensor TYPE[#CHANNEL][.FIELD] of a Platypus log.
+ * @property conditions column of each further quantity, by the name it is to have.
+ * @property skipBadRows whether rows that cannot be used are counted and left out rather than an error.
+ * @property maxPoseAge longest time between a reading and a pose it is placed by, s, above 0.
+ * @throws IllegalArgumentException if [maxPoseAge] is out of its range.
+ */
+data class LogChoice(
+    val time: String? = null,
+    val latitude: String? = null,
+    val longitude: String? = null,
+    val x: String? = null,
+    val y: String? = null,
+    val value: String? = null,
+    val conditions: Map<String, String> = emptyMap(),
+    val skipBadRows: Boolean = false,
+    val maxPoseAge: Double = 2.0,
+) {
+    init {
+        require(maxPoseAge > 0 && maxPoseAge.isFinite()) { "maxPoseAge ($maxPoseAge s) must be above 0 and finite" }
+    }
+}

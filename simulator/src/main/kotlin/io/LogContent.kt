@@ -1,0 +1,71 @@
+package stillwater.io
+
+import java.io.IOException
+import java.io.InputStreamReader
+import java.io.Reader
+import java.nio.charset.Charset
+import java.nio.file.Files
+import java.nio.file.Path
+
+/**
+ * A file known to be text, with what its beginning says about it.
+ *
+ * @property file the file.
+ * @property charset encoding, from the byte order mark; UTF-8 without one.
+ * @property platypus version of the Platypus log it is, or null where it is none.
+ * @property head the first lines, without a byte order mark.
+ */
+internal class LogContent private constructor(
+    val file: Path,
+    val charset: Charset,
+    private val markLength: Int,
+    val head: List<String>,
+) {
+    val platypus: PlatypusVersion? = PlatypusVersion.of(head)
+
+    /** The text from its beginning; [progress] hears the number of bytes read. Bytes that are no text become U+FFFD. */
+    fun reader(progress: (Long) -> Unit): Reader {
+        val stream = CountingStream(Files.newInputStream(file), progress)
+        stream.skipNBytes(markLength.toLong())
+        return InputStreamReader(stream, charset)
+    }
+
+    companion object {
+        private const val HEAD_BYTES = 1 shl 16
+        private val GZIP = byteArrayOf(0x1f, 0x8b.toByte())
+
+        fun of(file: Path): LogContent {
+            val bytes = firstBytes(file)
+            fun problem(expected: String, found: String) = LogProblem(file, null, null, expected, found)
+            if (bytes.isEmpty()) throw problem("a log", "an empty file")
+            if (bytes.startsWith(GZIP)) throw problem("a text log", "a gzip archive: unpack it first")
+            val (charset, mark) = when {
+                bytes.startsWith(byteArrayOf(0xEF.toByte(), 0xBB.toByte(), 0xBF.toByte())) -> Charsets.UTF_8 to 3
+                bytes.startsWith(byteArrayOf(0xFF.toByte(), 0xFE.toByte())) -> Charsets.UTF_16LE to 2
+                bytes.startsWith(byteArrayOf(0xFE.toByte(), 0xFF.toByte())) -> Charsets.UTF_16BE to 2
+                else -> Charsets.UTF_8 to 0
+            }
+            if (mark != 2 && 0.toByte() in bytes) throw problem("a text log", "binary data")
+            val text = String(bytes, mark, bytes.size - mark, charset)
+            val lines = text.lineSequence().map { it.trimEnd('\r') }.toList()
+            // The last line of the head may be cut.
+            val head = if (lines.size > 1 && bytes.size == HEAD_BYTES) lines.dropLast(1) else lines
+            if (head.all { it.isBlank() }) throw problem("a log", "nothing but blank lines")
+            return LogContent(file, charset, mark, head)
+        }
+
+        private fun firstBytes(file: Path): ByteArray {
+            fun problem(found: String) = LogProblem(file, null, null, "a log file", found)
+            if (!Files.exists(file)) throw problem("no such file")
+            if (Files.isDirectory(file)) throw problem("a directory")
+            return try {
+                Files.newInputStream(file).use { it.readNBytes(HEAD_BYTES) }
+            } catch (_: IOException) {
+                throw problem("a file that cannot be read")
+            }
+        }
+
+        private fun ByteArray.startsWith(mark: ByteArray) =
+            size >= mark.size && mark.indices.all { this[it] == mark[it] }
+    }
+}

@@ -1,0 +1,40 @@
+package stillwater.io
+
+import java.nio.file.Path
+
+/**
+ * A log that cannot be used as it is: where, what was expected and what was found, in one line.
+ *
+ * @property file the log.
+ * @property line physical line, counted from 1, or null where no single line is at fault.
+ * @property column name of the column, or null where no single column is at fault.
+ * @property expected what would have been right.
+ * @property found what is there.
+ * @property skippable reason under which `--skip-bad-rows` counts such rows, or null where skipping rows is no help.
+ */
+class LogProblem(
+    val file: Path,
+    val line: Long?,
+    val column: String?,
+    val expected: String,
+    val found: String,
+    val skippable: String? = null,
+) : Exception(
+    buildString {
+        append(file)
+        if (line != null) append(':').append(line)
+        append(": ")
+        if (column != null) append("column ").append(column).append(": ")
+        append("expected ").append(expected).append(", found ").append(found)
+        if (skippable != null) append(" (--skip-bad-rows skips and counts such rows)")
+    },
+)
+
+/** [text] fit for a one-line message: in quotes, without control characters, cut to a readable length. */
+internal fun quoted(text: String): String {
+    if (text.isBlank()) return "nothing"
+    val clean = text.trim().map { if (it.isISOControl()) '?' else it }.joinToString("")
+    return if (clean.length <= LONGEST_QUOTE) "'$clean'" else "'${clean.take(LONGEST_QUOTE)}...'"
+}
+
+private const val LONGEST_QUOTE = 48

@@ -1,0 +1,51 @@
+package stillwater.io
+
+/**
+ * Turns the stamps of a Platypus log into one time that keeps growing over logs joined in one file.
+ *
+ * The counter restarts with the app. In version 4.2.0 a start line says when, in Unix time; in the others the time of
+ * day does, which is trusted up to half a day. Stamps may go back by up to [JITTER] s, because threads write them.
+ */
+internal class PlatypusClock {
+    private var offset = 0.0
+    private var latest = Double.NEGATIVE_INFINITY
+    private var clockOfLatest = Double.NaN
+
+    /** Logs that were joined to the first one. */
+    var joined = 0
+        private set
+
+    /** Takes a start line: the counter's [millis] stands for [epochMillis] of Unix time from here on. */
+    fun start(epochMillis: Double, millis: Long) {
+        if (latest > Double.NEGATIVE_INFINITY) joined++
+        offset = (epochMillis - millis) / MILLIS
+    }
+
+    /**
+     * The time of a line, s, or NaN where it went back.
+     *
+     * @param millis the log's counter.
+     * @param clock time of day, s, or NaN where the version has none.
+     */
+    fun secondsAt(millis: Long, clock: Double): Double {
+        var seconds = offset + millis / MILLIS
+        if (seconds < latest - JITTER) {
+            val elapsed = (clock - clockOfLatest).mod(DAY)
+            if (!(elapsed < DAY / 2)) return Double.NaN
+            joined++
+            offset += latest + elapsed - seconds
+            seconds = latest + elapsed
+        }
+        if (seconds > latest) {
+            latest = seconds
+            clockOfLatest = clock
+        }
+        return seconds
+    }
+
+    private companion object {
+        const val MILLIS = 1000.0
+        const val JITTER = 1.0
+        const val DAY = 86_400.0
+    }
+}

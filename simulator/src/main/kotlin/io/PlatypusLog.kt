@@ -1,0 +1,213 @@
+package stillwater.io
+
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import stillwater.model.Utm
+import java.io.BufferedReader
+import java.nio.file.Path
+import kotlin.math.abs
+
+/**
+ * A log of a Platypus boat: the readings of one of its sensors, each placed where the boat was at the reading's time.
+ *
+ * Poses before the first GPS fix are a placeholder that looks like a place; they are left out and counted. A log
+ * whose name ends in `.incomplete` may have its last line cut.
+ */
+internal class PlatypusLog private constructor(
+    private val content: LogContent,
+    private val version: PlatypusVersion,
+    private val sensor: SensorChoice,
+    private val choice: LogChoice,
+) : SurveyLog {
+    override val file: Path get() = content.file
+    override val format = "Platypus log ${version.release}"
+    override val quantity = sensor.toString()
+    override val xName = "x_m"
+    override val oneDimensional = false
+    override var frame: LocalFrame? = null
+        private set
+
+    override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
+        val pass = Pass(sink)
+        BufferedReader(content.reader(progress)).use { lines ->
+            var line = lines.readLine()
+            while (line != null) {
+                val next = lines.readLine()
+                pass.take(line, isLast = next == null)
+                line = next
+            }
+        }
+        return pass.end()
+    }
+
+    private data class Pending(val seconds: Double, val value: Double)
+
+    /** One reading of the file from its beginning. */
+    private inner class Pass(private val sink: ReadingSink) {
+        private val lines = PlatypusLine(version)
+        private val clock = PlatypusClock()
+        private val track = PoseTrack(choice.maxPoseAge)
+        private val catalogue = SensorCatalogue()
+        private val skips = SkipCounts()
+        private val pending = ArrayDeque<Pending>()
+        private var number = 0L
+        private var readings = 0L
+        private var lastSensorSeconds = Double.NEGATIVE_INFINITY
+        private var placeholders = 0L
+        private var fixes = 0L
+
+        fun take(line: String, isLast: Boolean) {
+            number++
+            if (line.isBlank()) return
+            val entry = lines.parse(line)
+            if (entry is PlatypusEntry.Unreadable) {
+                if (isLast && file.fileName.toString().endsWith(".incomplete")) return skips.count("truncated last line")
+                return refuse(entry.expected, quoted(line), "unreadable lines")
+            }
+            if (entry is PlatypusEntry.Start) clock.start(entry.epochMillis, lines.millis)
+            val seconds = clock.secondsAt(lines.millis, lines.clock)
+            if (seconds.isNaN()) {
+                return refuse("a time not before the last one", "${lines.millis} ms", "times going back")
+            }
+            when (entry) {
+                is PlatypusEntry.Pose -> takePose(seconds, entry)
+                is PlatypusEntry.Sensor -> takeSensor(seconds, entry)
+                else -> Unit
+            }
+            // A pose that comes later than this is of no use to the readings that wait for one.
+            emit(seconds - choice.maxPoseAge)
+        }
+
+        private fun takePose(seconds: Double, pose: PlatypusEntry.Pose) {
+            val zone = UtmZone.parse(pose.zone)
+                ?: return refuse("a UTM zone 1North to 60South", quoted(pose.zone), "poses in no UTM zone")
+            if (isPlaceholder(pose)) {
+                placeholders++
+                return skips.count("poses before the first fix")
+            }
+            val onTheMap = pose.easting in 0.0..LARGEST_EASTING && pose.northing in 0.0..LARGEST_NORTHING
+            if (!onTheMap) {
+                val found = "${pose.easting}, ${pose.northing}"
+                return refuse("UTM easting in 0..1000000 m, northing in 0..10000000 m", found, "poses off the globe")
+            }
+            fixes++
+            val place = Utm(pose.easting, pose.northing, zone.number, zone.north).toLatLon()
+            val local = frameFrom(place).toLocal(place)
+            track.add(seconds, local.x, local.y)
+        }
+
+        private fun frameFrom(place: LatLon) = frame ?: LocalFrame(place).also { frame = it }
+
+        private fun takeSensor(seconds: Double, entry: PlatypusEntry.Sensor) {
+            catalogue.add(entry)
+            if (entry.type != sensor.type || (sensor.channel != null && entry.channel != sensor.channel)) return
+            if (sensor.channel == null && catalogue.channels(sensor.type).size > 1) {
+                val found = "channels ${catalogue.channels(sensor.type).joinToString(" and ")}"
+                throw problem("--value ${sensor.type}#CHANNEL", found, null)
+            }
+            val value = entry.data.getOrElse(sensor.field) { Double.NaN }
+            when {
+                sensor.field >= entry.data.size ->
+                    refuse("at least ${sensor.field + 1} numbers", "${entry.data.size}", "readings without the field")
+                !value.isFinite() -> refuse("a finite number", "none", "readings that are no number")
+                seconds <= lastSensorSeconds -> {
+                    val reason = if (seconds < lastSensorSeconds) "times going back" else "duplicate times"
+                    refuse("a ${sensor.type} time after $lastSensorSeconds s", "$seconds s", reason)
+                }
+                else -> {
+                    lastSensorSeconds = seconds
+                    pending.addLast(Pending(seconds, value))
+                }
+            }
+        }
+
+        /** Hands on what has a pose on either side of it, and what has waited since before [deadline] s. */
+        private fun emit(deadline: Double) {
+            while (true) {
+                val reading = pending.firstOrNull() ?: return
+                if (track.latest < reading.seconds && reading.seconds >= deadline) return
+                pending.removeFirst()
+                if (track.find(reading.seconds)) {
+                    readings++
+                    sink.take(BoatTime(reading.seconds), track.x, track.y, reading.value, Conditions.NONE)
+                } else {
+                    skips.count("readings without a pose")
+                }
+            }
+        }
+
+        private fun refuse(expected: String, found: String, reason: String) {
+            if (choice.skipBadRows) skips.count(reason) else throw problem(expected, found, reason)
+        }
+
+        private fun problem(expected: String, found: String, reason: String?) =
+            LogProblem(file, number, null, expected, found, reason)
+
+        fun end(): LogPass {
+            emit(Double.POSITIVE_INFINITY)
+            fun whole(expected: String, found: String) = LogProblem(file, null, null, expected, found)
+            if (catalogue.channels(sensor.type).isEmpty()) throw whole("readings of $sensor", "$catalogue")
+            if (fixes == 0L && placeholders > 0) {
+                throw whole("poses with a GPS fix", "only the placeholder before the first fix ($placeholders poses)")
+            }
+            if (fixes == 0L) throw whole("poses", "none")
+            return LogPass(readings, skips.toMap())
+        }
+    }
+
+    companion object {
+        private const val LARGEST_EASTING = 1e6
+        private const val LARGEST_NORTHING = 1e7
+        private const val PLACEHOLDER_EASTING = 476_608.34
+        private const val PLACEHOLDER_NORTHING = 4_671_214.4
+        private const val PLACEHOLDER_ZONE = "17North"
+        private const val PLACEHOLDER_TOLERANCE = 1.0
+
+        private fun isPlaceholder(pose: PlatypusEntry.Pose) = pose.zone == PLACEHOLDER_ZONE &&
+            abs(pose.easting - PLACEHOLDER_EASTING) <= PLACEHOLDER_TOLERANCE &&
+            abs(pose.northing - PLACEHOLDER_NORTHING) <= PLACEHOLDER_TOLERANCE
+
+        fun open(content: LogContent, version: PlatypusVersion, choice: LogChoice): PlatypusLog {
+            fun problem(expected: String, found: String) = LogProblem(content.file, null, null, expected, found)
+            val columns = listOfNotNull(choice.time, choice.latitude, choice.longitude, choice.x, choice.y) +
+                choice.conditions.values
+            if (columns.isNotEmpty()) {
+                throw problem("a survey CSV for column ${columns.first()}", "a Platypus log, which has no columns")
+            }
+            val sensor = if (choice.value == null) {
+                onlySensor(content, version, ::problem)
+            } else {
+                SensorChoice.parse(choice.value)
+                    ?: throw problem("--value TYPE[#CHANNEL][.FIELD]", fieldHint(content, version, choice.value))
+            }
+            return PlatypusLog(content, version, sensor, choice)
+        }
+
+        private fun onlySensor(
+            content: LogContent,
+            version: PlatypusVersion,
+            problem: (String, String) -> LogProblem,
+        ): SensorChoice {
+            val catalogue = catalogue(content, version)
+            val choices = catalogue.choices()
+            return choices.singleOrNull() ?: throw when {
+                choices.isEmpty() -> problem("readings of a sensor", "$catalogue")
+                else -> problem("--value with one of ${choices.joinToString(", ")}", "$catalogue")
+            }
+        }
+
+        private fun fieldHint(content: LogContent, version: PlatypusVersion, value: String) =
+            "${quoted(value)}; the log has ${catalogue(content, version)}"
+
+        private fun catalogue(content: LogContent, version: PlatypusVersion): SensorCatalogue {
+            val catalogue = SensorCatalogue()
+            val parser = PlatypusLine(version)
+            BufferedReader(content.reader {}).useLines { lines ->
+                for (line in lines) (parser.parse(line) as? PlatypusEntry.Sensor)?.let(catalogue::add)
+            }
+            return catalogue
+        }
+    }
+}

@@ -1,0 +1,84 @@
+package stillwater.io
+
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.LocalFrame
+import stillwater.model.Position
+import stillwater.model.Reading
+import java.nio.file.Path
+
+/** Takes the readings of a log one by one, in the order of their times. */
+fun interface ReadingSink {
+    /**
+     * Takes one reading; see [stillwater.estimate.FieldEstimator.update] for the same parameters.
+     *
+     * @param time when the sample was taken, on the log's clock.
+     * @param x metres east in the log's frame.
+     * @param y metres north in the log's frame; 0 in a log of a straight transect.
+     * @param value what the sensor said, sensor units.
+     * @param conditions what else was logged in the same row.
+     */
+    fun take(time: BoatTime, x: Double, y: Double, value: Double, conditions: Conditions)
+}
+
+/**
+ * What one pass over a log came to.
+ *
+ * @property readings readings handed on.
+ * @property skipped rows or lines that gave none although they could have, by reason.
+ */
+data class LogPass(val readings: Long, val skipped: Map<String, Long>)
+
+/**
+ * A log on disk that yields the readings of one sensor, as often as it is read, in constant memory.
+ *
+ * Readings come in strictly growing time and hold finite numbers only. Confined to one thread.
+ */
+interface SurveyLog {
+    /** The file. */
+    val file: Path
+
+    /** What kind of log it turned out to be, for people. */
+    val format: String
+
+    /** Name of the column or sensor that gives the values. */
+    val quantity: String
+
+    /** Name of what x measures, where it is not metres east. */
+    val xName: String
+
+    /** Whether positions have only an x: a transect or a vertical profile. */
+    val oneDimensional: Boolean
+
+    /** Frame the positions are in; null before the first [read], and for logs without latitudes. */
+    val frame: LocalFrame?
+
+    /**
+     * Hands every reading to [sink].
+     *
+     * @param progress told now and then how many bytes of the file have been read.
+     * @throws LogProblem at the first row that cannot be used, unless bad rows are to be skipped, and where the log
+     *   as a whole is of no use.
+     */
+    fun read(progress: (Long) -> Unit = {}, sink: ReadingSink): LogPass
+
+    companion object {
+        /**
+         * Opens the log [file], telling its format by its content.
+         *
+         * @throws LogProblem if there is no such log or [choice] does not fit it.
+         */
+        fun open(file: Path, choice: LogChoice = LogChoice()): SurveyLog {
+            val content = LogContent.of(file)
+            return when (val version = content.platypus) {
+                null -> CsvSurvey.open(content, choice)
+                else -> PlatypusLog.open(content, version, choice)
+            }
+        }
+    }
+}
+
+/** All readings of a log that fits into memory. */
+fun SurveyLog.readings(): List<Reading> = buildList {
+    read { time, x, y, value, conditions -> add(Reading(time, Position(x, y), value, conditions)) }
+}

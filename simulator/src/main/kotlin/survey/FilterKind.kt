@@ -1,0 +1,33 @@
+package stillwater.survey
+
+import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BoundedFilter
+import stillwater.estimate.BoundedFilterSettings
+import stillwater.estimate.ExponentialFilter
+import stillwater.estimate.FieldEstimator
+import stillwater.model.Grid
+import stillwater.model.Interval
+
+/**
+ * The filters that can make a map out of a log.
+ *
+ * @property label name on the command line and in files.
+ */
+enum class FilterKind(val label: String) {
+    /** The mean of a cell's readings. */
+    AVERAGING("averaging"),
+
+    /** An exponential average of a cell's readings. */
+    EXPONENTIAL("exponential"),
+
+    /** The report's bounded filter. */
+    BOUNDED("bounded"),
+    ;
+
+    /** A filter of this kind over [grid]; [settings] count for the bounded one only. */
+    fun estimator(grid: Grid, prior: Interval, settings: BoundedFilterSettings): FieldEstimator = when (this) {
+        AVERAGING -> AveragingFilter(grid, prior)
+        EXPONENTIAL -> ExponentialFilter(grid, prior)
+        BOUNDED -> BoundedFilter(grid, prior, settings)
+    }
+}

@@ -1,0 +1,168 @@
+package stillwater.survey
+
+import kotlin.math.abs
+import kotlin.math.sqrt
+import kotlin.random.Random
+
+/**
+ * Compares the legs of a survey with their neighbours in time.
+ *
+ * A leg's score is the mean, over bins along it, of |its profile − mean of the profiles of the legs before and after
+ * it|; both run the other way and lie on either side, so that a linear change of the water across legs and in time
+ * cancels. The null to hold it against is the same with the legs two before and two after: the same direction, so no
+ * lag, but twice the distance. Lag stands out where the opposite score is larger all the same.
+ *
+ * Standard errors and intervals come from a bootstrap over legs in blocks of [BLOCK], because a leg takes part in the
+ * scores of its neighbours, too. The water's own change between legs is in all numbers.
+ *
+ * @param statistics of the log. @param track its track. @param seed of the bootstrap.
+ */
+class LegComparison(
+    private val statistics: SurveyStatistics,
+    private val track: Track,
+    private val seed: Long = DEFAULT_SEED,
+) {
+    /** Legs i − [reach] and i + [reach] with leg i between them, as indices into the legs. */
+    private class Triple(val leg: Int, val before: Leg, val middle: Leg, val after: Leg)
+
+    /** The comparison, or null where too few legs have opposite neighbours. */
+    fun compare(legs: Legs): LegMismatch? {
+        val list = legs.legs
+        val opposite = triples(list, reach = 1)
+        if (opposite.size < FEWEST_LEGS) return null
+        val profiles = profiles(legs)
+        val shifts = shifts(list)
+        // score[triple][shift], sensor units
+        val scores = opposite.map { triple -> DoubleArray(shifts.size) { score(profiles, triple, shifts[it]) } }
+        val unshifted = shifts.size / 2
+        val usable = opposite.indices.filter { scores[it].all(Double::isFinite) }
+        if (usable.size < FEWEST_LEGS) return null
+        val same = triples(list, reach = 2).associateBy { it.leg }
+        val legScores = usable.map { i ->
+            val leg = opposite[i].leg
+            LegScore(leg + 1, scores[i][unshifted], same[leg]?.let { score(profiles, it, 0.0) } ?: Double.NaN)
+        }
+        val both = legScores.filter { it.same.isFinite() }.takeIf { it.size >= FEWEST_LEGS }
+        return LegMismatch(
+            legs = legs,
+            scores = legScores,
+            binWidth = profiles.binWidth,
+            opposite = estimate(legScores.map { it.opposite }),
+            paired = both?.let { found -> estimate(found.map { it.opposite }) },
+            same = both?.let { found -> estimate(found.map { it.same }) },
+            excess = both?.let { found -> estimate(found.map { it.opposite - it.same }) },
+            shift = shift(shifts, usable.map { scores[it] }),
+        )
+    }
+
+    private fun triples(legs: List<Leg>, reach: Int): List<Triple> = (reach until legs.size - reach).mapNotNull { i ->
+        val middle = legs[i]
+        val window = legs.subList(i - reach, i + reach + 1)
+        val alternating = window.zipWithNext().all { (a, b) -> a.forward != b.forward }
+        val overlap = window.maxOf { it.start }..window.minOf { it.end }
+        val isLong = overlap.endInclusive - overlap.start >= middle.length / 2
+        // Both neighbours must lie about as far away as neighbours usually do.
+        val near = window.zipWithNext().all { (a, b) -> abs(a.across - b.across) <= MOST_SPACINGS * spacing(legs) }
+        Triple(i, window.first(), middle, window.last()).takeIf { alternating && isLong && near }
+    }
+
+    private fun spacing(legs: List<Leg>): Double =
+        Quantiles(legs.zipWithNext { a, b -> abs(a.across - b.across) }.toDoubleArray()).median
+
+    private fun profiles(legs: Legs): LegProfiles {
+        val lengths = Quantiles(legs.legs.map { it.length }.toDoubleArray())
+        val seconds = legs.legs.sumOf { it.seconds }
+        val speed = legs.legs.sumOf { it.length } / seconds
+        val reading = speed * statistics.steps.median * track.stride
+        val width = maxOf(READINGS_A_BIN * reading, lengths.median / BINS_A_LEG)
+        return LegProfiles(track, legs.axis, width, legs.legs.minOf { it.start }, legs.legs.maxOf { it.end })
+    }
+
+    private fun score(profiles: LegProfiles, triple: Triple, lag: Double): Double {
+        val middle = profiles.of(triple.middle, lag)
+        val before = profiles.of(triple.before, lag)
+        val after = profiles.of(triple.after, lag)
+        var sum = 0.0
+        var bins = 0
+        for (i in middle.indices) {
+            val difference = abs(middle[i] - (before[i] + after[i]) / 2)
+            if (difference.isNaN()) continue
+            sum += difference
+            bins++
+        }
+        return if (bins >= FEWEST_BINS) sum / bins else Double.NaN
+    }
+
+    /** Shifts from −limit to limit, s, an odd number with 0 in the middle. */
+    private fun shifts(legs: List<Leg>): DoubleArray {
+        val limit = Quantiles(legs.map { it.seconds }.toDoubleArray()).median * LARGEST_SHIFT
+        val step = maxOf(statistics.steps.median * track.stride / 2, limit / MOST_SHIFTS)
+        val each = (limit / step).toInt().coerceAtLeast(2)
+        return DoubleArray(2 * each + 1) { (it - each) * step }
+    }
+
+    private fun shift(shifts: DoubleArray, scores: List<DoubleArray>): LagShift {
+        val curve = DoubleArray(shifts.size) { s -> scores.sumOf { it[s] } / scores.size }
+        val best = curve.indices.minBy { curve[it] }
+        val random = Random(seed)
+        val found = DoubleArray(RESAMPLES) {
+            val legs = resample(scores.size, random)
+            shifts[shifts.indices.minBy { s -> legs.sumOf { leg -> scores[leg][s] } }]
+        }
+        val interval = Quantiles(found)
+        return LagShift(
+            seconds = shifts[best],
+            low = interval[LOW],
+            high = interval[1 - LOW],
+            mismatch = curve[best],
+            gain = estimate(scores.map { it[shifts.size / 2] - it[best] }),
+            legs = scores.size,
+            limit = shifts.last(),
+            shifts = shifts,
+            curve = curve,
+        )
+    }
+
+    private fun estimate(scores: List<Double>): Estimate {
+        val random = Random(seed)
+        val means = DoubleArray(RESAMPLES) { resample(scores.size, random).sumOf { scores[it] } / scores.size }
+        val mean = means.average()
+        val variance = means.sumOf { (it - mean) * (it - mean) } / (means.size - 1)
+        return Estimate(scores.average(), sqrt(variance))
+    }
+
+    /** [count] indices below [count], in runs of [BLOCK] that go around the end. */
+    private fun resample(count: Int, random: Random): IntArray {
+        val indices = IntArray(count)
+        var start = 0
+        for (i in indices.indices) {
+            if (i % BLOCK == 0) start = random.nextInt(count)
+            indices[i] = (start + i % BLOCK) % count
+        }
+        return indices
+    }
+
+    companion object {
+        /** Legs in a block of the bootstrap. */
+        const val BLOCK = 3
+
+        /** Seed of the bootstrap unless said otherwise. */
+        const val DEFAULT_SEED = 1L
+
+        private const val FEWEST_LEGS = 3
+        private const val FEWEST_BINS = 5
+        private const val MOST_SPACINGS = 3.0
+        private const val READINGS_A_BIN = 3.0
+        private const val BINS_A_LEG = 50.0
+        private const val LARGEST_SHIFT = 1.0 / 6
+        private const val MOST_SHIFTS = 60.0
+        private const val RESAMPLES = 1000
+        private const val LOW = 0.025
+    }
+}
+
+private inline fun IntArray.sumOf(term: (Int) -> Double): Double {
+    var sum = 0.0
+    for (index in this) sum += term(index)
+    return sum
+}

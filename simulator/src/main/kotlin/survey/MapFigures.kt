@@ -1,0 +1,191 @@
+package stillwater.survey
+
+import stillwater.field.FieldMap
+import stillwater.plot.CellMap
+import stillwater.plot.Figure
+import stillwater.plot.Histogram
+import stillwater.plot.LinePlot
+import stillwater.plot.MapCell
+import stillwater.plot.Mark
+import stillwater.plot.Series
+import stillwater.plot.TrackMap
+import kotlin.math.ceil
+import kotlin.math.sqrt
+
+/**
+ * A figure with the name of its files and what it shows.
+ *
+ * @property name name of the files, without ending. @property figure the drawing. @property caption a sentence or two.
+ */
+class MapFigure(val name: String, val figure: Figure, val caption: String)
+
+/**
+ * Draws a [SurveyMap]: the track, each filter's estimate, the width of the bounds, and the legs' comparison.
+ *
+ * Maps of one quantity share one colour scale, from the 1 % to the 99 % quantile of the readings, so that they can be
+ * held side by side and a few outliers do not wash them out.
+ *
+ * @param map what to draw.
+ */
+class MapFigures(private val map: SurveyMap) {
+    private val quantity = map.log.quantity
+    private val where = map.log.file.fileName.toString()
+    private val colours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
+        .takeIf { it.start < it.endInclusive }
+
+    /** All figures, in the order in which a reader wants them. */
+    fun draw(): List<MapFigure> = buildList {
+        add(track())
+        map.maps.forEach { (kind, field) -> add(estimate(kind, field)) }
+        map.maps[FilterKind.BOUNDED]?.let { add(width(it)) }
+        map.mismatch?.let { add(shift(it)) }
+        if (map.statistics.speeds.count > 1) add(speed())
+    }
+
+    private fun track(): MapFigure {
+        if (map.log.oneDimensional) return transect()
+        val every = ceil(map.track.size / MOST_POINTS.toDouble()).toInt().coerceAtLeast(1)
+        val points = (0 until map.track.size step every).toList()
+        val drawing = TrackMap(
+            title = "$quantity along the track",
+            subtitle = where,
+            east = points.doubles { map.track.xs[it] },
+            north = points.doubles { map.track.ys[it] },
+            value = points.doubles { map.track.values[it] },
+            unit = quantity,
+            colours = colours,
+        )
+        return MapFigure("track", drawing.draw(), "Every reading where the boat was when it was taken.")
+    }
+
+    /** Readings over the only coordinate there is, by the way the vehicle went: the gap between the two is the lag. */
+    private fun transect(): MapFigure {
+        val every = ceil(map.track.size / MOST_POINTS.toDouble()).toInt().coerceAtLeast(1)
+        val points = (every until map.track.size step every).toList()
+        val (up, down) = points.partition { map.track.xs[it] >= map.track.xs[it - every] }
+        fun series(name: String, indices: List<Int>) = Series(
+            name,
+            indices.doubles { map.track.xs[it] },
+            indices.doubles { map.track.values[it] },
+            mark = Mark.POINTS,
+        )
+        val drawing = LinePlot(
+            title = "$quantity along the transect",
+            subtitle = where,
+            series = listOf(series("${map.log.xName} rising", up), series("${map.log.xName} falling", down)),
+            xLabel = map.log.xName,
+            yLabel = quantity,
+        )
+        return MapFigure("track", drawing.draw(), "Every reading over ${map.log.xName}, by the way of travel.")
+    }
+
+    private fun estimate(kind: FilterKind, field: FieldMap): MapFigure {
+        val isBounded = kind == FilterKind.BOUNDED
+        val title = "$quantity, ${kind.label} filter"
+        val caption = when {
+            isBounded -> "Midpoint of the bounds in each visited cell; no value where no slope set a bound."
+            kind == FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
+            else -> "Exponential average of the readings in each visited cell."
+        }
+        val value: (Int) -> Double = { if (isBounded && !field.hasBound(it)) Double.NaN else field.value(it) }
+        val figure = if (map.log.oneDimensional) {
+            profile(title, field, value, withBounds = isBounded)
+        } else {
+            CellMap(title, where, cells(field, value), quantity, colours).draw()
+        }
+        return MapFigure("estimate-${kind.label}", figure, caption)
+    }
+
+    private fun width(field: FieldMap): MapFigure {
+        val title = "$quantity, width of the bounds"
+        val width: (Int) -> Double = { field.upper(it) - field.lower(it) }
+        val figure = if (map.log.oneDimensional) {
+            profile(title, field, width, withBounds = false)
+        } else {
+            CellMap(title, where, cells(field, width), quantity).draw()
+        }
+        val caption = "Upper minus lower bound in each visited cell; the range taken for the water is " +
+            "${map.prior.lower} to ${map.prior.upper}. Below 0 where bounds have crossed."
+        return MapFigure("bounds-width", figure, caption)
+    }
+
+    private fun profile(title: String, field: FieldMap, value: (Int) -> Double, withBounds: Boolean): Figure {
+        val cells = (0 until field.grid.size).filter { field.visits(it) > 0 }
+        val series = Series(
+            "",
+            cells.doubles { field.grid.centerX(it) },
+            cells.doubles(value),
+            // Bounds may have crossed.
+            cells.takeIf { withBounds }?.doubles { minOf(field.lower(it), field.upper(it)) },
+            cells.takeIf { withBounds }?.doubles { maxOf(field.lower(it), field.upper(it)) },
+            Mark.LINE_AND_POINTS,
+        )
+        return LinePlot(title, where, listOf(series), map.log.xName, quantity).draw()
+    }
+
+    /** The visited cells, merged into blocks where there are too many to draw. */
+    private fun cells(field: FieldMap, value: (Int) -> Double): List<MapCell> {
+        val grid = field.grid
+        val visited = (0 until grid.size).filter { field.visits(it) > 0 }
+        val side = ceil(sqrt(visited.size / MOST_CELLS.toDouble())).toInt().coerceAtLeast(1)
+        val blocks = visited.groupBy { (it / grid.columns / side) to (it % grid.columns / side) }
+        return blocks.map { (block, members) ->
+            val (row, column) = block
+            val first = grid.center(row * side * grid.columns + column * side)
+            // From the first cell's centre to the block's, along the grid's axes.
+            val along = (side - 1) / 2.0 * grid.cellWidth
+            val across = (side - 1) / 2.0 * grid.cellHeight
+            val c = kotlin.math.cos(grid.rotation)
+            val s = kotlin.math.sin(grid.rotation)
+            val known = members.map(value).filter { it.isFinite() }
+            MapCell.rectangle(
+                centreEast = first.x + c * along - s * across,
+                centreNorth = first.y + s * along + c * across,
+                width = side * grid.cellWidth,
+                height = side * grid.cellHeight,
+                rotation = grid.rotation,
+                value = if (known.isEmpty()) Double.NaN else known.average(),
+            )
+        }
+    }
+
+    private fun shift(mismatch: LegMismatch): MapFigure {
+        val drawing = LinePlot(
+            title = "$quantity: how far opposite legs disagree",
+            subtitle = where,
+            series = listOf(Series("", mismatch.shift.shifts, mismatch.shift.curve)),
+            xLabel = "Readings taken so much earlier (s)",
+            yLabel = "Mean difference ($quantity)",
+        )
+        val caption = "Mean absolute difference between a leg and its two opposite neighbours, if every reading is " +
+            "put where the boat was so many seconds before. A minimum to the right of 0 is a lag."
+        return MapFigure("leg-mismatch", drawing.draw(), caption)
+    }
+
+    private fun speed(): MapFigure {
+        val speeds = map.statistics.speeds
+        // Beyond the 99.9 % quantile lie jumps of the receiver; they are counted in the last bin.
+        val most = speeds[NEARLY_ALL].coerceAtLeast(SLOWEST)
+        val edges = DoubleArray(BINS + 1) { most * it / BINS }
+        val drawing = Histogram(
+            title = "Speed over ground",
+            subtitle = where,
+            edges = edges,
+            counts = speeds.counts(edges),
+            valueLabel = "Speed (m/s)",
+            countLabel = "Stretches of 5 s, or one step",
+        )
+        return MapFigure("speed", drawing.draw(), "Speeds above the axis are in the last bar.")
+    }
+
+    private inline fun List<Int>.doubles(of: (Int) -> Double) = DoubleArray(size) { of(this[it]) }
+
+    private companion object {
+        const val RARE = 0.01
+        const val MOST_POINTS = 4000
+        const val MOST_CELLS = 20_000
+        const val NEARLY_ALL = 0.999
+        const val SLOWEST = 0.01
+        const val BINS = 40
+    }
+}

@@ -1,0 +1,112 @@
+package stillwater.survey
+
+import stillwater.field.FieldMap
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import stillwater.report.CsvTable
+import stillwater.report.GeoCorner
+import stillwater.report.GeoJson
+import stillwater.report.GeoPolygon
+import stillwater.report.OutputDirectory
+import kotlin.math.abs
+
+/**
+ * Writes what a [SurveyMap] gives: cells.csv, cells.geojson, the figures and report.html.
+ *
+ * cells.csv has every cell of every filter, visited or not; one that was never visited has the value and bounds of the
+ * range taken for the water, and 0 visits. cells.geojson has the visited cells only, and is left out for logs without
+ * latitudes, because RFC 7946 knows no other coordinates.
+ *
+ * @param map what to write. @param summary the same in words. @param command the command as typed, for the report.
+ */
+class MapFiles(private val map: SurveyMap, private val summary: MapSummary, private val command: String) {
+    /** Writes all files into [directory], which the caller commits. */
+    fun write(directory: OutputDirectory) {
+        directory.stream("cells.csv") { out ->
+            val table = CsvTable(out, COLUMNS)
+            map.maps.forEach { (kind, field) -> rows(table, kind, field) }
+            // Closing it writes what it has buffered.
+            table.close()
+        }
+        map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
+        val figures = MapFigures(map).draw()
+        for (figure in figures) {
+            directory.write("${figure.name}.svg", figure.figure.svg)
+            directory.write("${figure.name}.png", figure.figure.png())
+        }
+        directory.write("report.html", MapReport(map, summary, figures, command).render())
+    }
+
+    private fun rows(table: CsvTable, kind: FilterKind, field: FieldMap) {
+        val grid = field.grid
+        for (cell in 0 until grid.size) {
+            val center = grid.center(cell)
+            val place = map.log.frame?.toLatLon(center)
+            table.row(
+                kind.label,
+                cell % grid.columns,
+                cell / grid.columns,
+                center.x,
+                center.y,
+                place?.latitudeDeg,
+                place?.longitudeDeg,
+                field.value(cell),
+                field.lower(cell),
+                field.upper(cell),
+                field.visits(cell),
+                field.readings(cell),
+                field.conflicts(cell),
+            )
+        }
+    }
+
+    private fun polygons(frame: LocalFrame): List<GeoPolygon> = map.maps.flatMap { (kind, field) ->
+        (0 until field.grid.size).filter { field.visits(it) > 0 }.map { cell -> polygon(frame, kind, field, cell) }
+    }
+
+    private fun polygon(frame: LocalFrame, kind: FilterKind, field: FieldMap, cell: Int): GeoPolygon {
+        val center = frame.toLatLon(field.grid.center(cell))
+        val corners = field.grid.corners(cell).map { corner -> corner(frame.toLatLon(corner), center) }
+        return GeoPolygon(
+            corners,
+            mapOf(
+                "filter" to kind.label,
+                "quantity" to map.log.quantity,
+                "column" to cell % field.grid.columns,
+                "row" to cell / field.grid.columns,
+                "value" to field.value(cell),
+                "lower" to field.lower(cell),
+                "upper" to field.upper(cell),
+                "visits" to field.visits(cell),
+                "readings" to field.readings(cell),
+                "conflicts" to field.conflicts(cell),
+            ),
+        )
+    }
+
+    /** A cell on the date line is cut there, or its outline would go around the globe. */
+    private fun corner(place: LatLon, center: LatLon): GeoCorner {
+        val beyond = abs(place.longitudeDeg - center.longitudeDeg) > HALF_TURN
+        val longitude = if (beyond) (if (center.longitudeDeg > 0) HALF_TURN else -HALF_TURN) else place.longitudeDeg
+        return GeoCorner(longitude, place.latitudeDeg)
+    }
+
+    private companion object {
+        const val HALF_TURN = 180.0
+        val COLUMNS = listOf(
+            "filter",
+            "column",
+            "row",
+            "x_m",
+            "y_m",
+            "lat_deg",
+            "lon_deg",
+            "value",
+            "lower",
+            "upper",
+            "visits",
+            "readings",
+            "conflicts",
+        )
+    }
+}

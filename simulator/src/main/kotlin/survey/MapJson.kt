@@ -1,0 +1,127 @@
+package stillwater.survey
+
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonElement
+import kotlinx.serialization.json.JsonNull
+import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.JsonObjectBuilder
+import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.buildJsonArray
+import kotlinx.serialization.json.buildJsonObject
+import kotlinx.serialization.json.put
+import kotlinx.serialization.json.putJsonObject
+import java.nio.file.Path
+
+/** A [SurveyMap] for machines; numbers unrounded, null where there is none. */
+object MapJson {
+    private val format = Json { prettyPrint = true }
+
+    /** The JSON text about [map] and the [files] written. */
+    fun text(map: SurveyMap, files: List<Path>): String = format.encodeToString(JsonObject.serializer(), of(map, files))
+
+    private fun of(map: SurveyMap, files: List<Path>) = buildJsonObject {
+        put("log", map.log.file.toString())
+        put("format", map.log.format)
+        put("quantity", map.log.quantity)
+        put("readings", map.pass.readings)
+        putJsonObject("skipped") { map.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
+        statistics(map)
+        putJsonObject("grid") {
+            put("columns", map.grid.columns)
+            put("rows", map.grid.rows)
+            put("cell_width_m", map.grid.cellWidth)
+            put("cell_height_m", map.grid.cellHeight)
+            put("rotation_deg", Math.toDegrees(map.grid.rotation))
+            put("cells_visited", map.passes.visitedCells)
+            put("cells_revisited", map.passes.revisitedCells)
+        }
+        map.log.frame?.let { frame ->
+            putJsonObject("origin") {
+                put("lat_deg", frame.origin.latitudeDeg)
+                put("lon_deg", frame.origin.longitudeDeg)
+            }
+        }
+        putJsonObject("prior") {
+            put("lower", map.prior.lower)
+            put("upper", map.prior.upper)
+        }
+        map.bounded?.let { put("epsilon_per_s", it.epsilon) }
+        map.calibration?.let { calibration ->
+            putJsonObject("calibration") {
+                put("from_s", calibration.stretch.from)
+                put("to_s", calibration.stretch.to)
+                put("slopes", calibration.slopes)
+            }
+        }
+        putJsonObject("filters") {
+            map.maps.forEach { (kind, field) ->
+                putJsonObject(kind.label) {
+                    put("outside", field.outside)
+                    put("rejected", field.rejected)
+                    put("conflicts", (0 until field.grid.size).sumOf { field.conflicts(it).toLong() })
+                }
+            }
+        }
+        legs(map)
+        putJsonObject("cell_passes") {
+            put("opposite_pairs", map.passes.opposite.pairs)
+            put("opposite_mean_difference", number(map.passes.opposite.meanDifference))
+            put("same_pairs", map.passes.same.pairs)
+            put("same_mean_difference", number(map.passes.same.meanDifference))
+        }
+        put("files", buildJsonArray { files.forEach { add(JsonPrimitive(it.toString())) } })
+    }
+
+    private fun JsonObjectBuilder.statistics(map: SurveyMap) = putJsonObject("statistics") {
+        val statistics = map.statistics
+        put("duration_s", statistics.duration)
+        quantiles("step_s", statistics.steps)
+        put("gaps", map.gaps)
+        put("gap_limit_s", number(statistics.gapLimit))
+        put("longest_step_s", statistics.longestStep)
+        put("repeated_fixes_share", statistics.repeatedFixes)
+        put("repeated_values_share", statistics.repeatedValues)
+        quantiles("speed_mps", statistics.speeds)
+        put("way_m", statistics.distance)
+        put("position_jumps", statistics.jumps)
+        put("lowest", statistics.lowest)
+        put("highest", statistics.highest)
+        put("median", statistics.values.median)
+        put("resolution", number(statistics.resolution))
+    }
+
+    private fun JsonObjectBuilder.quantiles(name: String, quantiles: Quantiles) = putJsonObject(name) {
+        put("p5", number(quantiles[0.05]))
+        put("median", number(quantiles.median))
+        put("p95", number(quantiles[0.95]))
+        put("max", number(quantiles[1.0]))
+    }
+
+    private fun JsonObjectBuilder.legs(map: SurveyMap) = putJsonObject("legs") {
+        put("found", map.legs.legs.size)
+        val mismatch = map.mismatch ?: return@putJsonObject
+        put("axis_deg", Math.toDegrees(map.legs.axis))
+        put("compared", mismatch.scores.size)
+        put("bin_width_m", mismatch.binWidth)
+        estimate("opposite_mismatch", mismatch.opposite)
+        estimate("same_direction_mismatch", mismatch.same)
+        estimate("opposite_minus_same", mismatch.excess)
+        putJsonObject("best_shift") {
+            put("earlier_by_s", mismatch.shift.seconds)
+            put("low_s", mismatch.shift.low)
+            put("high_s", mismatch.shift.high)
+            put("mismatch", mismatch.shift.mismatch)
+            put("clear", mismatch.shift.isClear)
+        }
+    }
+
+    private fun JsonObjectBuilder.estimate(name: String, estimate: Estimate?) {
+        if (estimate == null) return
+        putJsonObject(name) {
+            put("mean", estimate.mean)
+            put("standard_error", estimate.standardError)
+        }
+    }
+
+    private fun number(value: Double): JsonElement = if (value.isFinite()) JsonPrimitive(value) else JsonNull
+}

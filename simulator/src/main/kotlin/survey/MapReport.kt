@@ -1,0 +1,116 @@
+package stillwater.survey
+
+import stillwater.report.HtmlReport
+import stillwater.report.Provenance
+import stillwater.report.SignificantDigits
+import stillwater.report.Table
+
+/**
+ * The page about a [SurveyMap].
+ *
+ * @param map what it is about. @param summary the same in words. @param figures its figures. @param command as typed.
+ */
+internal class MapReport(
+    private val map: SurveyMap,
+    private val summary: MapSummary,
+    private val figures: List<MapFigure>,
+    command: String,
+) {
+    private val page = HtmlReport(
+        title = "Map of ${map.log.quantity}",
+        subtitle = "${map.log.file.fileName}, ${map.log.format}",
+        provenance = Provenance(version(), command, LegComparison.DEFAULT_SEED),
+    )
+
+    /** The page's text. */
+    fun render(): String {
+        page.summary("Readings", "${map.pass.readings}")
+        summary.facts.filter { it.first in HEADLINES }.forEach { (name, value) -> page.summary(name, value) }
+        summary.warnings.forEach(page::warning)
+        for (figure in figures.filter { it.name !in LATER }) {
+            page.section(figure.figure.title) { figure(figure.figure, figure.caption) }
+        }
+        page.section("Do opposite passes agree?") { legs() }
+        page.section("The log") {
+            keyValues(summary.facts)
+            figures.firstOrNull { it.name == "speed" }?.let { figure(it.figure, it.caption) }
+        }
+        page.section("How it was made") { HOW.forEach(::paragraph) }
+        return page.render()
+    }
+
+    private fun stillwater.report.ReportSection.legs() {
+        val mismatch = map.mismatch
+        if (mismatch == null) {
+            paragraph(
+                "This log has ${map.legs.legs.size} straight legs, too few with neighbours in the opposite direction " +
+                    "to compare: the lag cannot be seen in it this way.",
+            )
+            return
+        }
+        paragraph(
+            "A slow sensor drags old water along, so that passes in opposite directions disagree. " +
+                "${mismatch.scores.size} of ${map.legs.legs.size} legs have a neighbour in the opposite direction on " +
+                "either side; they differ from the mean of the two by ${summary.estimate(mismatch.opposite)} " +
+                "(mean absolute difference in bins of ${SignificantDigits(2).format(mismatch.binWidth)} m, and its " +
+                "standard error). The water's own change from leg to leg is in this number.",
+        )
+        val same = mismatch.same
+        val paired = mismatch.paired
+        val excess = mismatch.excess
+        if (same != null && paired != null && excess != null) {
+            paragraph(
+                "To hold against: legs in the same direction, which share the lag but lie twice as far apart, differ " +
+                    "by ${summary.estimate(same)}; the same legs differ from their opposite neighbours by " +
+                    "${summary.estimate(paired)}. Opposite minus same, leg by leg: ${summary.estimate(excess)}. " +
+                    "Above 0 it is lag; below 0 the water changes too much from leg to leg to tell.",
+            )
+        }
+        paragraph(
+            "Shift in time: ${summary.shift(mismatch.shift)}. This is a diagnostic, not a model: a dead time, " +
+                "a time constant and a late clock or receiver all look alike here.",
+        )
+        figures.firstOrNull { it.name == "leg-mismatch" }?.let { figure(it.figure, it.caption) }
+        details("Leg by leg") {
+            table(
+                Table.of(mismatch.scores) {
+                    count("Leg") { it.number.toLong() }
+                    text("Direction") { score -> direction(map.legs.legs[score.number - 1]) }
+                    number("Length (m)") { score -> map.legs.legs[score.number - 1].length }
+                    number("Opposite neighbours differ by") { it.opposite }
+                    number("Same-direction ones by") { it.same }
+                },
+            )
+        }
+    }
+
+    private fun direction(leg: Leg): String {
+        if (map.log.oneDimensional) return if (leg.forward) "rising" else "falling"
+        val heading = Math.toDegrees(map.legs.axis) + if (leg.forward) 0.0 else HALF_TURN
+        val compass = (QUARTER_TURN - heading).mod(2 * HALF_TURN)
+        return "${Math.round(compass) % (2 * HALF_TURN).toInt()}°"
+    }
+
+    private fun version() = MapReport::class.java.`package`.implementationVersion ?: "of a development build"
+
+    private companion object {
+        const val HALF_TURN = 180.0
+        const val QUARTER_TURN = 90.0
+        val LATER = setOf("leg-mismatch", "speed")
+        val HEADLINES = setOf("duration", "values", "grid", "opposite legs disagree by", "best shift")
+        val HOW = listOf(
+            "Positions are metres east and north of the first fix on the plane tangent to the WGS-84 ellipsoid there. " +
+                "The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way the boat makes in " +
+                "ten readings and the mean distance between tracks (area by length of track), with 10 to 100 cells " +
+                "along the longer side.",
+            "The range taken for the water is that of the readings and a tenth of it more either way, because a slow " +
+                "sensor falls short of the water's extremes.",
+            "The averaging filter gives the mean of a cell's readings. The bounded filter takes a rising sensor's " +
+                "reading as a lower bound and a falling one's as an upper bound, if the slope over a window of " +
+                "medians exceeds epsilon; its value is the midpoint. Its bounds hold for a first-order sensor without " +
+                "noise in water that does not change within a cell; conflicts show where they do not.",
+            "Epsilon is the 99 % quantile of how far slopes are from their median over the stretch of the log where " +
+                "that is smallest, unless a stretch or a number was given.",
+        )
+    }
+}

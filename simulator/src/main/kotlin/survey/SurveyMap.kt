@@ -1,0 +1,179 @@
+package stillwater.survey
+
+import stillwater.estimate.BoundedFilterSettings
+import stillwater.estimate.CrossingPolicy
+import stillwater.estimate.EpsilonCalibration
+import stillwater.field.FieldMap
+import stillwater.io.LogPass
+import stillwater.io.LogProblem
+import stillwater.io.SurveyLog
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+
+/**
+ * How to make maps out of a log; what is null is chosen from the log.
+ *
+ * @property filters filters to run, each once, in this order.
+ * @property grid wishes about the grid.
+ * @property prior range of the field, sensor units.
+ * @property epsilon smallest slope that counts as one, sensor units/s.
+ * @property calibrate stretch to find epsilon on, where [epsilon] is null; null for the quietest.
+ * @property medianWindow samples in the median window.
+ * @property slopeWindow medians in the slope window.
+ * @property crossing what happens when bounds cross.
+ * @property clearOnEntry whether the windows are emptied on entering a cell.
+ */
+data class MapSettings(
+    val filters: List<FilterKind> = FilterKind.entries,
+    val grid: GridWish = GridWish(),
+    val prior: Interval? = null,
+    val epsilon: Double? = null,
+    val calibrate: Stretch? = null,
+    val medianWindow: Int = 3,
+    val slopeWindow: Int = 5,
+    val crossing: CrossingPolicy = CrossingPolicy.PLAIN,
+    val clearOnEntry: Boolean = true,
+)
+
+/**
+ * A log turned into maps, with all that was found out on the way.
+ *
+ * @property log the log. @property pass what reading it came to. @property statistics what it looks like.
+ * @property track its track, thinned. @property grid the grid. @property prior range of the field taken.
+ * @property calibration how epsilon was found, or null where it was given or nobody needed it.
+ * @property bounded settings of the bounded filter, or null where it did not run.
+ * @property maps the filters' maps, in the order asked for.
+ * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
+ * @property legs the straight legs. @property mismatch their comparison, or null where there is too little.
+ */
+class SurveyMap internal constructor(
+    val log: SurveyLog,
+    val pass: LogPass,
+    val statistics: SurveyStatistics,
+    val track: Track,
+    val grid: Grid,
+    val prior: Interval,
+    val calibration: Calibration?,
+    val bounded: BoundedFilterSettings?,
+    val maps: Map<FilterKind, FieldMap>,
+    val gaps: Long,
+    val passes: CellPasses,
+    val legs: Legs,
+    val mismatch: LegMismatch?,
+) {
+    companion object {
+        private const val PRIOR_MARGIN = 0.1
+
+        /**
+         * Reads [log] twice: once to see what it is, once into the filters.
+         *
+         * @param progress told how many bytes of the two readings are done.
+         * @throws LogProblem if the log cannot be used.
+         */
+        fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap {
+            val scan = SurveyScan()
+            val epsilon = EpsilonSearch(settings)
+            var bytes = 0L
+            val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, value, conditions ->
+                scan.take(time, x, y, value, conditions)
+                epsilon.add(time.seconds, value)
+            }
+            if (first.readings < 2) {
+                val skipped = first.skipped.entries.joinToString("") { "; ${it.value} ${it.key}" }
+                val found = first.readings.toString() + skipped
+                throw LogProblem(log.file, null, null, "at least 2 readings of ${log.quantity}", found)
+            }
+            val statistics = scan.statistics()
+            val track = scan.track()
+            val calibration = epsilon.calibration(log)
+            val grid = GridChoice(statistics, track).grid(settings.grid)
+            val prior = settings.prior ?: prior(statistics)
+            val bounded = boundedSettings(settings, calibration)
+            val estimators = settings.filters.associateWith {
+                it.estimator(grid, prior, bounded ?: BoundedFilterSettings(epsilon = 0.0))
+            }
+            val running = estimators.values.toTypedArray()
+            val passes = CellPasses(grid)
+            val gaps = GapCount(statistics.gapLimit)
+            val pass = log.read({ progress(bytes + it) }) { time, x, y, value, _ ->
+                for (estimator in running) estimator.update(time, x, y, value, Conditions.NONE)
+                passes.add(x, y, value)
+                gaps.add(time.seconds)
+            }
+            passes.finish()
+            val legs = LegFinder(statistics).find(track)
+            return SurveyMap(
+                log,
+                pass,
+                statistics,
+                track,
+                grid,
+                prior,
+                calibration,
+                bounded,
+                estimators.mapValues { it.value.map },
+                gaps.count,
+                passes,
+                legs,
+                LegComparison(statistics, track).compare(legs),
+            )
+        }
+
+        private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = BoundedFilterSettings(
+            epsilon = settings.epsilon ?: calibration?.epsilon ?: 0.0,
+            medianWindow = settings.medianWindow,
+            slopeWindow = settings.slopeWindow,
+            clearOnEntry = settings.clearOnEntry,
+            crossing = settings.crossing,
+        ).takeIf { FilterKind.BOUNDED in settings.filters }
+
+        /** The readings' range and a tenth of it more either way: a slow sensor falls short of the water's extremes. */
+        private fun prior(statistics: SurveyStatistics): Interval {
+            val span = statistics.highest - statistics.lowest
+            val margin = if (span > 0) PRIOR_MARGIN * span else 0.5
+            return Interval(statistics.lowest - margin, statistics.highest + margin)
+        }
+    }
+}
+
+/** Counts silences longer than [limit] s. */
+private class GapCount(private val limit: Double) {
+    var count = 0L
+        private set
+    private var last = Double.NaN
+
+    fun add(seconds: Double) {
+        if (seconds - last > limit) count++
+        last = seconds
+    }
+}
+
+/** Finds epsilon on the first reading of a log where [settings] ask for it. */
+private class EpsilonSearch(private val settings: MapSettings) {
+    private val isNeeded = settings.epsilon == null && FilterKind.BOUNDED in settings.filters
+    private val quietest = QuietestStretch(settings.medianWindow, settings.slopeWindow)
+    private val chosen = EpsilonCalibration(settings.medianWindow, settings.slopeWindow)
+    private var start = Double.NaN
+
+    fun add(seconds: Double, value: Double) {
+        if (!isNeeded) return
+        if (start.isNaN()) start = seconds
+        val stretch = settings.calibrate
+        if (stretch == null) {
+            quietest.add(seconds, value)
+        } else if (seconds - start in stretch.from..stretch.to) {
+            chosen.add(seconds, value)
+        }
+    }
+
+    fun calibration(log: SurveyLog): Calibration? {
+        val stretch = settings.calibrate
+        if (!isNeeded || stretch == null) return if (isNeeded) quietest.calibration() else null
+        if (chosen.slopes == 0) {
+            val expected = "--calibrate with at least ${settings.medianWindow + settings.slopeWindow - 1} readings"
+            throw LogProblem(log.file, null, null, expected, "fewer within ${stretch.from}:${stretch.to} s")
+        }
+        return Calibration(chosen.epsilon(), stretch, chosen.slopes)
+    }
+}

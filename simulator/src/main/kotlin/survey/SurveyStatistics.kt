@@ -1,0 +1,56 @@
+package stillwater.survey
+
+/**
+ * A stretch of a log.
+ *
+ * @property from start, s after the first reading.
+ * @property to end, s after the first reading, above [from].
+ */
+data class Stretch(val from: Double, val to: Double)
+
+/**
+ * What a log looks like: how often, how regular, how fast, how fine. Medians and quantiles of long logs rest on an
+ * even sample of at most 2^18 steps; counts and extremes are exact.
+ *
+ * @property readings number of readings.
+ * @property startTime time of the first reading on the log's clock, s.
+ * @property duration time from first to last reading, s.
+ * @property steps quantiles of the time between readings, s.
+ * @property longestStep longest time between two readings, s.
+ * @property speeds quantiles of the speed over ground, taken over stretches of 5 s or one step, m/s.
+ * @property distance length of the track, from fixes at least 5 s or one step apart, m.
+ * @property repeatedFixes share of readings at exactly the position of the one before, 0 to 1.
+ * @property repeatedValues share of readings with exactly the value of the one before, 0 to 1.
+ * @property jumps steps over more than 10 m that would need more than 20 m/s.
+ * @property west smallest x, m. @property east largest x, m. @property south smallest y, m. @property north largest y, m.
+ * @property lowest smallest value, sensor units. @property highest largest value, sensor units.
+ * @property values quantiles of the values, sensor units.
+ * @property resolution step in which values are rounded, sensor units; NaN where there is none.
+ */
+class SurveyStatistics internal constructor(
+    val readings: Long,
+    val startTime: Double,
+    val duration: Double,
+    val steps: Quantiles,
+    val longestStep: Double,
+    val speeds: Quantiles,
+    val distance: Double,
+    val repeatedFixes: Double,
+    val repeatedValues: Double,
+    val jumps: Long,
+    val west: Double,
+    val east: Double,
+    val south: Double,
+    val north: Double,
+    val lowest: Double,
+    val highest: Double,
+    val values: Quantiles,
+    val resolution: Double,
+) {
+    /** Time above which the silence between two readings is a gap: five median steps, s. */
+    val gapLimit: Double get() = GAP_STEPS * steps.median
+
+    private companion object {
+        const val GAP_STEPS = 5
+    }
+}

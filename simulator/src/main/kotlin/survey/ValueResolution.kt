@@ -1,0 +1,36 @@
+package stillwater.survey
+
+import kotlin.math.abs
+import kotlin.math.roundToLong
+
+/** The step in which a sensor or its log rounds its values. */
+internal object ValueResolution {
+    private const val FEWEST_STEPS = 3
+    private const val ON_THE_STEP = 0.98
+    private const val TOLERANCE = 0.05
+    private const val DIGITS = 1e-9
+
+    /**
+     * The step of which (nearly) all differences between [values] are multiples, sensor units; NaN where there is none
+     * or there are too few different values to tell.
+     */
+    fun of(values: DoubleArray): Double {
+        val sorted = values.copyOf().apply { sort() }
+        if (sorted.isEmpty()) return Double.NaN
+        val smallest = maxOf(abs(sorted.first()), abs(sorted.last())) * DIGITS
+        val steps = (1 until sorted.size).map { sorted[it] - sorted[it - 1] }.filter { it > smallest }.sorted()
+        if (steps.size < FEWEST_STEPS) return Double.NaN
+        val step = steps.first()
+        val matching = steps.count { gap ->
+            val multiple = gap / step
+            abs(multiple - multiple.roundToLong()) <= TOLERANCE
+        }
+        // Distinct values that lie as close as those of a continuous quantity would are no grid.
+        val places = (sorted.last() - sorted.first()) / step
+        val isGrid = matching >= ON_THE_STEP * steps.size && places <= steps.size * MOST_PLACES_A_VALUE
+        // Rounding noise goes: 0.010000000000000009 is 0.01.
+        return if (isGrid) "%.6g".format(java.util.Locale.ROOT, step).toDouble() else Double.NaN
+    }
+
+    private const val MOST_PLACES_A_VALUE = 1000.0
+}
