@@ -21,7 +21,7 @@ import stillwater.model.Interval
 import stillwater.plot.FigureException
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
-import stillwater.survey.FilterKind
+import stillwater.run.FilterKind
 import stillwater.survey.GridWish
 import stillwater.survey.MapFiles
 import stillwater.survey.MapJson
@@ -146,7 +146,9 @@ class MapCommand : CliktCommand("map") {
 
     private fun read(opened: SurveyLog, file: Path): SurveyMap {
         // Every byte is read twice.
-        return ReadingProgress(terminal, "reading", 2 * Files.size(file), shown = !quiet).use { progress ->
+        val bytes = 2 * Files.size(file)
+        val shown = !quiet && bytes >= WORTH_SHOWING
+        return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
             try {
                 SurveyMap.of(opened, settings(), progress::advance)
             } catch (unfit: IllegalArgumentException) {
@@ -193,6 +195,8 @@ class MapCommand : CliktCommand("map") {
     private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)
 
     private companion object {
+        /** Smaller files are done before a bar can be read, bytes. */
+        const val WORTH_SHOWING = 8_000_000L
         const val LONGEST_WINDOW = 999
         const val MOST_CELLS = 16e6
     }

@@ -112,11 +112,15 @@ internal class CsvSurvey private constructor(
                 ?: numberProblem(row, EAST, eastColumn)
                 ?: numberProblem(row, VALUE, columns.value)
                 ?: conditionProblem(row)
-                ?: if (inDegrees) rangeProblem(row) else null
-                ?: when {
-                    time > lastSeconds -> null
-                    time < lastSeconds -> timeProblem(row, "times going back")
-                    else -> timeProblem(row, "duplicate times")
+                ?: if (inDegrees) {
+                    rangeProblem(row)
+                } else {
+                    null
+                        ?: when {
+                            time > lastSeconds -> null
+                            time < lastSeconds -> timeProblem(row, "times going back")
+                            else -> timeProblem(row, "duplicate times")
+                        }
                 }
         }
 

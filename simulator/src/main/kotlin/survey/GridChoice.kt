@@ -114,7 +114,13 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         val width = sideFor(extent.width, columns)
         val height = sideFor(extent.height, rows)
         // A transect has no height (or width) of its own: square cells.
-        val cellWidth = if (width > 0) width else if (height > 0) height else 1.0
+        val cellWidth = if (width > 0) {
+            width
+        } else if (height > 0) {
+            height
+        } else {
+            1.0
+        }
         val cellHeight = if (height > 0) height else cellWidth
         val left = (extent.left + extent.right - columns * cellWidth) / 2
         val bottom = (extent.bottom + extent.top - rows * cellHeight) / 2

@@ -8,6 +8,7 @@ import stillwater.report.GeoCorner
 import stillwater.report.GeoJson
 import stillwater.report.GeoPolygon
 import stillwater.report.OutputDirectory
+import stillwater.run.FilterKind
 import kotlin.math.abs
 
 /**

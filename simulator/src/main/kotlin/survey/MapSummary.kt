@@ -2,6 +2,7 @@ package stillwater.survey
 
 import stillwater.field.FieldMap
 import stillwater.report.SignificantDigits
+import stillwater.run.FilterKind
 import java.util.Locale
 
 /**
@@ -22,7 +23,15 @@ class MapSummary(private val map: SurveyMap) {
         add("gaps" to gaps())
         add("repeated fixes" to percent(statistics.repeatedFixes))
         add("repeated values" to percent(statistics.repeatedValues))
-        add("speed" to if (statistics.speeds.count == 0) "log too short to tell" else "${spread(statistics.speeds)} m/s")
+        add(
+            "speed" to if (statistics.speeds.count ==
+                0
+            ) {
+                "log too short to tell"
+            } else {
+                "${spread(statistics.speeds)} m/s"
+            },
+        )
         add("way" to "${digits(statistics.distance)} m")
         add("values" to values())
         add("grid" to grid())
@@ -81,7 +90,9 @@ class MapSummary(private val map: SurveyMap) {
     }
 
     private fun values() = buildString {
-        append("${digits(statistics.lowest)} to ${digits(statistics.highest)}, median ${digits(statistics.values.median)}")
+        append(
+            "${digits(statistics.lowest)} to ${digits(statistics.highest)}, median ${digits(statistics.values.median)}",
+        )
         if (!statistics.resolution.isNaN()) append(", in steps of ${digits(statistics.resolution)}")
     }
 
@@ -119,7 +130,11 @@ class MapSummary(private val map: SurveyMap) {
         }
         val opposite = map.passes.opposite
         val same = map.passes.same
-        if (opposite.pairs > 0) add("opposite passes of a cell" to "${digits(opposite.meanDifference)} (${opposite.pairs})")
+        if (opposite.pairs >
+            0
+        ) {
+            add("opposite passes of a cell" to "${digits(opposite.meanDifference)} (${opposite.pairs})")
+        }
         if (same.pairs > 0) add("same-way passes of a cell" to "${digits(same.meanDifference)} (${same.pairs})")
     }
 

@@ -10,6 +10,7 @@ import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
+import stillwater.run.FilterKind
 
 /**
  * How to make maps out of a log; what is null is chosen from the log.
