@@ -92,14 +92,16 @@ internal class Axes private constructor(
             val xs = Extent()
             val ys = Extent()
             val band = Extent()
-            for (stroke in strokes) for (i in stroke.x.indices) {
-                if (!shows(stroke.x[i], x)) continue
-                if (shows(stroke.y[i], y)) {
-                    xs.add(stroke.x[i])
-                    ys.add(stroke.y[i])
+            for (stroke in strokes) {
+                for (i in stroke.x.indices) {
+                    if (!shows(stroke.x[i], x)) continue
+                    if (shows(stroke.y[i], y)) {
+                        xs.add(stroke.x[i])
+                        ys.add(stroke.y[i])
+                    }
+                    if (shows(stroke.lower[i], y)) band.add(stroke.lower[i])
+                    if (shows(stroke.upper[i], y)) band.add(stroke.upper[i])
                 }
-                if (shows(stroke.lower[i], y)) band.add(stroke.lower[i])
-                if (shows(stroke.upper[i], y)) band.add(stroke.upper[i])
             }
             if (xs.isEmpty) return null
             val foot = if (y == AxisScale.LOG10) maxOf(band.from, ys.from / BELOW) else band.from

@@ -1,6 +1,7 @@
 package stillwater.plot
 
 import org.jetbrains.letsPlot.geom.geomPolygon
+import org.jetbrains.letsPlot.intern.layer.geom.PolygonMapping
 import org.jetbrains.letsPlot.letsPlot
 import org.jetbrains.letsPlot.sampling.samplingNone
 import kotlin.math.cos
@@ -68,26 +69,49 @@ public class CellMap(
     override fun draw(): Figure {
         if (cells.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no cells")
         val frame = MapFrame.around(cells.map { it.east }, cells.map { it.north }, MARGIN)
-        val unknown = cells.count { !it.value.isFinite() }
-        val note = if (unknown > 0) "grey: no value ($unknown of ${cells.size} cells)" else ""
-        val scale = ColourScale.of(cells.map { it.value }, colours)
-        val corner = cells.flatMap { cell -> List(cell.east.size) { cell } }
-        val plot = letsPlot(
-            mapOf(
-                "east" to cells.flatMap { it.east.asList() },
-                "north" to cells.flatMap { it.north.asList() },
-                "cell" to cells.flatMapIndexed { index, cell -> List(cell.east.size) { index } },
-                "value" to corner.map { scale.place(it.value) },
-            ),
-        ) { x = "east"; y = "north"; group = "cell" } +
-            // An outline in the cell's own colour closes the hairlines between neighbours.
-            geomPolygon(size = 0.25, sampling = samplingNone) { fill = "value"; color = "value" } +
-            scale.fill(unit, frame.isFlat) + scale.colour(unit, flat = null) + frame.axes()
+        val (known, unknown) = cells.partition { !it.value.isNaN() }
+        val note = if (unknown.isEmpty()) "" else "grey: no value (${unknown.size} of ${cells.size} cells)"
+        var plot = letsPlot() + frame.axes()
+        // The library draws no scale for nothing but missing values, so the cells without one are a layer of their own.
+        if (unknown.isNotEmpty()) {
+            plot += geomPolygon(
+                outlines(unknown),
+                size = OUTLINE,
+                fill = Palette.ABSENT,
+                color = Palette.ABSENT,
+                sampling = samplingNone,
+            ) { outline() }
+        }
+        if (known.isNotEmpty()) {
+            val scale = ColourScale.of(known.map { it.value }, colours)
+            val values = known.flatMap { cell -> List(cell.east.size) { scale.place(cell.value) } }
+            plot += geomPolygon(outlines(known) + ("value" to values), size = OUTLINE, sampling = samplingNone) {
+                outline()
+                fill = "value"
+                color = "value"
+            }
+            plot += scale.fill(unit, frame.isFlat) + scale.colour(unit, flat = null)
+        }
         val below = listOf(subtitle, note).filter { it.isNotEmpty() }.joinToString("; ")
         return frame.sheet(title, below).figure(plot, frame.legend())
     }
 
+    private fun outlines(shown: List<MapCell>): Map<String, List<Any?>> = mapOf(
+        "east" to shown.flatMap { it.east.asList() },
+        "north" to shown.flatMap { it.north.asList() },
+        "cell" to shown.flatMapIndexed { index, cell -> List(cell.east.size) { index } },
+    )
+
+    private fun PolygonMapping.outline() {
+        x = "east"
+        y = "north"
+        group = "cell"
+    }
+
     private companion object {
         const val MARGIN = 0.03
+
+        /** An outline in the cell's own colour closes the hairlines between neighbours. */
+        const val OUTLINE = 0.25
     }
 }

@@ -22,7 +22,11 @@ public fun List<Drawing>.drawAll(png: Boolean = false): List<Figure> {
         Thread(task, "figure").apply { isDaemon = true }
     }
     try {
-        return workers.invokeAll(map { Callable { it.draw().also { figure -> if (png) figure.png() } } }).map { it.get() }
+        return workers.invokeAll(
+            map {
+                Callable { it.draw().also { figure -> if (png) figure.png() } }
+            },
+        ).map { it.get() }
     } catch (failed: ExecutionException) {
         throw failed.cause ?: failed
     } finally {

@@ -67,7 +67,10 @@ public class ErrorCurves(
         val planners = curves.map { it.planner }.distinct()
         val filters = curves.map { it.filter }.distinct()
         val colours = planners.indices.map(Palette::of)
-        val plot = letsPlot(table.columns) { x = StrokeTable.X; group = StrokeTable.PART } +
+        val plot = letsPlot(table.columns) {
+            x = StrokeTable.X
+            group = StrokeTable.PART
+        } +
             geomRibbon(alpha = 0.14, size = 0, showLegend = false, sampling = samplingNone) {
                 ymin = StrokeTable.LOWER
                 ymax = StrokeTable.UPPER

@@ -85,7 +85,14 @@ public class Histogram(
             val width = (high / bins - low / bins).takeIf { low + it > low && high - it < high }
             if (width == null) {
                 val room = maxOf(Math.ulp(low) * ROOM, ROOM_AROUND_CONSTANT * Math.abs(low)).takeIf { it > 0 } ?: 1.0
-                return Histogram(title, subtitle, doubleArrayOf(low - room, high + room), longArrayOf(finite.size.toLong()), valueLabel, countLabel)
+                return Histogram(
+                    title,
+                    subtitle,
+                    doubleArrayOf(low - room, high + room),
+                    longArrayOf(finite.size.toLong()),
+                    valueLabel,
+                    countLabel,
+                )
             }
             val edges = DoubleArray(bins + 1) { if (it == bins) high else low + it * width }
             val counts = LongArray(bins)

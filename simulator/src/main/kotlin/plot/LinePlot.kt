@@ -68,7 +68,10 @@ public class LinePlot(
         val points = strokes.filter { it.first.mark != Mark.LINE }.map { it.second }
         var plot = letsPlot() + scaleColorManual(colours, name = "", limits = names, guide = guide(names)) +
             scaleFillManual(colours, limits = names, guide = "none") + axes.scales(xLabel, yLabel)
-        for (level in references.filter(axes::showsY)) plot += geomHLine(yintercept = level, color = Palette.AXIS, size = 0.8)
+        for (level in references.filter(axes::showsY)) {
+            plot +=
+                geomHLine(yintercept = level, color = Palette.AXIS, size = 0.8)
+        }
         if (strokes.any { it.first.lower != null }) plot += bands(strokes.map { it.second.on(axes) })
         if (lines.isNotEmpty()) plot += lines(lines)
         if (points.isNotEmpty()) plot += points(points.map { it.visible(axes) })

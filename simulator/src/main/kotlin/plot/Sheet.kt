@@ -36,7 +36,11 @@ internal class Sheet(val title: String, val subtitle: String, val width: Int, va
     /** A figure that says why it shows no data. */
     fun empty(reason: String): Figure {
         val plot = letsPlot(mapOf("x" to listOf(0.0), "y" to listOf(0.0), "label" to listOf(reason))) +
-            geomText(stat = Stat.identity, size = 7, color = Palette.MUTED) { x = "x"; y = "y"; label = "label" } +
+            geomText(stat = Stat.identity, size = 7, color = Palette.MUTED) {
+                x = "x"
+                y = "y"
+                label = "label"
+            } +
             scaleXContinuous(name = " ") + scaleYContinuous(name = " ")
         return figure(plot, bare())
     }

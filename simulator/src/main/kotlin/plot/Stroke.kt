@@ -17,17 +17,7 @@ internal class Stroke(
 ) {
     /** What of this stroke can be drawn on [axes], thinned to what the eye can tell apart. */
     fun on(axes: Axes): Stroke {
-        val kept = ArrayList<Int>()
-        var last = Double.NaN
-        for (i in x.indices) {
-            if (!axes.showsX(x[i])) continue
-            val place = axes.placeX(x[i])
-            val needed = last.isNaN() || place - last >= Axes.SMALLEST_STEP || place < last
-            if (needed || i == x.lastIndex) {
-                kept += i
-                last = place
-            }
-        }
+        val kept = thinned(axes)
         return Stroke(
             x = DoubleArray(kept.size) { x[kept[it]] },
             y = DoubleArray(kept.size) { k -> y[kept[k]].takeIf(axes::showsY) ?: Double.NaN },
@@ -36,6 +26,34 @@ internal class Stroke(
             colour = colour,
             line = line,
         )
+    }
+
+    /** Of the points that fall on one half pixel: the first, the lowest, the highest; and the last of all. */
+    private fun thinned(axes: Axes): List<Int> {
+        val kept = ArrayList<Int>()
+        var first = -1
+        var lowest = -1
+        var highest = -1
+        var last = -1
+        fun keep() = listOf(first, lowest, highest).filter { it >= 0 }.distinct().sorted().forEach { kept += it }
+        for (i in x.indices) {
+            if (!axes.showsX(x[i])) continue
+            val step = if (first < 0) Double.NaN else axes.placeX(x[i]) - axes.placeX(x[first])
+            // A gap is never thinned away: it ends a step and begins one.
+            if (step >= 0 && step < Axes.SMALLEST_STEP && axes.showsY(y[i]) == axes.showsY(y[first])) {
+                if (y[i] < y[lowest]) lowest = i
+                if (y[i] > y[highest]) highest = i
+            } else {
+                keep()
+                first = i
+                lowest = i
+                highest = i
+            }
+            last = i
+        }
+        keep()
+        if (last >= 0 && kept.last() < last) kept += last
+        return kept
     }
 
     /** The points of this stroke that can be drawn on [axes], all of them. */

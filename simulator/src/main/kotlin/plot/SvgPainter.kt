@@ -53,7 +53,10 @@ internal class SvgPainter(private val canvas: Graphics2D) {
             "g" -> enter(element)
             "clipPath" -> openClip = element["id"]
             "rect" -> rectangle(element)
-            "line" -> shape(element, Line2D.Double(element.number("x1"), element.number("y1"), element.number("x2"), element.number("y2")))
+            "line" -> shape(
+                element,
+                Line2D.Double(element.number("x1"), element.number("y1"), element.number("x2"), element.number("y2")),
+            )
             "circle" -> shape(element, circle(element))
             "path" -> shape(element, path(element["d"].orEmpty(), element["fill-rule"] == "evenodd"))
             "text" -> text(element)
@@ -176,7 +179,13 @@ internal class SvgPainter(private val canvas: Graphics2D) {
                 val numbers = step.substringAfter('(').trim().split(separators).map(String::toDouble)
                 when (val kind = step.substringBefore('(').trim()) {
                     "translate" -> all.translate(numbers[0], numbers.getOrElse(1) { 0.0 })
-                    "rotate" -> all.rotate(Math.toRadians(numbers[0]), numbers.getOrElse(1) { 0.0 }, numbers.getOrElse(2) { 0.0 })
+                    "rotate" -> all.rotate(
+                        Math.toRadians(numbers[0]),
+                        numbers.getOrElse(1) {
+                            0.0
+                        },
+                        numbers.getOrElse(2) { 0.0 },
+                    )
                     else -> throw FigureException("cannot paint the SVG transform $kind")
                 }
             }

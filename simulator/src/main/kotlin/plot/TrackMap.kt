@@ -4,6 +4,7 @@ import org.jetbrains.letsPlot.Stat
 import org.jetbrains.letsPlot.geom.geomPath
 import org.jetbrains.letsPlot.geom.geomPoint
 import org.jetbrains.letsPlot.geom.geomText
+import org.jetbrains.letsPlot.intern.Feature
 import org.jetbrains.letsPlot.letsPlot
 import org.jetbrains.letsPlot.sampling.samplingNone
 
@@ -50,13 +51,23 @@ public class TrackMap(
             // Points without position between two placed ones make the difference grow: a new part.
             "part" to placed.mapIndexed { index, point -> point - index },
         )
-        val track = letsPlot(table) { this.x = "east"; this.y = "north" } +
+        val track = letsPlot(table) {
+            this.x = "east"
+            this.y = "north"
+        } +
             geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
-            geomPoint(size = 2.2, sampling = samplingNone) { color = "value" } +
-            scale.colour(unit, frame.isFlat) + frame.axes()
+            points(placed, scale.colour(unit, frame.isFlat)) + frame.axes()
         val plot = if (ends) track + start(x, y, frame.size) + end(x, y, frame.size) else track
         return frame.sheet(title, subtitle).figure(plot, frame.legend())
     }
+
+    /** Coloured by value where there is any; the library draws no scale for nothing but missing values. */
+    private fun points(placed: List<Int>, scale: Feature): Feature =
+        if (placed.all { value[it].isNaN() }) {
+            geomPoint(size = 2.2, color = Palette.ABSENT, sampling = samplingNone)
+        } else {
+            geomPoint(size = 2.2, sampling = samplingNone) { color = "value" } + scale
+        }
 
     /** The start's label stands below it and the end's above, so that both can be read where they meet. */
     private fun start(x: DoubleArray, y: DoubleArray, size: Double) =

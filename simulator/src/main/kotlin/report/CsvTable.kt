@@ -15,7 +15,9 @@ import java.io.OutputStreamWriter
  * @param header the columns' names, with the units in them, such as `mean_abs_error`.
  */
 public class CsvTable(out: OutputStream, private val header: List<String>) : AutoCloseable {
-    private val writer = CsvWriter.builder().lineDelimiter(LineDelimiter.LF).build(OutputStreamWriter(out, Charsets.UTF_8))
+    private val writer = CsvWriter.builder().lineDelimiter(
+        LineDelimiter.LF,
+    ).build(OutputStreamWriter(out, Charsets.UTF_8))
     private val fields = arrayOfNulls<String>(header.size)
 
     init {

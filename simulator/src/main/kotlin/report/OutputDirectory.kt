@@ -43,7 +43,11 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
         if (target.exists() && !target.isDirectory()) {
             throw OutputException("output $directory is a file; name a directory")
         }
-        if (target.exists() && !target.isWritable()) throw OutputException("output directory $directory is not writable")
+        if (target.exists() &&
+            !target.isWritable()
+        ) {
+            throw OutputException("output directory $directory is not writable")
+        }
         staging = guarded("create") { createStaging() }
         Runtime.getRuntime().addShutdownHook(removal)
     }
@@ -63,7 +67,9 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
     public fun <T> stream(name: String, block: (OutputStream) -> T): T {
         check(isOpen) { "output directory $directory is already committed or closed" }
         val file = staging.resolve(name).normalize()
-        require(file.startsWith(staging) && file != staging) { "name ($name) must be a path inside the output directory" }
+        require(file.startsWith(staging) && file != staging) {
+            "name ($name) must be a path inside the output directory"
+        }
         return guarded("write $name in") {
             Files.createDirectories(file.parent)
             Files.newOutputStream(file).buffered().use(block).also { if (name !in names) names += name }

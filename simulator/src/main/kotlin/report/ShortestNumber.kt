@@ -7,12 +7,23 @@ import kotlin.math.abs
 /**
  * The shortest decimal number that reads back as the same double, the same on every Java.
  *
- * Java before 19 sometimes writes a digit too many (JDK-4511638, 2.0E-3 as an old example), so its text cannot be
- * compared byte by byte between machines. 15 digits always fit in a double and 17 always suffice, so only 16 and 17
- * need a test.
+ * Java before 19 sometimes writes a digit too many (JDK-4511638), so its text cannot be compared byte by byte
+ * between machines. A normal double holds any 15 digits, so that the shortest text is the number rounded to 15 digits
+ * (without trailing zeros), or else to 16, or else to 17, which always suffice.
  */
 public object ShortestNumber {
-    private val fifteen = MathContext(15)
+    /** Subnormal numbers (below 2.3e-308) may need fewer than 15 digits. */
+    private fun fewDigits(value: Double, exact: BigDecimal): BigDecimal? =
+        if (abs(value) >= java.lang.Double.MIN_NORMAL) {
+            null
+        } else {
+            (1 until FIFTEEN).firstNotNullOfOrNull { n ->
+                exact.round(MathContext(n)).takeIf { it.toDouble() == value }
+            }
+        }
+
+    private const val FIFTEEN = 15
+    private val fifteen = MathContext(FIFTEEN)
     private val sixteen = MathContext(16)
     private val seventeen = MathContext(17)
     private const val WHOLE = 1e15
@@ -24,7 +35,8 @@ public object ShortestNumber {
         if (!value.isFinite()) return value.toString()
         if (abs(value) < WHOLE && value == Math.rint(value)) return if (value == 0.0) "0" else value.toLong().toString()
         val exact = BigDecimal(value)
-        val digits = exact.round(fifteen).takeIf { it.toDouble() == value }
+        val digits = fewDigits(value, exact)
+            ?: exact.round(fifteen).takeIf { it.toDouble() == value }
             ?: exact.round(sixteen).takeIf { it.toDouble() == value }
             ?: exact.round(seventeen)
         val short = digits.stripTrailingZeros()

@@ -11,7 +11,14 @@ class ChartsTest {
 
     @Test
     fun eachSeriesHasALineInItsOwnColourAndALegendEntry() {
-        val plot = LinePlot("Probe", "", listOf(Series("truth", time, time), Series("probe", time, time, time, time)), "s", "mg/L")
+        val plot =
+            LinePlot(
+                "Probe",
+                "",
+                listOf(Series("truth", time, time), Series("probe", time, time, time, time)),
+                "s",
+                "mg/L",
+            )
         val parts = SvgParts(plot.draw())
         assertEquals(1, parts.strokes(SvgParts.BLUE).size)
         assertEquals(1, parts.strokes(SvgParts.VERMILION).size)
@@ -22,7 +29,15 @@ class ChartsTest {
     @Test
     fun pointsAreAllDrawnAndASeriesWithoutNameHasNoLegend() {
         val y = DoubleArray(100) { if (it % 10 == 0) Double.NaN else it - 50.0 }
-        val plot = LinePlot("Residuals", "", listOf(Series("", time, y, mark = Mark.POINTS)), "s", "mg/L", references = listOf(0.0))
+        val plot =
+            LinePlot(
+                "Residuals",
+                "",
+                listOf(Series("", time, y, mark = Mark.POINTS)),
+                "s",
+                "mg/L",
+                references = listOf(0.0),
+            )
         val parts = SvgParts(plot.draw())
         assertEquals(90, parts.all("circle").size)
         assertEquals(1, parts.all("line").count { it.getAttribute("stroke-width") == "1.76" }, "the line at 0")
@@ -63,7 +78,9 @@ class ChartsTest {
 
     @Test
     fun histogramsThatMakeNoSenseAreRefused() {
-        assertFailsWith<IllegalArgumentException> { Histogram("t", "", doubleArrayOf(0.0, 1.0), longArrayOf(1, 2), "u") }
+        assertFailsWith<IllegalArgumentException> {
+            Histogram("t", "", doubleArrayOf(0.0, 1.0), longArrayOf(1, 2), "u")
+        }
         assertFailsWith<IllegalArgumentException> { Histogram("t", "", doubleArrayOf(1.0, 0.0), longArrayOf(1), "u") }
         assertFailsWith<IllegalArgumentException> { Histogram("t", "", doubleArrayOf(0.0, 1.0), longArrayOf(-1), "u") }
     }

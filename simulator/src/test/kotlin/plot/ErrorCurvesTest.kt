@@ -54,7 +54,11 @@ class ErrorCurvesTest {
 
     @Test
     fun aFilterKeepsItsLineTypeWhateverTheOrder() {
-        val swapped = ErrorCurves("t", "", listOf(curve("walk", "averaging", 300.0), curve("lawn", "bounded", 300.0))).draw()
+        val swapped = ErrorCurves(
+            "t",
+            "",
+            listOf(curve("walk", "averaging", 300.0), curve("lawn", "bounded", 300.0)),
+        ).draw()
         val parts = SvgParts(swapped)
         assertTrue(parts.strokes(SvgParts.BLUE).single().getAttribute("stroke-dasharray").isNotEmpty())
         assertTrue(parts.strokes(SvgParts.VERMILION).single().getAttribute("stroke-dasharray").isEmpty())
@@ -62,9 +66,20 @@ class ErrorCurvesTest {
 
     @Test
     fun thousandsOfMovesAreThinnedToWhatCanBeSeen() {
-        val line = SvgParts(ErrorCurves("t", "", listOf(curve("walk", "bounded", 300.0))).draw()).strokes(SvgParts.BLUE).single()
+        val line = SvgParts(
+            ErrorCurves("t", "", listOf(curve("walk", "bounded", 300.0))).draw(),
+        ).strokes(SvgParts.BLUE).single()
         val points = line.getAttribute("d").count { it == 'L' || it == 'M' }
         assertTrue(points in 100..1000, "points drawn: $points")
+    }
+
+    @Test
+    fun aSpikeNarrowerThanAPixelIsNotThinnedAway() {
+        val x = DoubleArray(100_000) { it.toDouble() }
+        val y = DoubleArray(x.size) { if (it == 54_321) 9.0 else 1.0 }
+        val line = SvgParts(LinePlot("t", "", listOf(Series("a", x, y)), "x", "y").draw()).strokes(SvgParts.BLUE).single()
+        val heights = Regex("[ML][\\d.]+ ([\\d.]+)").findAll(line.getAttribute("d")).map { it.groupValues[1].toDouble() }
+        assertEquals(2, heights.toSet().size, "the level and the spike")
     }
 
     @Test
@@ -92,7 +107,11 @@ class ErrorCurvesTest {
     @Test
     fun onePointAndHugeValuesCanBeDrawn() {
         for (value in listOf(1e-299, 1e-9, 1.0, 1e9, 1e299)) {
-            val figure = ErrorCurves("t", "", listOf(ErrorCurve("w", "bounded", doubleArrayOf(1.0), doubleArrayOf(value)))).draw()
+            val figure = ErrorCurves(
+                "t",
+                "",
+                listOf(ErrorCurve("w", "bounded", doubleArrayOf(1.0), doubleArrayOf(value))),
+            ).draw()
             assertContains(SvgParts(figure).texts, "Moves")
         }
         val wide = ErrorCurve("w", "bounded", doubleArrayOf(1.0, 2.0), doubleArrayOf(-1e300, 1e300))

@@ -13,7 +13,11 @@ class FigureTest {
     private val x = DoubleArray(30) { it + 1.0 }
 
     private fun drawings(): List<Drawing> = listOf(
-        ErrorCurves("Errors", "a < b & c", listOf(ErrorCurve("walk", "bounded", x, x), ErrorCurve("lawn", "averaging", x, x))),
+        ErrorCurves(
+            "Errors",
+            "a < b & c",
+            listOf(ErrorCurve("walk", "bounded", x, x), ErrorCurve("lawn", "averaging", x, x)),
+        ),
         CellMap("Cells", "", List(12) { MapCell.rectangle(it * 5.0, 0.0, 5.0, 5.0, 0.3, it * 1.5) }, "mg/L"),
         TrackMap("Track", "", x, x, x, "mg/L"),
         LinePlot("Lines", "", listOf(Series("a", x, x), Series("b", x, x, mark = Mark.LINE_AND_POINTS)), "s", "m"),
@@ -46,7 +50,9 @@ class FigureTest {
 
     @Test
     fun idsAreUniqueAcrossTheFiguresOfAPage() {
-        val ids = drawings().flatMap { drawing -> Regex("id=\"([^\"]+)\"").findAll(drawing.draw().svg).map { it.groupValues[1] } }
+        val ids = drawings().flatMap { drawing ->
+            Regex("id=\"([^\"]+)\"").findAll(drawing.draw().svg).map { it.groupValues[1] }
+        }
         assertEquals(ids.distinct(), ids)
     }
 
@@ -81,6 +87,11 @@ class FigureTest {
     @Test
     fun thePainterRefusesWhatItDoesNotKnow() {
         val strange = Figure("t", "<svg xmlns='http://www.w3.org/2000/svg'><ellipse rx='1' ry='2'/></svg>", 300, 300)
-        assertEquals("cannot paint the SVG element <ellipse>", assertFailsWith<FigureException> { strange.png() }.message)
+        assertEquals(
+            "cannot paint the SVG element <ellipse>",
+            assertFailsWith<FigureException> {
+                strange.png()
+            }.message,
+        )
     }
 }

@@ -43,7 +43,10 @@ class MapsTest {
     fun aMetreIsAsLongOnEitherAxisAlsoForTurnedCells() {
         for (rotation in listOf(0.0, PI / 6)) {
             val d = shapes(CellMap("t", "", cells(7, rotation) { it.toDouble() }, "u").draw()).first().getAttribute("d")
-            val points = Regex("(-?[\\d.]+) (-?[\\d.]+)").findAll(d).map { it.groupValues[1].toDouble() to it.groupValues[2].toDouble() }
+            val points = Regex("(-?[\\d.]+) (-?[\\d.]+)").findAll(d).map {
+                it.groupValues[1].toDouble() to
+                    it.groupValues[2].toDouble()
+            }
             val sides = points.toList().distinct().let { p -> p.indices.map { dist(p[it], p[(it + 1) % p.size]) } }
             assertEquals(4, sides.size)
             // Coordinates are rounded to 0.01 px.
@@ -53,7 +56,19 @@ class MapsTest {
 
     @Test
     fun constantOneCellHugeAndOnlyUnknownValuesCanBeDrawn() {
-        assertEquals(1, shapes(CellMap("t", "", cells(5) { 7.25 }, "u").draw()).map { it.getAttribute("fill") }.toSet().size)
+        assertEquals(
+            1,
+            shapes(
+                CellMap(
+                    "t",
+                    "",
+                    cells(5) {
+                        7.25
+                    },
+                    "u",
+                ).draw(),
+            ).map { it.getAttribute("fill") }.toSet().size,
+        )
         assertEquals(1, shapes(CellMap("t", "", cells(1) { 0.0 }, "u").draw()).size)
         assertEquals(3, shapes(CellMap("t", "", cells(3) { it * 1e300 }, "u").draw()).size)
         assertEquals(3, SvgParts(CellMap("t", "", cells(3) { Double.NaN }, "u").draw()).fills(SvgParts.GREY).size)
@@ -75,6 +90,8 @@ class MapsTest {
         assertEquals(49, parts.all("circle").count { it.getAttribute("r").toDouble() < 3 })
         assertContains(parts.texts, "start")
         assertContains(parts.texts, "end")
+        val silent = SvgParts(TrackMap("Track", "", x, x, DoubleArray(50) { Double.NaN }, "mg/L").draw())
+        assertEquals(50, silent.all("circle").count { it.getAttribute("fill") == "#d9dcdf" })
         assertEquals(2, parts.strokes("rgb(138,144,150)").size, "the missing position breaks the track in two")
     }
 
@@ -82,12 +99,21 @@ class MapsTest {
     fun badCellsAndTracksAreRefused() {
         assertFailsWith<IllegalArgumentException> { MapCell(doubleArrayOf(0.0, 1.0), doubleArrayOf(0.0, 1.0), 1.0) }
         assertFailsWith<IllegalArgumentException> { MapCell.rectangle(Double.NaN, 0.0, 1.0, 1.0, 0.0, 1.0) }
-        assertFailsWith<IllegalArgumentException> { TrackMap("t", "", DoubleArray(2), DoubleArray(1), DoubleArray(2), "u") }
+        assertFailsWith<IllegalArgumentException> {
+            TrackMap("t", "", DoubleArray(2), DoubleArray(1), DoubleArray(2), "u")
+        }
     }
 
     @Test
     fun longMapsKeepALegibleWidthAndFlatOnesTheirLegendBelow() {
-        val tall = CellMap("t", "", List(40) { MapCell.rectangle(0.0, 10.0 * it, 10.0, 10.0, 0.0, it + 0.0) }, "u").draw()
+        val tall = CellMap(
+            "t",
+            "",
+            List(40) {
+                MapCell.rectangle(0.0, 10.0 * it, 10.0, 10.0, 0.0, it + 0.0)
+            },
+            "u",
+        ).draw()
         val flat = CellMap("t", "", cells(40) { it + 0.0 }, "u").draw()
         assertTrue(tall.width >= 600 && tall.height <= 900, "${tall.width} x ${tall.height} px")
         assertTrue(flat.width == 860 && flat.height in 250..400, "${flat.width} x ${flat.height} px")

@@ -21,7 +21,9 @@ class GeoJsonTest {
     )
 
     private fun features(vararg polygons: GeoPolygon): List<JsonObject> =
-        Json.parseToJsonElement(GeoJson.text(polygons.toList())).jsonObject.getValue("features").jsonArray.map { it.jsonObject }
+        Json.parseToJsonElement(GeoJson.text(polygons.toList())).jsonObject.getValue("features").jsonArray.map {
+            it.jsonObject
+        }
 
     private fun ring(feature: JsonObject): List<Pair<Double, Double>> =
         feature.getValue("geometry").jsonObject.getValue("coordinates").jsonArray.single().jsonArray.map {
@@ -47,9 +49,21 @@ class GeoJsonTest {
 
     @Test
     fun propertiesKeepTheirTypesAndNanIsNull() {
-        val properties = mapOf("value" to 8.25, "visits" to 3, "name" to "a \"b\"", "gap" to Double.NaN, "ok" to true, "none" to null)
+        val properties = mapOf(
+            "value" to 8.25,
+            "visits" to 3,
+            "name" to "a \"b\"",
+            "gap" to Double.NaN,
+            "ok" to true,
+            "none" to null,
+        )
         val read = features(GeoPolygon(clockwise, properties)).single().getValue("properties").jsonObject
-        assertEquals(listOf("8.25", "3", "a \"b\"", "null", "true", "null"), read.values.map { it.jsonPrimitive.content })
+        assertEquals(
+            listOf("8.25", "3", "a \"b\"", "null", "true", "null"),
+            read.values.map {
+                it.jsonPrimitive.content
+            },
+        )
         assertEquals(JsonNull, read["gap"])
         assertTrue(read.getValue("name").jsonPrimitive.isString)
     }

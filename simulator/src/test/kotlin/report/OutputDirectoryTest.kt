@@ -22,7 +22,9 @@ class OutputDirectoryTest {
     @TempDir
     lateinit var home: Path
 
-    private fun everything() = Files.walk(home).use { all -> all.map { home.relativize(it).toString() }.toList().sorted() }
+    private fun everything() = Files.walk(home).use { all ->
+        all.map { home.relativize(it).toString() }.toList().sorted()
+    }
 
     @Test
     fun commitMovesEverythingInTheOrderOfWritingAndCreatesParents() {
@@ -34,7 +36,10 @@ class OutputDirectoryTest {
         }
         assertEquals(listOf(out.resolve("z.txt"), out.resolve("figures/a.bin")), written)
         assertEquals("last letter, first file", out.resolve("z.txt").readText())
-        assertEquals(listOf("", "a", "a/b", "a/b/out", "a/b/out/figures", "a/b/out/figures/a.bin", "a/b/out/z.txt"), everything())
+        assertEquals(
+            listOf("", "a", "a/b", "a/b/out", "a/b/out/figures", "a/b/out/figures/a.bin", "a/b/out/z.txt"),
+            everything(),
+        )
     }
 
     @Test
@@ -83,7 +88,12 @@ class OutputDirectoryTest {
     @Test
     fun aFileInTheWayIsNamedInOneLine() {
         val file = home.resolve("file").also { it.writeText("x") }
-        assertEquals("output $file is a file; name a directory", assertFailsWith<OutputException> { OutputDirectory(file) }.message)
+        assertEquals(
+            "output $file is a file; name a directory",
+            assertFailsWith<OutputException> {
+                OutputDirectory(file)
+            }.message,
+        )
         val below = assertFailsWith<OutputException> { OutputDirectory(file.resolve("below")) }.message.orEmpty()
         assertContains(below, "cannot create output directory ${file.resolve("below")}")
         assertFalse('\n' in below)
@@ -110,7 +120,12 @@ class OutputDirectoryTest {
     fun aDirectoryThatMayNotBeWrittenIsRefused() {
         val out = home.resolve("locked").createDirectory()
         assumeTrue(out.toFile().setWritable(false) && !Files.isWritable(out), "root may write anywhere")
-        assertEquals("output directory $out is not writable", assertFailsWith<OutputException> { OutputDirectory(out) }.message)
+        assertEquals(
+            "output directory $out is not writable",
+            assertFailsWith<OutputException> {
+                OutputDirectory(out)
+            }.message,
+        )
     }
 
     @Test
