@@ -39,7 +39,9 @@ public data class BoundedFilterSettings(
             "medianWindow ($medianWindow samples) must be odd and at least 1"
         }
         require(slopeWindow >= 2) { "slopeWindow ($slopeWindow medians) must be at least 2" }
-        require(epsilon >= 0 && epsilon.isFinite()) { "epsilon ($epsilon sensor units/s) must be at least 0 and finite" }
+        require(epsilon >= 0 && epsilon.isFinite()) {
+            "epsilon ($epsilon sensor units/s) must be at least 0 and finite"
+        }
     }
 }
 
@@ -81,7 +83,11 @@ public class BoundedFilter(
         slopes.add(medians.time, medians.median)
         if (!slopes.full) return
         val slope = slopes.slope()
-        if (slope > epsilon) raiseLower(cell, value) else if (slope < -epsilon) lowerUpper(cell, value)
+        if (slope > epsilon) {
+            raiseLower(cell, value)
+        } else if (slope < -epsilon) {
+            lowerUpper(cell, value)
+        }
     }
 
     private fun raiseLower(cell: Int, value: Double) {

@@ -14,7 +14,9 @@ public class CellField(public val grid: Grid, truths: DoubleArray) : Field {
     private val truths = truths.copyOf()
 
     init {
-        require(truths.size == grid.size) { "truths (${truths.size} values) must have one value per cell (${grid.size})" }
+        require(truths.size == grid.size) {
+            "truths (${truths.size} values) must have one value per cell (${grid.size})"
+        }
         require(truths.all { it.isFinite() }) { "truths must be finite" }
     }
 

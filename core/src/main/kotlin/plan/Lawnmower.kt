@@ -8,15 +8,18 @@ import stillwater.model.Position
 /** The order in which a lawnmower visits the cells; each repeats for ever. */
 public enum class LawnmowerPattern {
     /**
-     * A closed tour of edge steps that visits every cell once: along the first row, back and forth through the rest,
-     * home along the first column. Needs an even number of rows or of columns, and two of each at least.
+     * A closed tour of edge steps that visits every cell once: up the first column, then home back and forth through
+     * the rows of the others. Needs an even number of rows or of columns, and two of each at least.
      */
     HAMILTONIAN_CYCLE,
 
     /** Back and forth through the rows to the last cell, then the same way back. */
     BACK_AND_FORTH,
 
-    /** Back and forth through the rows, then back and forth through the columns. */
+    /**
+     * Back and forth through the rows, then back and forth through the columns, each pass starting in the corner where
+     * the one before ended.
+     */
     ROWS_THEN_COLUMNS,
 
     /** Every row in the same direction, jumping back to the start of the next, then to the first: the original. */
@@ -62,7 +65,7 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
         /** Whether [pattern] exists on [grid]: only [LawnmowerPattern.HAMILTONIAN_CYCLE] asks for a certain shape. */
         public fun fits(grid: Grid, pattern: LawnmowerPattern): Boolean =
             pattern != LawnmowerPattern.HAMILTONIAN_CYCLE ||
-                grid.columns >= 2 && grid.rows >= 2 && grid.size % 2 == 0
+                (grid.columns >= 2 && grid.rows >= 2 && grid.size % 2 == 0)
 
         /**
          * The cells in the order [pattern] visits them, one period; the first follows the last.
@@ -89,16 +92,14 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
                 cycle(grid.rows, grid.columns) { row, column -> row * grid.columns + column }
             }
 
-        /** The cycle over [width] x [height] places, [height] even; the first column is kept for the way home. */
+        /** The cycle over [width] x [height] places, [height] even: up the first column, then home row by row. */
         private fun cycle(width: Int, height: Int, index: (Int, Int) -> Int): IntArray {
-            val cells = ArrayList<Int>(width * height)
-            for (row in 0 until height) {
-                val inner = if (row % 2 == 0) 1 until width else (1 until width).reversed()
-                if (row == 0) cells += index(0, 0)
-                for (column in inner) cells += index(column, row)
+            val firstColumn = (0 until height).map { row -> index(0, row) }
+            val home = (height - 1 downTo 0).flatMap { row ->
+                val columns = if (row % 2 == 1) 1 until width else (1 until width).reversed()
+                columns.map { column -> index(column, row) }
             }
-            for (row in height - 1 downTo 1) cells += index(0, row)
-            return cells.toIntArray()
+            return (firstColumn + home).toIntArray()
         }
 
         private fun serpentine(lines: Int, length: Int, index: (Int, Int) -> Int): List<Int> =
@@ -113,18 +114,38 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
         }
 
         /**
-         * The rows from the first to the last, then the columns from where the rows ended back to the first cell's
-         * side. The cell in which one part ends and the next begins is not visited twice in a row.
+         * A pass by rows, one by columns, and so on, each starting in the corner where the one before ended and not
+         * visiting it twice, until the next pass would be the first again: two passes when both sides are odd, four
+         * otherwise.
          */
         private fun rowsThenColumns(grid: Grid): IntArray {
-            val rows = serpentine(grid.rows, grid.columns) { row, column -> row * grid.columns + column }
-            val end = grid.cell(rows.last())
-            val columns = serpentine(grid.columns, grid.rows) { line, step ->
-                val column = if (end.column == 0) line else grid.columns - 1 - line
-                (grid.rows - 1 - step) * grid.columns + column
-            }
-            val tour = rows + columns.drop(1)
+            val tour = ArrayList<Int>()
+            var right = false
+            var top = false
+            do {
+                for (byRows in listOf(true, false)) {
+                    val pass = pass(grid, byRows, right, top)
+                    tour += if (tour.isEmpty()) pass else pass.drop(1)
+                    val end = grid.cell(tour.last())
+                    right = grid.columns > 1 && end.column == grid.columns - 1
+                    top = grid.rows > 1 && end.row == grid.rows - 1
+                }
+            } while (right || top)
             return (if (tour.size > 1 && tour.last() == tour.first()) tour.dropLast(1) else tour).toIntArray()
+        }
+
+        /** All cells back and forth by rows or by columns, from the corner that is right or left, top or bottom. */
+        private fun pass(grid: Grid, byRows: Boolean, right: Boolean, top: Boolean): List<Int> {
+            fun index(column: Int, row: Int): Int {
+                val mirroredColumn = if (right) grid.columns - 1 - column else column
+                val mirroredRow = if (top) grid.rows - 1 - row else row
+                return mirroredRow * grid.columns + mirroredColumn
+            }
+            return if (byRows) {
+                serpentine(grid.rows, grid.columns) { row, column -> index(column, row) }
+            } else {
+                serpentine(grid.columns, grid.rows) { column, row -> index(column, row) }
+            }
         }
     }
 }

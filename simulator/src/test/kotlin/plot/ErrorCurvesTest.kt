@@ -77,8 +77,12 @@ class ErrorCurvesTest {
     fun aSpikeNarrowerThanAPixelIsNotThinnedAway() {
         val x = DoubleArray(100_000) { it.toDouble() }
         val y = DoubleArray(x.size) { if (it == 54_321) 9.0 else 1.0 }
-        val line = SvgParts(LinePlot("t", "", listOf(Series("a", x, y)), "x", "y").draw()).strokes(SvgParts.BLUE).single()
-        val heights = Regex("[ML][\\d.]+ ([\\d.]+)").findAll(line.getAttribute("d")).map { it.groupValues[1].toDouble() }
+        val line = SvgParts(
+            LinePlot("t", "", listOf(Series("a", x, y)), "x", "y").draw(),
+        ).strokes(SvgParts.BLUE).single()
+        val heights = Regex("[ML][\\d.]+ ([\\d.]+)").findAll(line.getAttribute("d")).map {
+            it.groupValues[1].toDouble()
+        }
         assertEquals(2, heights.toSet().size, "the level and the spike")
     }
 

@@ -1,0 +1,95 @@
+package stillwater.run
+
+import stillwater.estimate.FieldEstimator
+import stillwater.field.CellField
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Plan
+import stillwater.model.Position
+import stillwater.plan.PlanOutcome
+import stillwater.plan.Planner
+import stillwater.plan.StopCondition
+import stillwater.sensor.SensorModel
+import kotlin.math.abs
+
+/**
+ * One boat in one field: it moves from cell to cell as its planner says, takes the same number of samples in each,
+ * and several estimators read them.
+ *
+ * The first move is the stay in the start cell. Where the planner sees nothing to gain the boat stays for a move.
+ *
+ * @property field the truth.
+ * @property sensor the boat's sensor, settled at the start cell's truth.
+ * @property planner where to go.
+ * @property estimators each gets every reading. The planner plans on the map of the first.
+ * @property samplesPerMove readings taken in a cell before moving on.
+ * @property period time between readings, s.
+ */
+class Trial(
+    private val field: CellField,
+    private val sensor: SensorModel,
+    private val planner: Planner,
+    private val estimators: List<FieldEstimator>,
+    private val samplesPerMove: Int,
+    private val period: Double,
+) {
+    private var samples = 0L
+    private var reading = 0.0
+
+    /**
+     * Runs the boat from [start].
+     *
+     * @param start index of the start cell.
+     * @param checkpoints moves after which the error is taken, ascending, each at least 1; the run ends with the last.
+     * @return mean absolute error over all cells, one row per estimator, one column per checkpoint.
+     */
+    fun run(start: Int, checkpoints: IntArray): Array<DoubleArray> {
+        val errors = Array(estimators.size) { DoubleArray(checkpoints.size) }
+        val grid = field.grid
+        val plan = Plan()
+        var waypoint = 0
+        var x = grid.centerX(start)
+        var y = grid.centerY(start)
+        var checkpoint = 0
+        for (move in 1..checkpoints.last()) {
+            if (move > 1) {
+                if (waypoint == plan.size) {
+                    val outcome = planner.plan(
+                        estimators.first().map,
+                        Position(x, y),
+                        reading,
+                        StopCondition.NEVER,
+                        plan,
+                    )
+                    check(outcome == PlanOutcome.Planned || plan.size == 0) { "$outcome with ${plan.size} waypoints" }
+                    waypoint = 0
+                }
+                if (waypoint < plan.size) {
+                    x = plan.x(waypoint)
+                    y = plan.y(waypoint)
+                    waypoint++
+                }
+            }
+            stay(x, y)
+            if (move == checkpoints[checkpoint]) {
+                for (i in estimators.indices) errors[i][checkpoint] = meanAbsoluteError(estimators[i])
+                checkpoint++
+            }
+        }
+        return errors
+    }
+
+    private fun stay(x: Double, y: Double) {
+        repeat(samplesPerMove) {
+            val time = BoatTime(++samples * period)
+            reading = sensor.step(field.truth(x, y, time), period, Conditions.NONE)
+            for (estimator in estimators) estimator.update(time, x, y, reading, Conditions.NONE)
+        }
+    }
+
+    private fun meanAbsoluteError(estimator: FieldEstimator): Double {
+        var sum = 0.0
+        for (cell in 0 until field.grid.size) sum += abs(estimator.map.value(cell) - field.truth(cell))
+        return sum / field.grid.size
+    }
+}
