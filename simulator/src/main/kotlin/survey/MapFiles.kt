@@ -29,12 +29,22 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             table.close()
         }
         map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
-        val figures = MapFigures(map).draw()
-        for (figure in figures) {
-            directory.write("${figure.name}.svg", figure.figure.svg)
-            directory.write("${figure.name}.png", figure.figure.png())
+        val figures = MapFigures(map).draw().map { draw ->
+            trimHeap()
+            draw().also { figure ->
+                directory.write("${figure.name}.svg", figure.figure.svg)
+                directory.write("${figure.name}.png", figure.figure.png())
+            }
         }
         directory.write("report.html", MapReport(map, summary, figures, command).render())
+    }
+
+    /**
+     * Lets the collector give memory back between figures of a long log. The plot library leaves hundreds of megabytes
+     * of garbage a figure, and with much memory free the collector would rather grow than tidy up.
+     */
+    private fun trimHeap() {
+        if (map.pass.readings >= LONG_LOG) System.gc()
     }
 
     private fun rows(table: CsvTable, kind: FilterKind, field: FieldMap) {
@@ -92,6 +102,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
     }
 
     private companion object {
+        const val LONG_LOG = 500_000
         const val HALF_TURN = 180.0
         val COLUMNS = listOf(
             "filter",
