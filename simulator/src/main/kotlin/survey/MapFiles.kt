@@ -35,7 +35,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             table.close()
         }
         map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
-val warnings = LinkedHashSet<String>()
+        val warnings = LinkedHashSet<String>()
         val figures = MapFigures(map).draw().map { draw ->
             trimHeap()
             draw().also { warnings += directory.writeFigures(listOf(it.name to it.figure)) }
