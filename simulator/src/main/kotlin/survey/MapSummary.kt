@@ -40,9 +40,10 @@ class MapSummary(private val map: SurveyMap) {
             add("${statistics.jumps} jumps in the positions are faster than 20 m/s: check the receiver's fixes")
         }
         outliers()?.let(::add)
-        val skipped = map.pass.skipped.values.sum()
+        // Before the first fix every log has some; that is no fault of its.
+        val skipped = map.pass.skipped.filterKeys { it !in HARMLESS }.values.sum()
         if (skipped > MANY_SKIPPED * map.pass.readings) {
-            add("$skipped rows or lines were skipped, against ${map.pass.readings} readings used")
+            add("$skipped readings or lines were skipped, against ${map.pass.readings} readings used")
         }
         val calibration = map.calibration
         if (map.bounded != null && map.bounded.epsilon == 0.0 && calibration == null) {
@@ -155,6 +156,7 @@ class MapSummary(private val map: SurveyMap) {
         .let { if ('.' in it && 'e' !in it) it.trimEnd('0').trimEnd('.') else it }
 
     private companion object {
+        val HARMLESS = setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines")
         const val MINUTE = 60.0
         const val HOUR = 3600.0
         const val LOW = 0.05
