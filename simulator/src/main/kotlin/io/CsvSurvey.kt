@@ -149,8 +149,9 @@ internal class CsvSurvey private constructor(
                 longitude !in LatLon.LONGITUDES_DEG ->
                     problem(row.line, eastColumn, "a longitude within -180..360", "$longitude", reason)
                 latitude == 0.0 && longitude == 0.0 -> null
-                frame == null && !LocalFrame.canStartAt(LatLon(latitude, longitude)) ->
-                    problem(row.line, northColumn, "a latitude below 90 to start from", "$latitude", reason)
+                // Any row, or the second reading, which has a frame already, would take what the first has left out.
+                !LocalFrame.canStartAt(latitude) ->
+                    problem(row.line, northColumn, "a latitude short of the pole", "$latitude", reason)
                 else -> null
             }
         }

@@ -63,7 +63,11 @@ internal class PlatypusLog private constructor(
             if (line.isBlank()) return
             val entry = lines.parse(line)
             if (entry is PlatypusEntry.Unreadable) {
-                if (isLast && file.fileName.toString().endsWith(".incomplete")) return skips.count("truncated last line")
+                if (isLast &&
+                    file.fileName.toString().endsWith(".incomplete")
+                ) {
+                    return skips.count("truncated last line")
+                }
                 return refuse(entry.expected, quoted(line), "unreadable lines")
             }
             if (entry is PlatypusEntry.Start) clock.start(entry.epochMillis, lines.millis)

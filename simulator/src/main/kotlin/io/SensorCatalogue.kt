@@ -32,7 +32,8 @@ internal class SensorCatalogue {
         return sources.entries.joinToString(", ") { (source, count) ->
             val names = SensorChoice.FIELDS[source.type]?.take(count.fields)
             val channel = if (channels(source.type).size > 1) "#${source.channel}" else ""
-            val fields = names?.joinToString("|", prefix = ".") ?: if (count.fields > 1) ".0-${count.fields - 1}" else ""
+            val fields =
+                names?.joinToString("|", prefix = ".") ?: if (count.fields > 1) ".0-${count.fields - 1}" else ""
             "${source.type}$channel$fields (${count.lines} lines)"
         }
     }

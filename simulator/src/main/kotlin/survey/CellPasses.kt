@@ -83,7 +83,13 @@ class CellPasses(private val grid: Grid) {
 
     private fun compare(before: Pass, after: Pass) {
         val cosine = before.dx * after.dx + before.dy * after.dy
-        val side = if (cosine < -HALF) oppositeSum else if (cosine > HALF) sameSum else return
+        val side = if (cosine < -HALF) {
+            oppositeSum
+        } else if (cosine > HALF) {
+            sameSum
+        } else {
+            return
+        }
         side.pairs++
         side.total += kotlin.math.abs(after.mean - before.mean)
     }

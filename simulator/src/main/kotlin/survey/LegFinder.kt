@@ -81,7 +81,13 @@ class LegFinder(private val statistics: SurveyStatistics) {
         var sense = 0
         for ((i, stride) in strides.withIndex()) {
             val along = (stride.dx * cos(axis) + stride.dy * sin(axis)) / stride.length
-            val here = if (along > cos(TOLERANCE)) 1 else if (along < -cos(TOLERANCE)) -1 else 0
+            val here = if (along > cos(TOLERANCE)) {
+                1
+            } else if (along < -cos(TOLERANCE)) {
+                -1
+            } else {
+                0
+            }
             val broken = stride.afterGap || here == -sense || i - end > STRAYS + 1
             if (start >= 0 && broken) {
                 runs += start..end

@@ -22,7 +22,15 @@ class MapSummary(private val map: SurveyMap) {
         add("gaps" to gaps())
         add("repeated fixes" to percent(statistics.repeatedFixes))
         add("repeated values" to percent(statistics.repeatedValues))
-        add("speed" to if (statistics.speeds.count == 0) "log too short to tell" else "${spread(statistics.speeds)} m/s")
+        add(
+            "speed" to if (statistics.speeds.count ==
+                0
+            ) {
+                "log too short to tell"
+            } else {
+                "${spread(statistics.speeds)} m/s"
+            },
+        )
         add("way" to "${digits(statistics.distance)} m")
         add("values" to values())
         add("grid" to grid())
@@ -54,6 +62,15 @@ class MapSummary(private val map: SurveyMap) {
         if (statistics.speeds.count > 0 && statistics.speeds.median < SLOW && statistics.east > statistics.west) {
             add("the boat hardly moved (median speed ${digits(statistics.speeds.median)} m/s): the map shows little")
         }
+        map.maps[FilterKind.BOUNDED]?.let { field ->
+            val both = field.visitedCells().count { field.isBoundedBothWays(it) }
+            if (both < FEW_BOUNDED * map.passes.visitedCells) {
+                add(
+                    "the bounded filter has both bounds in $both of ${map.passes.visitedCells} visited cells only, " +
+                        "because few were crossed both ways; elsewhere its value leans on the range taken for the water",
+                )
+            }
+        }
         if (map.log.frame == null) add("the log has no latitudes, so no cells.geojson is written")
     }
 
@@ -82,7 +99,9 @@ class MapSummary(private val map: SurveyMap) {
     }
 
     private fun values() = buildString {
-        append("${digits(statistics.lowest)} to ${digits(statistics.highest)}, median ${digits(statistics.values.median)}")
+        append(
+            "${digits(statistics.lowest)} to ${digits(statistics.highest)}, median ${digits(statistics.values.median)}",
+        )
         if (!statistics.resolution.isNaN()) append(", in steps of ${digits(statistics.resolution)}")
     }
 
@@ -101,9 +120,9 @@ class MapSummary(private val map: SurveyMap) {
     }
 
     private fun bounds(field: FieldMap): String {
-        val visited = (0 until field.grid.size).filter { field.visits(it) > 0 }
+        val visited = field.visitedCells()
         val bounded = visited.count { field.hasBound(it) }
-        val both = visited.count { field.lower(it) > field.prior.lower && field.upper(it) < field.prior.upper }
+        val both = visited.count { field.isBoundedBothWays(it) }
         val conflicts = visited.sumOf { field.conflicts(it).toLong() }
         return "a bound in $bounded of ${visited.size} visited cells, both in $both, $conflicts conflicts"
     }
@@ -120,7 +139,11 @@ class MapSummary(private val map: SurveyMap) {
         }
         val opposite = map.passes.opposite
         val same = map.passes.same
-        if (opposite.pairs > 0) add("opposite passes of a cell" to "${digits(opposite.meanDifference)} (${opposite.pairs})")
+        if (opposite.pairs >
+            0
+        ) {
+            add("opposite passes of a cell" to "${digits(opposite.meanDifference)} (${opposite.pairs})")
+        }
         if (same.pairs > 0) add("same-way passes of a cell" to "${digits(same.meanDifference)} (${same.pairs})")
     }
 
@@ -164,6 +187,7 @@ class MapSummary(private val map: SurveyMap) {
         const val OUTLYING = 3
         const val MANY_SKIPPED = 0.01
         const val FEW_SLOPES = 20
+        const val FEW_BOUNDED = 0.5
         const val SLOW = 0.05
         const val PERCENT = 100.0
     }
@@ -171,3 +195,9 @@ class MapSummary(private val map: SurveyMap) {
 
 /** Whether evidence has narrowed the range of [cell] at all. */
 internal fun FieldMap.hasBound(cell: Int): Boolean = lower(cell) > prior.lower || upper(cell) < prior.upper
+
+/** Whether evidence has narrowed the range of [cell] from below and from above. */
+internal fun FieldMap.isBoundedBothWays(cell: Int): Boolean = lower(cell) > prior.lower && upper(cell) < prior.upper
+
+/** Indices of the cells the boat entered. */
+internal fun FieldMap.visitedCells(): List<Int> = (0 until grid.size).filter { visits(it) > 0 }

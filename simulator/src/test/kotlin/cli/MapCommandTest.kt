@@ -30,7 +30,13 @@ class MapCommandTest {
     fun writesCellsFiguresAndReport() {
         val result = runMap(log(), "--out", directory.out().toString(), "--filter", "averaging,exponential,bounded")
         assertEquals(0, result.statusCode, result.output)
-        for (name in listOf("track", "estimate-averaging", "estimate-exponential", "estimate-bounded", "bounds-width")) {
+        for (name in listOf(
+            "track",
+            "estimate-averaging",
+            "estimate-exponential",
+            "estimate-bounded",
+            "bounds-width",
+        )) {
             assertTrue(directory.out().resolve("$name.svg").exists(), name)
             assertTrue(directory.out().resolve("$name.png").exists(), name)
         }
@@ -115,7 +121,15 @@ class MapCommandTest {
         assertEquals(expected, bytes(plain.replace(",", "\t")), "tabs")
         assertEquals(expected, bytes(plain.replace(",", " , ")), "blanks")
         assertEquals(expected, bytes(plain.trimEnd()), "no last line end")
-        assertEquals(expected, bytes(plain.lines().joinToString("\n") { it.replace(Regex("[^,]+"), "\"$0\"") }), "quotes")
+        assertEquals(
+            expected,
+            bytes(
+                plain.lines().joinToString("\n") {
+                    it.replace(Regex("[^,]+"), "\"$0\"")
+                },
+            ),
+            "quotes",
+        )
     }
 
     @Test

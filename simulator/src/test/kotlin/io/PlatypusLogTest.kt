@@ -97,7 +97,14 @@ class PlatypusLogTest {
 
     @Test
     fun countsReadingsThatNoPoseIsNear() {
-        val lines = listOf(sensor(10, 1.0), pose(5000, 592_300.0), sensor(6000, 2.0), sensor(9000, 3.0), pose(20_000, 592_300.0))
+        val lines =
+            listOf(
+                sensor(10, 1.0),
+                pose(5000, 592_300.0),
+                sensor(6000, 2.0),
+                sensor(9000, 3.0),
+                pose(20_000, 592_300.0),
+            )
         assertEquals(mapOf("readings without a pose" to 2L), read(lines.joinToString("\n")).pass.skipped)
         val patient = read(lines.joinToString("\n"), LogChoice(maxPoseAge = 30.0))
         assertEquals(3L, patient.pass.readings)
@@ -107,7 +114,12 @@ class PlatypusLogTest {
 
     @Test
     fun forgivesACutLastLineOfAnUnfinishedLogOnly() {
-        val text = listOf(pose(0, 592_300.0), sensor(50, 1.0), sensor(90, 2.0), "120\tI\t{\"pose\":{\"p\":[5923").joinToString("\n")
+        val text = listOf(
+            pose(0, 592_300.0),
+            sensor(50, 1.0),
+            sensor(90, 2.0),
+            "120\tI\t{\"pose\":{\"p\":[5923",
+        ).joinToString("\n")
         val found = read(text, name = "platypus.txt.incomplete")
         assertEquals(mapOf("truncated last line" to 1L), found.pass.skipped)
         assertFailsWith<LogProblem> { read(text, name = "platypus.txt") }
