@@ -9,6 +9,7 @@ import stillwater.plot.MapCell
 import stillwater.plot.Mark
 import stillwater.plot.Series
 import stillwater.plot.TrackMap
+import stillwater.run.FilterKind
 import kotlin.math.ceil
 import kotlin.math.sqrt
 

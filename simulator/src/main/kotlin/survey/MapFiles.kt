@@ -8,6 +8,8 @@ import stillwater.report.GeoCorner
 import stillwater.report.GeoJson
 import stillwater.report.GeoPolygon
 import stillwater.report.OutputDirectory
+import stillwater.report.writeFigures
+import stillwater.run.FilterKind
 import kotlin.math.abs
 
 /**
@@ -20,8 +22,12 @@ import kotlin.math.abs
  * @param map what to write. @param summary the same in words. @param command the command as typed, for the report.
  */
 class MapFiles(private val map: SurveyMap, private val summary: MapSummary, private val command: String) {
-    /** Writes all files into [directory], which the caller commits. */
-    fun write(directory: OutputDirectory) {
+    /**
+     * Writes all files into [directory], which the caller commits.
+     *
+     * @return warnings for the user, one line each.
+     */
+    fun write(directory: OutputDirectory): List<String> {
         directory.stream("cells.csv") { out ->
             val table = CsvTable(out, COLUMNS)
             map.maps.forEach { (kind, field) -> rows(table, kind, field) }
@@ -29,14 +35,13 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             table.close()
         }
         map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
+        val warnings = LinkedHashSet<String>()
         val figures = MapFigures(map).draw().map { draw ->
             trimHeap()
-            draw().also { figure ->
-                directory.write("${figure.name}.svg", figure.figure.svg)
-                directory.write("${figure.name}.png", figure.figure.png())
-            }
+            draw().also { warnings += directory.writeFigures(listOf(it.name to it.figure)) }
         }
         directory.write("report.html", MapReport(map, summary, figures, command).render())
+        return warnings.toList()
     }
 
     /**

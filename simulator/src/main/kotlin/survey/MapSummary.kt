@@ -2,6 +2,7 @@ package stillwater.survey
 
 import stillwater.field.FieldMap
 import stillwater.report.SignificantDigits
+import stillwater.run.FilterKind
 import java.util.Locale
 
 /**

@@ -13,28 +13,37 @@ import com.github.ajalt.mordant.widgets.progress.text
 import com.github.ajalt.mordant.widgets.progress.timeRemaining
 
 /**
- * A progress bar over [total] bytes on the error stream; silent where [shown] is false or nobody watches.
+ * A progress bar over [total] units of work on the error stream; silent where [shown] is false or nobody watches.
  *
- * Drawn from within [advance], at most once a percent: no thread of its own.
+ * Drawn from within [advance], at most once a percent: no thread of its own. May be told from any thread.
+ *
+ * @param unit what is counted, shown behind the numbers.
  */
-class ReadingProgress(terminal: Terminal, label: String, private val total: Long, shown: Boolean) : AutoCloseable {
+class WorkProgress(
+    terminal: Terminal,
+    label: String,
+    private val unit: String,
+    private val total: Long,
+    shown: Boolean,
+) : AutoCloseable {
     private val bar: ThreadProgressTaskAnimator<Unit>? =
-        if (shown && total >= WORTH_SHOWING && terminal.terminalInfo.outputInteractive) bar(terminal, label) else null
-    private var nextByte = 0L
+        if (shown && terminal.terminalInfo.outputInteractive) bar(terminal, label) else null
+    private var nextShown = 0L
 
     private fun bar(terminal: Terminal, label: String): ThreadProgressTaskAnimator<Unit> = progressBarLayout {
         text(label)
         percentage()
         progressBar()
-        completed(suffix = "B")
+        completed(suffix = unit)
         timeRemaining()
     }.animateOnThread(Terminal(terminalInterface = ToErrorStream(terminal.terminalInterface)), total = total)
 
-    /** Tells that [bytes] are done. */
-    fun advance(bytes: Long) {
-        if (bar == null || bytes < nextByte) return
-        nextByte = bytes + total / PERCENT
-        bar.update { completed = bytes }
+    /** Tells that [done] of the [total] are done. */
+    @Synchronized
+    fun advance(done: Long) {
+        if (bar == null || done < nextShown) return
+        nextShown = done + total / PERCENT
+        bar.update { completed = done }
         bar.refresh()
     }
 
@@ -49,8 +58,6 @@ class ReadingProgress(terminal: Terminal, label: String, private val total: Long
     }
 
     private companion object {
-        /** Smaller files are done before a bar can be read. */
-        const val WORTH_SHOWING = 8_000_000L
         const val PERCENT = 100
     }
 }

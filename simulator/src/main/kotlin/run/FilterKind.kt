@@ -1,4 +1,4 @@
-package stillwater.survey
+package stillwater.run
 
 import stillwater.estimate.AveragingFilter
 import stillwater.estimate.BoundedFilter
@@ -9,19 +9,20 @@ import stillwater.model.Grid
 import stillwater.model.Interval
 
 /**
- * The filters that can make a map out of a log.
+ * The filters that can make a map out of readings, simulated or logged.
  *
  * @property label name on the command line and in files.
+ * @property givesBounds whether its map has bounds that a planner can plan on.
  */
-enum class FilterKind(val label: String) {
+enum class FilterKind(val label: String, val givesBounds: Boolean) {
     /** The mean of a cell's readings. */
-    AVERAGING("averaging"),
+    AVERAGING("averaging", givesBounds = false),
 
     /** An exponential average of a cell's readings. */
-    EXPONENTIAL("exponential"),
+    EXPONENTIAL("exponential", givesBounds = false),
 
     /** The report's bounded filter. */
-    BOUNDED("bounded"),
+    BOUNDED("bounded", givesBounds = true),
     ;
 
     /** A filter of this kind over [grid]; [settings] count for the bounded one only. */
