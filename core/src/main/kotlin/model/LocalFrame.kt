@@ -51,7 +51,7 @@ public class LocalFrame(public val origin: LatLon) {
     private val north: DoubleArray
 
     init {
-        require(canStartAt(origin)) { "origin (${origin.latitudeDeg} deg) must not be at a pole" }
+        require(canStartAt(origin.latitudeDeg)) { "origin (${origin.latitudeDeg} deg) must not be at a pole" }
         val latitude = Math.toRadians(origin.latitudeDeg)
         val longitude = Math.toRadians(origin.longitudeDeg)
         east = doubleArrayOf(-sin(longitude), cos(longitude), 0.0)
@@ -130,7 +130,7 @@ public class LocalFrame(public val origin: LatLon) {
         internal const val ECCENTRICITY_SQUARED: Double = FLATTENING * (2 - FLATTENING)
         private const val CLOSEST_TO_POLE_DEG = 1e-6
 
-        /** Whether a frame may have [place] as its origin: at a pole east has no direction. */
-        public fun canStartAt(place: LatLon): Boolean = abs(place.latitudeDeg) <= 90 - CLOSEST_TO_POLE_DEG
+        /** Whether a frame's origin may have this latitude, degrees: at a pole east has no direction. */
+        public fun canStartAt(latitudeDeg: Double): Boolean = abs(latitudeDeg) <= 90 - CLOSEST_TO_POLE_DEG
     }
 }

@@ -107,8 +107,8 @@ class MapCommand : CliktCommand("map") {
     }
 
     private fun work() {
-        if (cell != null && gridSize != null) throw BadFlag("--grid", "either --grid or --cell", "both")
-        if (calibrate != null && !epsilon.isNaN()) throw BadFlag("--calibrate", "it with --epsilon auto", "a number")
+        if (cell != null && gridSize != null) throw failure("--grid: expected either --grid or --cell, found both")
+        if (calibrate != null && !epsilon.isNaN()) throw failure("--calibrate: expected --epsilon auto, found a number")
         val file = Path.of(log)
         val opened = SurveyLog.open(file, logOptions.choice())
         // Opened first: where results cannot be written, nobody wants to wait for them.

@@ -107,22 +107,13 @@ internal class CsvSurvey private constructor(
                 val expected = "${columns.names.size} fields as in the header"
                 return problem(row.line, null, expected, "${row.fields}", "rows with a wrong number of fields")
             }
-            val time = row.numbers[TIME]
             return numberProblem(row, TIME, columns.time)
                 ?: numberProblem(row, NORTH, northColumn)
                 ?: numberProblem(row, EAST, eastColumn)
                 ?: numberProblem(row, VALUE, columns.value)
                 ?: conditionProblem(row)
-                ?: if (inDegrees) {
-                    rangeProblem(row)
-                } else {
-                    null
-                        ?: when {
-                            time > lastSeconds -> null
-                            time < lastSeconds -> timeProblem(row, "times going back")
-                            else -> timeProblem(row, "duplicate times")
-                        }
-                }
+                ?: rangeProblem(row)
+                ?: timeProblem(row)
         }
 
         private fun numberProblem(row: CsvRow, slot: Int, column: Int): LogProblem? {
@@ -152,24 +143,25 @@ internal class CsvSurvey private constructor(
             val longitude = row.numbers[EAST]
             val reason = "positions off the globe"
             return when {
+                !inDegrees -> null
                 latitude !in LatLon.LATITUDES_DEG ->
                     problem(row.line, northColumn, "a latitude within -90..90", "$latitude", reason)
                 longitude !in LatLon.LONGITUDES_DEG ->
                     problem(row.line, eastColumn, "a longitude within -180..360", "$longitude", reason)
                 latitude == 0.0 && longitude == 0.0 -> null
-                frame == null && !LocalFrame.canStartAt(LatLon(latitude, longitude)) ->
-                    problem(row.line, northColumn, "a latitude below 90 to start from", "$latitude", reason)
+                // Any row, or the second reading, which has a frame already, would take what the first has left out.
+                !LocalFrame.canStartAt(latitude) ->
+                    problem(row.line, northColumn, "a latitude short of the pole", "$latitude", reason)
                 else -> null
             }
         }
 
-        private fun timeProblem(row: CsvRow, reason: String) = problem(
-            row.line,
-            columns.time,
-            "a time after $lastSeconds s",
-            "${row.numbers[TIME]} s",
-            reason,
-        )
+        private fun timeProblem(row: CsvRow): LogProblem? {
+            val time = row.numbers[TIME]
+            if (time > lastSeconds) return null
+            val reason = if (time < lastSeconds) "times going back" else "duplicate times"
+            return problem(row.line, columns.time, "a time after $lastSeconds s", "$time s", reason)
+        }
 
         private fun use(row: CsvRow) {
             val numbers = row.numbers

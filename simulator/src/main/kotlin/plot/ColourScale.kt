@@ -52,25 +52,38 @@ internal class ColourScale private constructor(private val from: Double, private
         private const val TICKS = 6
         private const val LARGEST = 1e300
         private const val SMALLEST_SHARE = 1e-9
+        private const val CONSTANT_MARGIN = 0.501
 
         /** The scale for [values], with ends [wanted] if given. A constant stands in the middle of the scale. */
         fun of(values: List<Double>, wanted: ClosedFloatingPointRange<Double>?): ColourScale {
+            val finite = values.filter { abs(it) <= LARGEST }
             if (wanted != null) {
                 require(wanted.start < wanted.endInclusive && (wanted.endInclusive - wanted.start).isFinite()) {
                     "colours ($wanted) must go from a lower to a higher finite value"
                 }
-                return ColourScale(wanted.start, wanted.endInclusive)
+                return ColourScale(wanted.start, wanted.endInclusive).aroundConstant(finite)
             }
-            val finite = values.filter { abs(it) <= LARGEST }
             if (finite.isEmpty()) return ColourScale(0.0, 1.0)
             val low = finite.min()
             val high = finite.max()
             val size = maxOf(abs(low), abs(high))
             return when {
                 high - low > size * SMALLEST_SHARE -> ColourScale(low, high)
-                size > 0 -> ColourScale(low - size / 2, high + size / 2)
+                size > 0 -> ColourScale(low - size / 2, high + size / 2).aroundConstant(finite)
                 else -> ColourScale(-1.0, 1.0)
             }
+        }
+
+        /**
+         * This scale, wide enough for the plot library: it takes a constant c for the range c - 0.5 to c + 0.5, and
+         * fails where a scale does not hold all of that.
+         */
+        private fun ColourScale.aroundConstant(values: List<Double>): ColourScale {
+            val shown = values.map { it.coerceIn(from, to) }
+            val low = shown.minOrNull() ?: return this
+            val high = shown.max()
+            if (high - low > abs(high) * SMALLEST_SHARE) return this
+            return ColourScale(minOf(from, low - CONSTANT_MARGIN), maxOf(to, high + CONSTANT_MARGIN))
         }
     }
 }

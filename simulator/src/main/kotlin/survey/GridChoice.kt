@@ -80,7 +80,11 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         val betweenTracks = if (statistics.distance > 0) extent.width * extent.height / statistics.distance else 0.0
         val wanted = maxOf(alongTrack, betweenTracks, extent.longer / MOST_CELLS_A_SIDE)
         val largest = maxOf(extent.longer / FEWEST_CELLS_A_SIDE, extent.longer / MOST_CELLS_A_SIDE)
-        return if (extent.longer > 0) nice(minOf(wanted, largest)) else 1.0
+        if (extent.longer <= 0) return 1.0
+        val side = nice(minOf(wanted, largest))
+        val needed = alongTrack * READINGS_NEEDED / READINGS_A_CELL
+        // 1, 2, 5, 10: from one to the next it is at most a factor 2.5, which leads to exactly one of them.
+        return if (side >= needed) side else nice(NEXT * side)
     }
 
     /** The number of 1, 2 or 5 times a power of ten below [length], or a little (a fifth) above; at least a centimetre. */
@@ -136,6 +140,8 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
 
     private companion object {
         const val READINGS_A_CELL = 10
+        const val READINGS_NEEDED = 8
+        const val NEXT = 2.5
         const val FEWEST_CELLS_A_SIDE = 10
         const val MOST_CELLS_A_SIDE = 100
         const val SMALLEST = 0.01

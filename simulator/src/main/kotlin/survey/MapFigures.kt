@@ -84,7 +84,9 @@ class MapFigures(private val map: SurveyMap) {
         val isBounded = kind == FilterKind.BOUNDED
         val title = "$quantity, ${kind.label} filter"
         val caption = when {
-            isBounded -> "Midpoint of the bounds in each visited cell; no value where no slope set a bound."
+            isBounded ->
+                "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is that of " +
+                    "the range taken for the water."
             kind == FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             else -> "Exponential average of the readings in each visited cell."
         }
@@ -111,7 +113,7 @@ class MapFigures(private val map: SurveyMap) {
     }
 
     private fun profile(title: String, field: FieldMap, value: (Int) -> Double, withBounds: Boolean): Figure {
-        val cells = (0 until field.grid.size).filter { field.visits(it) > 0 }
+        val cells = field.visitedCells()
         val series = Series(
             "",
             cells.doubles { field.grid.centerX(it) },
@@ -127,7 +129,7 @@ class MapFigures(private val map: SurveyMap) {
     /** The visited cells, merged into blocks where there are too many to draw. */
     private fun cells(field: FieldMap, value: (Int) -> Double): List<MapCell> {
         val grid = field.grid
-        val visited = (0 until grid.size).filter { field.visits(it) > 0 }
+        val visited = field.visitedCells()
         val side = ceil(sqrt(visited.size / MOST_CELLS.toDouble())).toInt().coerceAtLeast(1)
         val blocks = visited.groupBy { (it / grid.columns / side) to (it % grid.columns / side) }
         return blocks.map { (block, members) ->

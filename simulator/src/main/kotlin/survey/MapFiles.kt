@@ -41,7 +41,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             draw().also { warnings += directory.writeFigures(listOf(it.name to it.figure)) }
         }
         directory.write("report.html", MapReport(map, summary, figures, command).render())
-        return warnings.take(1)
+        return warnings.toList()
     }
 
     /**
@@ -76,7 +76,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
     }
 
     private fun polygons(frame: LocalFrame): List<GeoPolygon> = map.maps.flatMap { (kind, field) ->
-        (0 until field.grid.size).filter { field.visits(it) > 0 }.map { cell -> polygon(frame, kind, field, cell) }
+        field.visitedCells().map { cell -> polygon(frame, kind, field, cell) }
     }
 
     private fun polygon(frame: LocalFrame, kind: FilterKind, field: FieldMap, cell: Int): GeoPolygon {

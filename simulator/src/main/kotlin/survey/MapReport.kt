@@ -64,7 +64,8 @@ internal class MapReport(
                 "To hold against: legs in the same direction, which share the lag but lie twice as far apart, differ " +
                     "by ${summary.estimate(same)}; the same legs differ from their opposite neighbours by " +
                     "${summary.estimate(paired)}. Opposite minus same, leg by leg: ${summary.estimate(excess)}. " +
-                    "Above 0 it is lag; below 0 the water changes too much from leg to leg to tell.",
+                    "Above 0 by more than two standard errors it speaks for a lag; else the water changes too much from leg " +
+                    "to leg to tell this way.",
             )
         }
         paragraph(

@@ -49,9 +49,10 @@ class MapSummary(private val map: SurveyMap) {
             add("${statistics.jumps} jumps in the positions are faster than 20 m/s: check the receiver's fixes")
         }
         outliers()?.let(::add)
-        val skipped = map.pass.skipped.values.sum()
+        // Before the first fix every log has some; that is no fault of its.
+        val skipped = map.pass.skipped.filterKeys { it !in HARMLESS }.values.sum()
         if (skipped > MANY_SKIPPED * map.pass.readings) {
-            add("$skipped rows or lines were skipped, against ${map.pass.readings} readings used")
+            add("$skipped readings or lines were skipped, against ${map.pass.readings} readings used")
         }
         val calibration = map.calibration
         if (map.bounded != null && map.bounded.epsilon == 0.0 && calibration == null) {
@@ -61,6 +62,15 @@ class MapSummary(private val map: SurveyMap) {
         }
         if (statistics.speeds.count > 0 && statistics.speeds.median < SLOW && statistics.east > statistics.west) {
             add("the boat hardly moved (median speed ${digits(statistics.speeds.median)} m/s): the map shows little")
+        }
+        map.maps[FilterKind.BOUNDED]?.let { field ->
+            val both = field.visitedCells().count { field.isBoundedBothWays(it) }
+            if (both < FEW_BOUNDED * map.passes.visitedCells) {
+                add(
+                    "the bounded filter has both bounds in $both of ${map.passes.visitedCells} visited cells only, " +
+                        "because few were crossed both ways; elsewhere its value leans on the range taken for the water",
+                )
+            }
         }
         if (map.log.frame == null) add("the log has no latitudes, so no cells.geojson is written")
     }
@@ -111,9 +121,9 @@ class MapSummary(private val map: SurveyMap) {
     }
 
     private fun bounds(field: FieldMap): String {
-        val visited = (0 until field.grid.size).filter { field.visits(it) > 0 }
+        val visited = field.visitedCells()
         val bounded = visited.count { field.hasBound(it) }
-        val both = visited.count { field.lower(it) > field.prior.lower && field.upper(it) < field.prior.upper }
+        val both = visited.count { field.isBoundedBothWays(it) }
         val conflicts = visited.sumOf { field.conflicts(it).toLong() }
         return "a bound in $bounded of ${visited.size} visited cells, both in $both, $conflicts conflicts"
     }
@@ -170,6 +180,7 @@ class MapSummary(private val map: SurveyMap) {
         .let { if ('.' in it && 'e' !in it) it.trimEnd('0').trimEnd('.') else it }
 
     private companion object {
+        val HARMLESS = setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines")
         const val MINUTE = 60.0
         const val HOUR = 3600.0
         const val LOW = 0.05
@@ -177,6 +188,7 @@ class MapSummary(private val map: SurveyMap) {
         const val OUTLYING = 3
         const val MANY_SKIPPED = 0.01
         const val FEW_SLOPES = 20
+        const val FEW_BOUNDED = 0.5
         const val SLOW = 0.05
         const val PERCENT = 100.0
     }
@@ -184,3 +196,9 @@ class MapSummary(private val map: SurveyMap) {
 
 /** Whether evidence has narrowed the range of [cell] at all. */
 internal fun FieldMap.hasBound(cell: Int): Boolean = lower(cell) > prior.lower || upper(cell) < prior.upper
+
+/** Whether evidence has narrowed the range of [cell] from below and from above. */
+internal fun FieldMap.isBoundedBothWays(cell: Int): Boolean = lower(cell) > prior.lower && upper(cell) < prior.upper
+
+/** Indices of the cells the boat entered. */
+internal fun FieldMap.visitedCells(): List<Int> = (0 until grid.size).filter { visits(it) > 0 }

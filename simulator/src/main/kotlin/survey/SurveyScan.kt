@@ -67,6 +67,10 @@ class SurveyScan : ReadingSink {
         if (value == lastValue) repeatedValues++
         val moved = hypot(x - lastX, y - lastY)
         if (moved > JUMP_METRES && moved > JUMP_SPEED * step) jumps++
+        // Over a gap nothing is known about the way.
+        if (readings > 2 && step > GAP_SECONDS && step > GAP_STEPS * (last - first) / (readings - 1)) {
+            return anchor(seconds, x, y)
+        }
         val elapsed = seconds - anchorTime
         if (elapsed >= SPEED_SECONDS) {
             val run = hypot(x - anchorX, y - anchorY)
@@ -121,6 +125,8 @@ class SurveyScan : ReadingSink {
 
     private companion object {
         const val SPEED_SECONDS = 5.0
+        const val GAP_SECONDS = 60.0
+        const val GAP_STEPS = 10
         const val JUMP_METRES = 10.0
         const val JUMP_SPEED = 20.0
     }

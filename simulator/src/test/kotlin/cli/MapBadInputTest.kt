@@ -1,0 +1,281 @@
+package stillwater.cli
+
+import org.junit.jupiter.api.io.TempDir
+import org.junit.jupiter.params.ParameterizedTest
+import org.junit.jupiter.params.provider.MethodSource
+import java.nio.charset.Charset
+import java.nio.file.Files
+import java.nio.file.Path
+import kotlin.io.path.exists
+import kotlin.io.path.writeBytes
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** Whatever is wrong with a log or a flag: one line that says where and what, exit code 2, nothing written. */
+class MapBadInputTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    /**
+     * @property log bytes of the log. @property flags more flags. @property message what the line must hold.
+     * @property skipped reason that `--skip-bad-rows` counts it under; null where skipping is no help.
+     */
+    class Case(
+        private val name: String,
+        val log: ByteArray,
+        val message: String,
+        val skipped: String? = null,
+        val flags: List<String> = emptyList(),
+        val file: String = "log.csv",
+    ) {
+        override fun toString() = name
+    }
+
+    @ParameterizedTest
+    @MethodSource("badLogs", "badPlatypusLogs", "badFlags")
+    fun isRefusedInOneLineAndWritesNothing(case: Case) {
+        val log = directory.resolve(case.file).apply { writeBytes(case.log) }
+        val result = runMap(log.toString(), "--out", directory.out().toString(), *case.flags.toTypedArray())
+        assertEquals(BAD_INPUT, result.statusCode, result.output)
+        assertEquals("", result.stdout)
+        assertEquals(1, result.stderr.trim().lines().size, result.stderr)
+        assertTrue(result.stderr.startsWith("stillwater map: "), result.stderr)
+        assertTrue(case.message in result.stderr, "${case.message} is not in ${result.stderr}")
+        assertEquals(case.skipped != null, "--skip-bad-rows" in result.stderr, result.stderr)
+        assertNothingWritten()
+    }
+
+    @ParameterizedTest
+    @MethodSource("badLogs", "badPlatypusLogs")
+    fun isSkippedAndCountedWhereThatHelps(case: Case) {
+        if (case.skipped == null) return
+        val log = directory.resolve(case.file).apply { writeBytes(case.log) }
+        val flags = case.flags + listOf("--skip-bad-rows", "--filter", "averaging")
+        val result = runMap(log.toString(), "--out", directory.out().toString(), *flags.toTypedArray())
+        assertEquals(0, result.statusCode, result.output)
+        assertTrue(Regex("${Regex.escape(case.skipped)} +1 skipped").containsMatchIn(result.stdout), result.stdout)
+        assertTrue(directory.out().resolve("cells.csv").exists())
+    }
+
+    @ParameterizedTest
+    @MethodSource("missingFiles")
+    fun saysThatThereIsNoLog(name: String, message: String) {
+        val result = runMap(directory.resolve(name).toString(), "--out", directory.out().toString())
+        assertEquals(BAD_INPUT, result.statusCode)
+        assertTrue(message in result.stderr, result.stderr)
+        assertNothingWritten()
+    }
+
+    private fun assertNothingWritten() {
+        assertFalse(directory.out().exists())
+        val left = Files.list(directory).use { files -> files.map { it.fileName.toString() }.toList() }
+        assertTrue(left.all { it.startsWith("log") || it.startsWith("platypus") }, "left behind: $left")
+    }
+
+    companion object {
+        private const val HEAD = "time_s,lat_deg,lon_deg,do_mg_l\n"
+        private const val GOOD = "0,45.5,-73.1,8.1\n1,45.50001,-73.1,8.2\n2,45.50002,-73.1,8.3\n"
+
+        @JvmStatic
+        fun missingFiles() = listOf(
+            arrayOf("none.csv", "none.csv: expected a log file, found no such file"),
+            arrayOf(".", "expected a log file, found a directory"),
+        )
+
+        private fun csv(name: String, text: String, message: String, skipped: String? = null, vararg flags: String) =
+            Case(name, text.toByteArray(), message, skipped, flags.toList())
+
+        @JvmStatic
+        fun badLogs() = listOf(
+            csv("empty file", "", "log.csv: expected a log, found an empty file"),
+            csv("blank lines only", "\n\n \n", "found nothing but blank lines"),
+            csv("header only", HEAD, "log.csv: expected rows after the header, found none"),
+            csv("no header", GOOD, "log.csv:1: expected a header line with column names, found '0,45.5,-73.1,8.1'"),
+            csv("a single row", HEAD + "0,45.5,-73.1,8.1\n", "expected at least 2 readings of do_mg_l, found 1"),
+            csv("no time column", "t,lat_deg,lon_deg,do\n$GOOD", "log.csv:1: expected a column time_s or unix_time_s"),
+            csv("no position", "time_s,la,lo,do\n$GOOD", "expected columns lat_deg and lon_deg, or x_m and y_m"),
+            csv("no value column", "time_s,lat_deg,lon_deg\n0,45,7\n1,45,7\n", "expected a column with readings"),
+            csv("unknown column", HEAD + GOOD, "log.csv:1: column odo: expected one of time_s", null, "--value", "odo"),
+            csv("a name twice", "time_s,x_m,y_m,a,a\n0,1,2,3,4\n", "expected one such column", null, "--value", "a"),
+            csv(
+                "several candidates",
+                "time_s,x_m,y_m,temp_c,ph,note\n0,1,2,3,4,a\n1,1,2,3,4,b\n",
+                "expected --value with one of temp_c, ph, found 2 columns",
+            ),
+            csv(
+                "text for a number",
+                HEAD + GOOD + "3,45.5,-73.1,high\n",
+                "log.csv:5: column do_mg_l: expected a finite number, found 'high'",
+                "rows with text where a number belongs",
+            ),
+            csv(
+                "decimal comma",
+                "time_s;x_m;y_m;v\n0;0;0;1\n1;1;0;2\n2;2;0;1,5\n",
+                "log.csv:4: column v: expected a finite number, found '1,5' (decimals need a point)",
+                "rows with text where a number belongs",
+            ),
+            csv(
+                "hexadecimal",
+                HEAD + GOOD + "3,45.5,-73.1,0x1p3\n",
+                "found '0x1p3'",
+                "rows with text where a number belongs",
+            ),
+            csv("NaN", HEAD + GOOD + "3,45.5,-73.1,NaN\n", "found 'NaN'", "rows with text where a number belongs"),
+            csv("infinite", HEAD + GOOD + "3,45.5,inf,8\n", "column lon_deg", "rows with text where a number belongs"),
+            csv(
+                "overflow",
+                HEAD + GOOD + "3,45.5,-73.1,1e999\n",
+                "found '1e999'",
+                "rows with text where a number belongs",
+            ),
+            csv("empty field", HEAD + GOOD + "3,45.5,-73.1,\n", "found nothing", "rows with an empty field"),
+            csv("empty time", HEAD + GOOD + ",45.5,-73.1,8\n", "column time_s", "rows with an empty field"),
+            csv(
+                "time going back",
+                HEAD + GOOD + "1.5,45.5,-73.1,8\n",
+                "log.csv:5: column time_s: expected a time after 2.0 s, found 1.5 s",
+                "times going back",
+            ),
+            csv("duplicate time", HEAD + GOOD + "2,45.5,-73.1,8\n", "expected a time after 2.0 s", "duplicate times"),
+            csv(
+                "latitude off the globe",
+                HEAD + GOOD + "3,95.5,-73.1,8\n",
+                "log.csv:5: column lat_deg: expected a latitude within -90..90, found 95.5",
+                "positions off the globe",
+            ),
+            csv("longitude off the globe", HEAD + GOOD + "3,45,361,8\n", "longitude within", "positions off the globe"),
+            csv(
+                "start at a pole",
+                HEAD + "0,90,0,1\n" + GOOD.replace("0,45.5,-", "0.5,45.5,-"),
+                "log.csv:2",
+                "positions off the globe",
+            ),
+            csv("cut last line", HEAD + GOOD + "3,45.5,-7", "expected 4 fields as in the header, found 3", WRONG_COUNT),
+            csv("a field too many", HEAD + GOOD + "3,45.5,-73.1,8,9\n", "log.csv:5: expected 4 fields", WRONG_COUNT),
+            csv("line of a row after a blank line", HEAD + "\n" + GOOD + "x,1,2,3\n", "log.csv:6: column time_s", TEXT),
+            csv(
+                "line of a row after a quoted break",
+                "time_s,x_m,y_m,v,n\n0,0,0,1,\"a\nb\"\nx,0,0,1,c\n1,1,1,1,d\n",
+                "log.csv:4",
+                TEXT,
+                "--value",
+                "v",
+            ),
+            csv(
+                "a quote left open",
+                HEAD + GOOD + "3,45.5,-73.1,\"8\n4,45.5,-73.1,8\n5,45.5,-73.1,8\n",
+                "log.csv:5",
+                TEXT,
+            ),
+            Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
+            Case("gzip", byteArrayOf(0x1f, 0x8b.toByte(), 8, 0, 0), "found a gzip archive: unpack it first"),
+            Case(
+                "no UTF-8",
+                "time_s,x_m,y_m,t_°C\n0,0,0,1\n1,1,1,1\n".toByteArray(Charset.forName("ISO-8859-1")),
+                "text in UTF-8",
+            ),
+            csv("garbage", "\u0001\u0002lots of (stuff\n%%\n", "log.csv:1: expected a column time_s"),
+        )
+
+        private const val WRONG_COUNT = "rows with a wrong number of fields"
+        private const val TEXT = "rows with text where a number belongs"
+
+        private fun pose(millis: Int, zone: String = "17North", east: Double = 592_300.0) =
+            "$millis\tI\t{\"pose\":{\"p\":[${east + millis * 1e-3},4481762.0,252],\"q\":[1,0,0,0],\"zone\":\"$zone\"}}\n"
+
+        private fun reading(millis: Int, data: String = "7.$millis") =
+            "$millis\tI\t{\"sensor\":{\"channel\":1,\"type\":\"ATLAS_DO\",\"data\":[$data]}}\n"
+
+        private val PLATYPUS = "0\tI\t{\"date\":\"Thu May 19\",\"time\":1463679383361}\n" +
+            (1..9).joinToString("") { pose(100 * it) + reading(100 * it + 50) }
+
+        private fun platypus(name: String, more: String, message: String, skipped: String? = null, vararg flags: String) =
+            Case(name, (PLATYPUS + more).toByteArray(), message, skipped, flags.toList(), "platypus_log.txt")
+
+        @JvmStatic
+        fun badPlatypusLogs() = listOf(
+            platypus(
+                "zone 99",
+                pose(2000, "99North"),
+                "log.txt:20: expected a UTM zone 1North to 60South, found '99North'",
+                "poses in no UTM zone",
+            ),
+            platypus("zone without a half", pose(2000, "18West"), "found '18West'", "poses in no UTM zone"),
+            platypus(
+                "off the zone",
+                pose(2000, east = 5e6),
+                "expected UTM easting in 0..1000000",
+                "poses off the globe",
+            ),
+            platypus(
+                "cut last line",
+                "2000\tI\t{\"pose\":{\"p\":[592300.9,44",
+                "log.txt:20: expected a JSON object",
+                "unreadable lines",
+            ),
+            platypus("no log line", "what is this\n", "log.txt:20: expected a line '<ms> TAB", "unreadable lines"),
+            platypus("broken pose", "2000\tI\t{\"pose\":{\"p\":[1]}}\n", "expected a pose", "unreadable lines"),
+            platypus("no number", reading(2000, "\"x\""), "expected a finite number", "readings that are no number"),
+            platypus("duplicate time", reading(950), "expected a ATLAS_DO time after", "duplicate times"),
+            platypus(
+                "unknown sensor",
+                "",
+                "expected readings of ATLAS_PH, found ATLAS_DO (9 lines)",
+                null,
+                "--value",
+                "ATLAS_PH",
+            ),
+            platypus("malformed sensor", "", "expected --value TYPE[#CHANNEL][.FIELD]", null, "--value", "a b"),
+            platypus("columns", "", "expected a survey CSV for column lat", null, "--lat", "lat"),
+            platypus(
+                "two channels",
+                reading(2000).replace(":1,", ":2,"),
+                "expected --value with one of ATLAS_DO#1, ATLAS_DO#2",
+            ),
+        )
+
+        private fun flag(name: String, message: String, vararg flags: String) =
+            Case(name, (HEAD + GOOD).toByteArray(), message, flags = flags.toList())
+
+        @JvmStatic
+        fun badFlags() = listOf(
+            flag("cell of 0", "--cell: expected a length in metres above 0, found '0'", "--cell", "0"),
+            flag("cell NaN", "--cell: expected", "--cell", "NaN"),
+            flag("cell too small", "--cell: cells of 1.0E-7 m would make a grid", "--cell", "0.0000001"),
+            flag("grid with one number", "--grid: expected COLSxROWS", "--grid", "10"),
+            flag("grid of 0", "--grid: expected COLSxROWS", "--grid", "0x5"),
+            flag("grid of halves", "--grid: expected COLSxROWS", "--grid", "1.5x2"),
+            flag("grid too fine", "--grid: expected COLSxROWS", "--grid", "100000x100000"),
+            flag(
+                "grid and cell",
+                "--grid: expected either --grid or --cell, found both",
+                "--grid",
+                "2x2",
+                "--cell",
+                "5",
+            ),
+            flag("rotation", "--rotation: expected an angle within -180..180", "--rotation", "181"),
+            flag("range", "--range: expected LOW:HIGH", "--range", "9:8"),
+            flag("epsilon", "--epsilon: expected auto or a number of at least 0, found '-1'", "--epsilon", "-1"),
+            flag("calibrate", "--calibrate: expected FROM:TO", "--calibrate", "60"),
+            flag("calibrate on nothing", "expected --calibrate with at least 7 readings", "--calibrate", "100:200"),
+            flag(
+                "calibrate a number",
+                "--calibrate: expected --epsilon auto, found a number",
+                "--calibrate",
+                "0:1",
+                "--epsilon",
+                "1",
+            ),
+            flag("even median", "--median: expected an odd number within 1..999, found '4'", "--median", "4"),
+            flag("slope", "--slope: expected a whole number within 2..999, found '1'", "--slope", "1"),
+            flag("crossing", "--crossing: expected one of plain, soft, reset, found 'hard'", "--crossing", "hard"),
+            flag("filter", "--filter: expected some of averaging, exponential, bounded", "--filter", "kalman"),
+            flag("filter twice", "each once", "--filter", "bounded,bounded"),
+            flag("condition", "--condition: expected NAME=COLUMN, found 'speed'", "--condition", "speed"),
+            flag("condition column", "log.csv:1: column v: expected one of", "--condition", "speed=v"),
+            flag("pose age", "--max-pose-age: expected a number of seconds above 0", "--max-pose-age", "0"),
+        )
+    }
+}

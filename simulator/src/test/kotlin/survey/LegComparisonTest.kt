@@ -1,0 +1,97 @@
+package stillwater.survey
+
+import org.junit.jupiter.api.Test
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import kotlin.math.PI
+import kotlin.math.cos
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
+
+/** A known lawnmower survey through a known sensor: the comparison must find what was put in. */
+class LegComparisonTest {
+    private fun survey(legs: Int, lag: Double, noise: Double = 0.0, turn: Double = 0.0): SurveyScan {
+        val scan = SurveyScan()
+        val random = Random(SEED)
+        var reading = Double.NaN
+        var seconds = 0.0
+        for (leg in 0 until legs) {
+            // 200 m along, then 10 m across, 1 m/s, 1 Hz.
+            for (step in 0 until 210) {
+                val along = minOf(step, 200).toDouble()
+                val x = leg * 10.0 + maxOf(0, step - 200)
+                val y = if (leg % 2 == 0) along else 200 - along
+                val truth = sin(2 * PI * y / 150) + 0.3 * cos(2 * PI * x / 200)
+                reading = if (reading.isNaN()) truth else reading + (1 - exp(-1 / lag)) * (truth - reading)
+                val shown = reading + noise * random.nextDouble(-1.0, 1.0)
+                val east = x * cos(turn) - y * sin(turn)
+                val north = x * sin(turn) + y * cos(turn)
+                scan.take(BoatTime(seconds), east, north, shown, Conditions.NONE)
+                seconds += 1.0
+            }
+        }
+        return scan
+    }
+
+    private fun compare(scan: SurveyScan): LegMismatch? {
+        val statistics = scan.statistics()
+        val track = scan.track()
+        return LegComparison(statistics, track).compare(LegFinder(statistics).find(track))
+    }
+
+    @Test
+    fun findsTheLagOfAFirstOrderSensor() {
+        for (lag in listOf(4.0, 10.0, 20.0)) {
+            val mismatch = assertNotNull(compare(survey(legs = 14, lag = lag, noise = 0.01)))
+            assertEquals(14, mismatch.legs.legs.size)
+            assertEquals(12, mismatch.scores.size)
+            assertTrue(mismatch.shift.isClear)
+            // A lag of tau delays a wave of angular frequency w by atan(w tau) / w, here by 1 to 14 % less than tau.
+            val delay = kotlin.math.atan(2 * PI / 150 * lag) / (2 * PI / 150)
+            // After a turn the sensor meets the water it has just left, so that the first metres of a leg show less lag.
+            assertEquals(delay, mismatch.shift.seconds, 0.5 + 0.15 * delay, "seed $SEED, lag $lag s")
+            assertTrue(mismatch.shift.mismatch < mismatch.opposite.mean / 3)
+            assertTrue(assertNotNull(mismatch.excess).mean > 0)
+        }
+    }
+
+    @Test
+    fun findsItHoweverTheSurveyLies() {
+        for (turn in listOf(0.3, 1.2, 2.5, -1.0)) {
+            val mismatch = assertNotNull(compare(survey(legs = 12, lag = 10.0, turn = turn)))
+            assertEquals(9.0, mismatch.shift.seconds, 1.5, "turned by $turn")
+        }
+    }
+
+    @Test
+    fun seesNoLagWhereThereIsNone() {
+        val mismatch = assertNotNull(compare(survey(legs = 14, lag = 1e-3, noise = 0.05)))
+        assertEquals(0.0, mismatch.shift.seconds, 1.0, "seed $SEED")
+        assertFalse(mismatch.shift.isClear)
+        assertTrue(assertNotNull(mismatch.excess).run { mean < 2 * standardError })
+    }
+
+    @Test
+    fun doesNotTellALagFromFewLegs() {
+        val mismatch = assertNotNull(compare(survey(legs = 8, lag = 10.0)))
+        assertFalse(mismatch.shift.isClear, "6 legs with two neighbours each are too few")
+    }
+
+    @Test
+    fun saysSoWhereThereIsNothingToCompare() {
+        assertNull(compare(survey(legs = 3, lag = 10.0)))
+        val still = SurveyScan()
+        for (i in 0 until 100) still.take(BoatTime(i.toDouble()), 0.0, 0.0, 1.0, Conditions.NONE)
+        assertNull(compare(still))
+    }
+
+    private companion object {
+        const val SEED = 3
+    }
+}
