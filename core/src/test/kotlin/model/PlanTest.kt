@@ -6,16 +6,16 @@ import kotlin.test.assertFailsWith
 
 class PlanTest {
     private fun plan(count: Int, capacity: Int = 1) = Plan(capacity).apply {
-        for (i in 0 until count) add(i.toDouble(), -i.toDouble())
+        for (i in 0 until count) add(i.toDouble(), 10.0 - i)
     }
 
     @Test
     fun keepsWaypointsInOrderWhileItGrows() {
         val plan = plan(count = 100)
         assertEquals(100, plan.size)
-        assertEquals(List(100) { Position(it.toDouble(), -it.toDouble()) }, plan.waypoints())
+        assertEquals(List(100) { Position(it.toDouble(), 10.0 - it) }, plan.waypoints())
         assertEquals(99.0, plan.x(99), 0.0)
-        assertEquals(-99.0, plan.y(99), 0.0)
+        assertEquals(-89.0, plan.y(99), 0.0)
     }
 
     @Test
@@ -40,7 +40,7 @@ class PlanTest {
         plan.truncate(9)
         assertEquals(5, plan.size)
         plan.truncate(2)
-        assertEquals(listOf(Position(0.0, 0.0), Position(1.0, -1.0)), plan.waypoints())
+        assertEquals(listOf(Position(0.0, 10.0), Position(1.0, 9.0)), plan.waypoints())
         plan.truncate(-3)
         assertEquals(0, plan.size)
     }
@@ -60,7 +60,7 @@ class PlanTest {
         val before = plan.waypoints()
         plan.clear()
         plan.add(9.0, 9.0)
-        assertEquals(listOf(Position(0.0, 0.0), Position(1.0, -1.0)), before)
+        assertEquals(listOf(Position(0.0, 10.0), Position(1.0, 9.0)), before)
     }
 
     @Test
