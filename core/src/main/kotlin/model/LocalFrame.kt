@@ -62,9 +62,29 @@ public class LocalFrame(public val origin: LatLon) {
 
     /** Where [place] lies in this frame. Places beyond a quarter of the globe fold back and have no use here. */
     public fun toLocal(place: LatLon): Position {
-        val point = earthCentred(place)
-        for (axis in 0..2) point[axis] -= originEarth[axis]
-        return Position(dot(point, east), dot(point, north))
+        val local = DoubleArray(2)
+        toLocal(place.latitudeDeg, place.longitudeDeg, local)
+        return Position(local[0], local[1])
+    }
+
+    /**
+     * [toLocal] for loops over millions of fixes: no allocation.
+     *
+     * @param latitudeDeg degrees north, -90 to 90; not checked.
+     * @param longitudeDeg degrees east; not checked.
+     * @param into where x and y, m, are written to, length 2 at least. Modified.
+     */
+    public fun toLocal(latitudeDeg: Double, longitudeDeg: Double, into: DoubleArray) {
+        val latitude = Math.toRadians(latitudeDeg)
+        val longitude = Math.toRadians(longitudeDeg)
+        val sine = sin(latitude)
+        val normal = SEMI_MAJOR_AXIS / sqrt(1 - ECCENTRICITY_SQUARED * sine * sine)
+        val radius = normal * cos(latitude)
+        val a = radius * cos(longitude) - originEarth[0]
+        val b = radius * sin(longitude) - originEarth[1]
+        val c = normal * (1 - ECCENTRICITY_SQUARED) * sine - originEarth[2]
+        into[0] = a * east[0] + b * east[1] + c * east[2]
+        into[1] = a * north[0] + b * north[1] + c * north[2]
     }
 
     /**
@@ -98,8 +118,6 @@ public class LocalFrame(public val origin: LatLon) {
             normal * (1 - ECCENTRICITY_SQUARED) * sin(latitude),
         )
     }
-
-    private fun dot(a: DoubleArray, b: DoubleArray) = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
     private fun scaledDot(a: DoubleArray, b: DoubleArray) =
         (a[0] * b[0] + a[1] * b[1]) / (SEMI_MAJOR_AXIS * SEMI_MAJOR_AXIS) +

@@ -1,7 +1,7 @@
 package stillwater.cli
 
-/** A command as it would be typed: [command], its [argument] and the flags that were given; null and false are not. */
-fun commandLineText(command: String, argument: String, flags: List<Pair<String, Any?>>): String {
+/** A command as it would be typed: [command], its [argument] if it has one, and the flags that were given; null and false are not. */
+fun commandLineText(command: String, argument: String?, flags: List<Pair<String, Any?>>): String {
     val parts = ArrayList<String>()
     for ((flag, value) in flags) {
         when (value) {
@@ -11,7 +11,7 @@ fun commandLineText(command: String, argument: String, flags: List<Pair<String, 
             else -> parts += "$flag ${typed(value.toString())}"
         }
     }
-    return (listOf(command, typed(argument)) + parts).joinToString(" ")
+    return (listOfNotNull(command, argument?.let(::typed)) + parts).joinToString(" ")
 }
 
 /** [text] in quotes where a shell would take it apart. */

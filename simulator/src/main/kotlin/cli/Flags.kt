@@ -1,5 +1,6 @@
 package stillwater.cli
 
+import com.github.ajalt.clikt.core.Context
 import com.github.ajalt.clikt.core.UsageError
 import com.github.ajalt.clikt.parameters.options.NullableOption
 import com.github.ajalt.clikt.parameters.options.RawOption
@@ -11,7 +12,10 @@ const val BAD_INPUT = 2
 
 /** A flag whose value cannot be used; one line, exit code [BAD_INPUT]. */
 class BadFlag(flag: String, expected: String, found: String) :
-    UsageError("$flag: expected $expected, found $found", statusCode = BAD_INPUT)
+    UsageError("$flag: expected $expected, found $found", statusCode = BAD_INPUT) {
+    /** This problem as one of the command that runs in [context], where Clikt does not know it yet. */
+    fun of(context: Context): BadFlag = also { it.context = it.context ?: context }
+}
 
 /** A finite number for which [accepts] holds; [expected] says what that means. */
 fun RawOption.number(expected: String, accepts: (Double) -> Boolean = { true }): NullableOption<Double, Double> =

@@ -18,7 +18,7 @@ class Stillwater : CliktCommand("stillwater") {
 }
 
 fun main(args: Array<String>) {
-    val command = Stillwater().subcommands(MapCommand())
+    val command = Stillwater().subcommands(BenchmarkCommand(), MapCommand())
     try {
         command.parse(args)
     } catch (error: CliktError) {

@@ -12,13 +12,10 @@ import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
-import com.github.ajalt.clikt.parameters.options.required
-import stillwater.estimate.CrossingPolicy
 import stillwater.io.DecimalText
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
 import stillwater.model.Interval
-import stillwater.plot.FigureException
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
 import stillwater.run.FilterKind
@@ -39,8 +36,10 @@ class MapCommand : CliktCommand("map") {
     }
 
     private val log by argument("LOG").help("survey CSV or Platypus log")
-    private val out by option("--out", metavar = "DIR", help = "directory for the results").required()
+    private val out by option("--out", metavar = "DIR", help = "directory for the results")
+        .default("stillwater-map")
     private val logOptions by LogOptions()
+    private val filterOptions by BoundedFilterOptions()
     private val filters by option(
         "--filter",
         metavar = "NAMES",
@@ -78,45 +77,31 @@ class MapCommand : CliktCommand("map") {
         metavar = "FROM:TO",
         help = "stretch for --epsilon auto, seconds after the first reading; without it the quietest",
     ).numberPair(':', "FROM:TO, two times in seconds, the first below the second") { from, to -> from < to }
-    private val medianWindow by option("--median", metavar = "N", help = "samples in the median window")
-        .wholeNumber("an odd number within 1..$LONGEST_WINDOW") { it in 1..LONGEST_WINDOW && it % 2 == 1 }.default(3)
-    private val slopeWindow by option("--slope", metavar = "N", help = "medians in the slope window")
-        .wholeNumber("a whole number within 2..$LONGEST_WINDOW") { it in 2..LONGEST_WINDOW }.default(5)
-    private val crossing by option("--crossing", metavar = "POLICY", help = "bounds that cross: plain, soft or reset")
-        .oneOf(CrossingPolicy.entries.associateBy { it.name.lowercase() })
-        .default(CrossingPolicy.PLAIN, defaultForHelp = "plain")
-    private val keepWindows by option(
-        "--keep-windows",
-        help = "keep the windows over cell borders (the report does not say; bounds are then often wrong)",
-    ).flag()
     private val quiet by option("--quiet", help = "no progress bar and no table").flag()
     private val json by option("--json", help = "print a summary as JSON instead of a table").flag()
 
     override fun help(context: Context) =
         "Make a map, figures and a report out of a boat's log."
 
-    override fun helpEpilog(context: Context) = """
-        Writes cells.csv (every cell of every filter), cells.geojson (visited cells), figures as SVG and PNG, and
-        report.html into DIR; nothing at all when something is wrong with the log.
-
-        Examples:
-
-        ```
-        stillwater map survey.csv --value odo_percent_sat --out map
-        stillwater map platypus_20160519.txt --value ATLAS_DO --out map --cell 2
-        stillwater map profiles.csv --x pres_dbar --value doxy_umol --out map
-        stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120 --json --out map
-        ```
-    """.trimIndent()
+    override fun helpEpilog(context: Context) = helpEnd(
+        "Writes cells.csv (every cell of every filter), cells.geojson (visited cells), figures as SVG and PNG, and " +
+            "report.html into DIR; nothing at all when something is wrong with the log.",
+        listOf(
+            "stillwater map survey.csv --value odo_percent_sat --out map",
+            "stillwater map platypus_20160519.txt --value ATLAS_DO --cell 2",
+            "stillwater map profiles.csv --x pres_dbar --value doxy_umol",
+            "stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120 --json",
+        ),
+    )
 
     override fun run() {
         try {
             work()
+        } catch (wrong: BadFlag) {
+            throw wrong.of(currentContext)
         } catch (problem: LogProblem) {
             throw failure(problem.message.orEmpty())
         } catch (problem: OutputException) {
-            throw failure(problem.message.orEmpty())
-        } catch (problem: FigureException) {
             throw failure(problem.message.orEmpty())
         }
     }
@@ -130,14 +115,14 @@ class MapCommand : CliktCommand("map") {
         OutputDirectory(Path.of(out)).use { directory ->
             val map = read(opened, file)
             val summary = MapSummary(map)
-            MapFiles(map, summary, commandLine()).write(directory)
+            val drawing = MapFiles(map, summary, commandLine()).write(directory)
             val written = directory.commit()
             when {
                 json -> echo(MapJson.text(map, written))
                 !quiet -> {
                     echo("Map of ${opened.quantity}")
                     echo(summary.text())
-                    for (warning in summary.warnings) echo("warning: $warning", err = true)
+                    for (warning in summary.warnings + drawing) echo("warning: $warning", err = true)
                     echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}")
                 }
             }
@@ -168,10 +153,7 @@ class MapCommand : CliktCommand("map") {
         prior = range?.let { (low, high) -> Interval(low, high) },
         epsilon = epsilon.takeIf { !it.isNaN() },
         calibrate = calibrate?.let { (from, to) -> Stretch(from, to) },
-        medianWindow = medianWindow,
-        slopeWindow = slopeWindow,
-        crossing = crossing,
-        clearOnEntry = !keepWindows,
+        boundedFilter = filterOptions.applied(MapSettings().boundedFilter),
     )
 
     private fun commandLine(): String {
@@ -184,12 +166,8 @@ class MapCommand : CliktCommand("map") {
             "--range" to range?.let { (low, high) -> "$low:$high" },
             "--epsilon" to epsilon.takeIf { !it.isNaN() },
             "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
-            "--median" to medianWindow,
-            "--slope" to slopeWindow,
-            "--crossing" to crossing.name.lowercase(),
-            "--keep-windows" to keepWindows,
         )
-        return commandLineText("stillwater map", log, logOptions.flags() + own)
+        return commandLineText("stillwater map", log, logOptions.flags() + own + filterOptions.flags())
     }
 
     private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)
@@ -197,7 +175,6 @@ class MapCommand : CliktCommand("map") {
     private companion object {
         /** Smaller files are done before a bar can be read, bytes. */
         const val WORTH_SHOWING = 8_000_000L
-        const val LONGEST_WINDOW = 999
         const val MOST_CELLS = 16e6
     }
 }

@@ -81,6 +81,7 @@ internal class CsvSurvey private constructor(
         private var rows = 0L
         private var headerSeen = false
         private var lastSeconds = Double.NEGATIVE_INFINITY
+        private val local = DoubleArray(2)
         private val inDegrees = columns.latitude != CsvColumns.NONE
         private val northColumn = if (inDegrees) columns.latitude else columns.y
         private val eastColumn = if (inDegrees) columns.longitude else columns.x
@@ -177,10 +178,9 @@ internal class CsvSurvey private constructor(
             var y = if (oneDimensional) 0.0 else numbers[NORTH]
             if (inDegrees) {
                 if (x == 0.0 && y == 0.0) return skips.count("positions without a fix (0, 0)")
-                val place = LatLon(y, x)
-                val local = (frame ?: LocalFrame(place).also { frame = it }).toLocal(place)
-                x = local.x
-                y = local.y
+                (frame ?: LocalFrame(LatLon(y, x)).also { frame = it }).toLocal(y, x, local)
+                x = local[0]
+                y = local[1]
             }
             sink.take(BoatTime(numbers[TIME]), x, y, numbers[VALUE], conditions(row))
             readings++

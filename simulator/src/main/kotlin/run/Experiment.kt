@@ -42,18 +42,18 @@ class Experiment(val settings: ExperimentSettings) {
                 Curve(name, filter, planner, settings.checkpoints, errors.map { it[index] })
             }
         }
-        ExperimentResult(settings, curves)
+        ExperimentResult(settings, curves, settings.fields.mapValues { (name, kind) -> extremeCells(name, kind) })
     }
 
     private fun combinations() = settings.planners.flatMap { planner -> settings.filters.map { planner to it } }
 
     /** Errors of all [combinations] in one environment, one row each. */
-    private fun environment(name: String, kind: RandomField, environment: Int): List<DoubleArray> {
-        val field = kind.draw(settings.grid, seeds.random("field $name", environment))
+    private fun environment(name: String, kind: RandomField, environment: Int): List<TrialErrors> {
+        val field = field(name, kind, environment)
         val checkpoints = settings.checkpoints.toIntArray()
         return settings.planners.flatMap { planner ->
             val start = if (planner.startsAtFirstCell) 0 else startCell(name, environment)
-            val errors = HashMap<FilterKind, DoubleArray>()
+            val errors = HashMap<FilterKind, TrialErrors>()
             for (group in pathGroups(planner)) {
                 val stream = "$name ${planner.label} ${group.first().label}"
                 val trial = Trial(
@@ -64,11 +64,19 @@ class Experiment(val settings: ExperimentSettings) {
                     samplesPerMove = settings.samplesPerMove,
                     period = settings.period,
                 )
-                group.zip(trial.run(start, checkpoints).asIterable()).toMap(errors)
+                group.zip(trial.run(start, checkpoints)).toMap(errors)
             }
             settings.filters.map { errors.getValue(it) }
         }
     }
+
+    private fun field(name: String, kind: RandomField, environment: Int) =
+        kind.draw(settings.grid, seeds.random("field $name", environment))
+
+    private fun extremeCells(name: String, kind: RandomField): Double =
+        (0 until settings.environments).sumOf { environment ->
+            LocalExtremes.of(field(name, kind, environment)).count { it }
+        } / settings.environments.toDouble() / settings.grid.size
 
     private fun startCell(name: String, environment: Int) =
         seeds.random("start $name", environment).nextInt(settings.grid.size)

@@ -33,6 +33,7 @@ class Trial(
     private val samplesPerMove: Int,
     private val period: Double,
 ) {
+    private val extremes = LocalExtremes.of(field)
     private var samples = 0L
     private var reading = 0.0
 
@@ -41,10 +42,10 @@ class Trial(
      *
      * @param start index of the start cell.
      * @param checkpoints moves after which the error is taken, ascending, each at least 1; the run ends with the last.
-     * @return mean absolute error over all cells, one row per estimator, one column per checkpoint.
+     * @return the errors of each estimator, in their order.
      */
-    fun run(start: Int, checkpoints: IntArray): Array<DoubleArray> {
-        val errors = Array(estimators.size) { DoubleArray(checkpoints.size) }
+    fun run(start: Int, checkpoints: IntArray): List<TrialErrors> {
+        val errors = estimators.map { TrialErrors(checkpoints.size) }
         val grid = field.grid
         val plan = Plan()
         var waypoint = 0
@@ -72,7 +73,7 @@ class Trial(
             }
             stay(x, y)
             if (move == checkpoints[checkpoint]) {
-                for (i in estimators.indices) errors[i][checkpoint] = meanAbsoluteError(estimators[i])
+                for (i in estimators.indices) take(errors[i], checkpoint, estimators[i])
                 checkpoint++
             }
         }
@@ -87,9 +88,29 @@ class Trial(
         }
     }
 
-    private fun meanAbsoluteError(estimator: FieldEstimator): Double {
-        var sum = 0.0
-        for (cell in 0 until field.grid.size) sum += abs(estimator.map.value(cell) - field.truth(cell))
-        return sum / field.grid.size
+    private fun take(errors: TrialErrors, checkpoint: Int, estimator: FieldEstimator) {
+        val cells = field.grid.size
+        var all = 0.0
+        var inExtremes = 0.0
+        for (cell in 0 until cells) {
+            val error = abs(estimator.map.value(cell) - field.truth(cell))
+            all += error
+            if (extremes[cell]) inExtremes += error
+        }
+        errors.mean[checkpoint] = all / cells
+        errors.inExtremes[checkpoint] = inExtremes / cells
     }
+}
+
+/**
+ * Errors of one estimator in one trial.
+ *
+ * @param checkpoints number of checkpoints.
+ */
+class TrialErrors(checkpoints: Int) {
+    /** Mean absolute error over all cells at each checkpoint, sensor units. */
+    val mean: DoubleArray = DoubleArray(checkpoints)
+
+    /** The part of [mean] that lies in local extremes of the field, sensor units: a sum there over all cells' number. */
+    val inExtremes: DoubleArray = DoubleArray(checkpoints)
 }

@@ -22,8 +22,8 @@ class LegComparison(
     private val track: Track,
     private val seed: Long = DEFAULT_SEED,
 ) {
-    /** Legs i − [reach] and i + [reach] with leg i between them, as indices into the legs. */
-    private class Triple(val leg: Int, val before: Leg, val middle: Leg, val after: Leg)
+    /** Leg [leg] and the legs it is held against, as indices into the legs. */
+    private class Triple(val leg: Int, val before: Int, val after: Int)
 
     /** The comparison, or null where too few legs have opposite neighbours. */
     fun compare(legs: Legs): LegMismatch? {
@@ -32,15 +32,20 @@ class LegComparison(
         if (opposite.size < FEWEST_LEGS) return null
         val profiles = profiles(legs)
         val shifts = shifts(list)
-        // score[triple][shift], sensor units
-        val scores = opposite.map { triple -> DoubleArray(shifts.size) { score(profiles, triple, shifts[it]) } }
+        // scores[triple][shift], sensor units
+        val scores = List(opposite.size) { DoubleArray(shifts.size) }
+        for ((s, shift) in shifts.withIndex()) {
+            val shifted = list.map { profiles.of(it, shift) }
+            for ((i, triple) in opposite.withIndex()) scores[i][s] = score(shifted, triple)
+        }
         val unshifted = shifts.size / 2
         val usable = opposite.indices.filter { scores[it].all(Double::isFinite) }
         if (usable.size < FEWEST_LEGS) return null
         val same = triples(list, reach = 2).associateBy { it.leg }
+        val asTaken = list.map { profiles.of(it, lag = 0.0) }
         val legScores = usable.map { i ->
             val leg = opposite[i].leg
-            LegScore(leg + 1, scores[i][unshifted], same[leg]?.let { score(profiles, it, 0.0) } ?: Double.NaN)
+            LegScore(leg + 1, scores[i][unshifted], same[leg]?.let { score(asTaken, it) } ?: Double.NaN)
         }
         val both = legScores.filter { it.same.isFinite() }.takeIf { it.size >= FEWEST_LEGS }
         return LegMismatch(
@@ -55,15 +60,16 @@ class LegComparison(
         )
     }
 
-    private fun triples(legs: List<Leg>, reach: Int): List<Triple> = (reach until legs.size - reach).mapNotNull { i ->
-        val middle = legs[i]
-        val window = legs.subList(i - reach, i + reach + 1)
-        val alternating = window.zipWithNext().all { (a, b) -> a.forward != b.forward }
-        val overlap = window.maxOf { it.start }..window.minOf { it.end }
-        val isLong = overlap.endInclusive - overlap.start >= middle.length / 2
-        // Both neighbours must lie about as far away as neighbours usually do.
-        val near = window.zipWithNext().all { (a, b) -> abs(a.across - b.across) <= MOST_SPACINGS * spacing(legs) }
-        Triple(i, window.first(), middle, window.last()).takeIf { alternating && isLong && near }
+    private fun triples(legs: List<Leg>, reach: Int): List<Triple> {
+        val usual = spacing(legs)
+        return (reach until legs.size - reach).mapNotNull { i ->
+            val window = legs.subList(i - reach, i + reach + 1)
+            val alternating = window.zipWithNext().all { (a, b) -> a.forward != b.forward }
+            val overlap = window.minOf { it.end } - window.maxOf { it.start }
+            // Both neighbours must lie about as far away as neighbours usually do.
+            val near = window.zipWithNext().all { (a, b) -> abs(a.across - b.across) <= MOST_SPACINGS * usual }
+            Triple(i, i - reach, i + reach).takeIf { alternating && near && overlap >= legs[i].length / 2 }
+        }
     }
 
     private fun spacing(legs: List<Leg>): Double =
@@ -78,10 +84,10 @@ class LegComparison(
         return LegProfiles(track, legs.axis, width, legs.legs.minOf { it.start }, legs.legs.maxOf { it.end })
     }
 
-    private fun score(profiles: LegProfiles, triple: Triple, lag: Double): Double {
-        val middle = profiles.of(triple.middle, lag)
-        val before = profiles.of(triple.before, lag)
-        val after = profiles.of(triple.after, lag)
+    private fun score(profiles: List<DoubleArray>, triple: Triple): Double {
+        val middle = profiles[triple.leg]
+        val before = profiles[triple.before]
+        val after = profiles[triple.after]
         var sum = 0.0
         var bins = 0
         for (i in middle.indices) {
@@ -156,7 +162,7 @@ class LegComparison(
         private const val BINS_A_LEG = 50.0
         private const val LARGEST_SHIFT = 1.0 / 6
         private const val MOST_SHIFTS = 60.0
-        private const val RESAMPLES = 1000
+        private const val RESAMPLES = 500
         private const val LOW = 0.025
     }
 }

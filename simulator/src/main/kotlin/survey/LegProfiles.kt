@@ -20,38 +20,27 @@ internal class LegProfiles(private val track: Track, axis: Double, val binWidth:
 
     /**
      * Mean reading of [leg] in each bin, NaN where it has none, if every reading is put where the boat was [lag] s
-     * before its time. Readings that so come to lie before or after the leg are left out.
+     * before its time. Readings from shortly after the leg (before it, for a negative lag) so come to lie on it, and
+     * some of its own no longer do.
      */
     fun of(leg: Leg, lag: Double): DoubleArray {
         val sums = DoubleArray(bins)
         val counts = IntArray(bins)
-        var cursor = leg.first
-        // Readings shortly after the leg's end were taken from its water, hence the walk beyond it.
+        val begin = track.times[leg.first]
+        val end = track.times[leg.last]
         var i = leg.first
+        while (i > 0 && track.times[i - 1] - lag >= begin) i--
+        var cursor = leg.first
         while (i < track.size) {
             val seconds = track.times[i] - lag
-            if (seconds > track.times[leg.last]) break
-            if (seconds >= track.times[leg.first]) {
+            if (seconds > end) break
+            if (seconds >= begin) {
                 while (cursor < leg.last - 1 && track.times[cursor + 1] < seconds) cursor++
                 count(place(cursor, seconds), track.values[i], sums, counts)
             }
             i++
         }
-        if (lag < 0) before(leg, lag, sums, counts)
         return DoubleArray(bins) { if (counts[it] == 0) Double.NaN else sums[it] / counts[it] }
-    }
-
-    /** With a negative lag, readings from before the leg's first point belong to it as well. */
-    private fun before(leg: Leg, lag: Double, sums: DoubleArray, counts: IntArray) {
-        var i = leg.first - 1
-        while (i >= 0) {
-            val seconds = track.times[i] - lag
-            if (seconds < track.times[leg.first]) break
-            var cursor = leg.first
-            while (cursor < leg.last - 1 && track.times[cursor + 1] < seconds) cursor++
-            if (seconds <= track.times[leg.last]) count(place(cursor, seconds), track.values[i], sums, counts)
-            i--
-        }
     }
 
     private fun count(place: Double, value: Double, sums: DoubleArray, counts: IntArray) {

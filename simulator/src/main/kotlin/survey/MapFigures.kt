@@ -34,13 +34,13 @@ class MapFigures(private val map: SurveyMap) {
     private val colours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
         .takeIf { it.start < it.endInclusive }
 
-    /** All figures, in the order in which a reader wants them. */
-    fun draw(): List<MapFigure> = buildList {
-        add(track())
-        map.maps.forEach { (kind, field) -> add(estimate(kind, field)) }
-        map.maps[FilterKind.BOUNDED]?.let { add(width(it)) }
-        map.mismatch?.let { add(shift(it)) }
-        if (map.statistics.speeds.count > 1) add(speed())
+    /** What draws each figure, in the order in which a reader wants them. */
+    fun draw(): List<() -> MapFigure> = buildList {
+        add { track() }
+        map.maps.forEach { (kind, field) -> add { estimate(kind, field) } }
+        map.maps[FilterKind.BOUNDED]?.let { add { width(it) } }
+        map.mismatch?.let { add { shift(it) } }
+        if (map.statistics.speeds.count > 1) add { speed() }
     }
 
     private fun track(): MapFigure {

@@ -8,6 +8,7 @@ import stillwater.report.GeoCorner
 import stillwater.report.GeoJson
 import stillwater.report.GeoPolygon
 import stillwater.report.OutputDirectory
+import stillwater.report.writeFigures
 import stillwater.run.FilterKind
 import kotlin.math.abs
 
@@ -21,8 +22,12 @@ import kotlin.math.abs
  * @param map what to write. @param summary the same in words. @param command the command as typed, for the report.
  */
 class MapFiles(private val map: SurveyMap, private val summary: MapSummary, private val command: String) {
-    /** Writes all files into [directory], which the caller commits. */
-    fun write(directory: OutputDirectory) {
+    /**
+     * Writes all files into [directory], which the caller commits.
+     *
+     * @return warnings for the user, one line each.
+     */
+    fun write(directory: OutputDirectory): List<String> {
         directory.stream("cells.csv") { out ->
             val table = CsvTable(out, COLUMNS)
             map.maps.forEach { (kind, field) -> rows(table, kind, field) }
@@ -30,12 +35,21 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             table.close()
         }
         map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
-        val figures = MapFigures(map).draw()
-        for (figure in figures) {
-            directory.write("${figure.name}.svg", figure.figure.svg)
-            directory.write("${figure.name}.png", figure.figure.png())
+val warnings = LinkedHashSet<String>()
+        val figures = MapFigures(map).draw().map { draw ->
+            trimHeap()
+            draw().also { warnings += directory.writeFigures(listOf(it.name to it.figure)) }
         }
         directory.write("report.html", MapReport(map, summary, figures, command).render())
+        return warnings.take(1)
+    }
+
+    /**
+     * Lets the collector give memory back between figures of a long log. The plot library leaves hundreds of megabytes
+     * of garbage a figure, and with much memory free the collector would rather grow than tidy up.
+     */
+    private fun trimHeap() {
+        if (map.pass.readings >= LONG_LOG) System.gc()
     }
 
     private fun rows(table: CsvTable, kind: FilterKind, field: FieldMap) {
@@ -93,6 +107,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
     }
 
     private companion object {
+        const val LONG_LOG = 500_000
         const val HALF_TURN = 180.0
         val COLUMNS = listOf(
             "filter",

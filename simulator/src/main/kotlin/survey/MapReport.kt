@@ -1,6 +1,7 @@
 package stillwater.survey
 
 import stillwater.report.HtmlReport
+import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.SignificantDigits
 import stillwater.report.Table
@@ -19,7 +20,7 @@ internal class MapReport(
     private val page = HtmlReport(
         title = "Map of ${map.log.quantity}",
         subtitle = "${map.log.file.fileName}, ${map.log.format}",
-        provenance = Provenance(version(), command, LegComparison.DEFAULT_SEED),
+        provenance = Provenance(Program.VERSION, command, LegComparison.DEFAULT_SEED),
     )
 
     /** The page's text. */
@@ -90,8 +91,6 @@ internal class MapReport(
         val compass = (QUARTER_TURN - heading).mod(2 * HALF_TURN)
         return "${Math.round(compass) % (2 * HALF_TURN).toInt()}°"
     }
-
-    private fun version() = MapReport::class.java.`package`.implementationVersion ?: "of a development build"
 
     private companion object {
         const val HALF_TURN = 180.0

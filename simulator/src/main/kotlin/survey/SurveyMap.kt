@@ -1,7 +1,6 @@
 package stillwater.survey
 
 import stillwater.estimate.BoundedFilterSettings
-import stillwater.estimate.CrossingPolicy
 import stillwater.estimate.EpsilonCalibration
 import stillwater.field.FieldMap
 import stillwater.io.LogPass
@@ -20,10 +19,7 @@ import stillwater.run.FilterKind
  * @property prior range of the field, sensor units.
  * @property epsilon smallest slope that counts as one, sensor units/s.
  * @property calibrate stretch to find epsilon on, where [epsilon] is null; null for the quietest.
- * @property medianWindow samples in the median window.
- * @property slopeWindow medians in the slope window.
- * @property crossing what happens when bounds cross.
- * @property clearOnEntry whether the windows are emptied on entering a cell.
+ * @property boundedFilter settings of the bounded filter; its epsilon stands back behind [epsilon].
  */
 data class MapSettings(
     val filters: List<FilterKind> = FilterKind.entries,
@@ -31,10 +27,7 @@ data class MapSettings(
     val prior: Interval? = null,
     val epsilon: Double? = null,
     val calibrate: Stretch? = null,
-    val medianWindow: Int = 3,
-    val slopeWindow: Int = 5,
-    val crossing: CrossingPolicy = CrossingPolicy.PLAIN,
-    val clearOnEntry: Boolean = true,
+    val boundedFilter: BoundedFilterSettings = BoundedFilterSettings(epsilon = 0.0),
 )
 
 /**
@@ -121,13 +114,9 @@ class SurveyMap internal constructor(
             )
         }
 
-        private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = BoundedFilterSettings(
-            epsilon = settings.epsilon ?: calibration?.epsilon ?: 0.0,
-            medianWindow = settings.medianWindow,
-            slopeWindow = settings.slopeWindow,
-            clearOnEntry = settings.clearOnEntry,
-            crossing = settings.crossing,
-        ).takeIf { FilterKind.BOUNDED in settings.filters }
+        private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = settings.boundedFilter
+            .copy(epsilon = settings.epsilon ?: calibration?.epsilon ?: 0.0)
+            .takeIf { FilterKind.BOUNDED in settings.filters }
 
         /** The readings' range and a tenth of it more either way: a slow sensor falls short of the water's extremes. */
         private fun prior(statistics: SurveyStatistics): Interval {
@@ -153,8 +142,8 @@ private class GapCount(private val limit: Double) {
 /** Finds epsilon on the first reading of a log where [settings] ask for it. */
 private class EpsilonSearch(private val settings: MapSettings) {
     private val isNeeded = settings.epsilon == null && FilterKind.BOUNDED in settings.filters
-    private val quietest = QuietestStretch(settings.medianWindow, settings.slopeWindow)
-    private val chosen = EpsilonCalibration(settings.medianWindow, settings.slopeWindow)
+    private val quietest = QuietestStretch(settings.boundedFilter.medianWindow, settings.boundedFilter.slopeWindow)
+    private val chosen = EpsilonCalibration(settings.boundedFilter.medianWindow, settings.boundedFilter.slopeWindow)
     private var start = Double.NaN
 
     fun add(seconds: Double, value: Double) {
@@ -172,7 +161,8 @@ private class EpsilonSearch(private val settings: MapSettings) {
         val stretch = settings.calibrate
         if (!isNeeded || stretch == null) return if (isNeeded) quietest.calibration() else null
         if (chosen.slopes == 0) {
-            val expected = "--calibrate with at least ${settings.medianWindow + settings.slopeWindow - 1} readings"
+            val fewest = settings.boundedFilter.medianWindow + settings.boundedFilter.slopeWindow - 1
+            val expected = "--calibrate with at least $fewest readings"
             throw LogProblem(log.file, null, null, expected, "fewer within ${stretch.from}:${stretch.to} s")
         }
         return Calibration(chosen.epsilon(), stretch, chosen.slopes)

@@ -1,0 +1,82 @@
+package stillwater.benchmark
+
+import stillwater.plot.Figure
+import stillwater.plot.drawAll
+import stillwater.report.CsvTable
+import stillwater.report.OutputDirectory
+import stillwater.report.writeFigures
+import stillwater.run.ExperimentResult
+
+/**
+ * Writes what an experiment found: results.csv, extremes.csv, sensor.json, a figure a field (SVG and PNG) and report.html.
+ *
+ * @param result what was found.
+ * @param command the command as typed, for the report.
+ */
+class BenchmarkFiles(private val result: ExperimentResult, private val command: String) {
+    /**
+     * Writes all files into [directory], which the caller commits.
+     *
+     * @return warnings for the user, one line each.
+     */
+    fun write(directory: OutputDirectory): List<String> {
+        directory.stream("results.csv") { out -> CsvTable(out, COLUMNS).use(::rows) }
+        directory.stream("extremes.csv") { out -> CsvTable(out, EXTREMES_COLUMNS).use(::extremes) }
+        directory.write("sensor.json", result.settings.sensor.toJson() + "\n")
+        val figures = BenchmarkFigures.of(result)
+        val drawn: List<Figure> = figures.map { it.drawing }.drawAll()
+        val warnings = directory.writeFigures(figures.map { it.name }.zip(drawn))
+        directory.write("report.html", BenchmarkReport(result, figures.map { it.field }.zip(drawn), command).render())
+        return warnings
+    }
+
+    private fun rows(table: CsvTable) {
+        for (curve in result.curves) {
+            curve.checkpoints.zip(curve.summaries) { move, summary ->
+                table.row(
+                    curve.field,
+                    curve.filter.label,
+                    curve.planner.label,
+                    result.settings.sensor.name,
+                    move,
+                    result.settings.environments,
+                    summary.mean,
+                    summary.standardError,
+                    summary.p10,
+                    summary.p90,
+                )
+            }
+        }
+    }
+
+    private fun extremes(table: CsvTable) {
+        for (curve in result.curves) {
+            curve.checkpoints.zip(curve.summaries) { move, summary ->
+                table.row(
+                    curve.field,
+                    curve.filter.label,
+                    curve.planner.label,
+                    move,
+                    result.extremeCells.getValue(curve.field),
+                    summary.shareInExtremes,
+                )
+            }
+        }
+    }
+
+    private companion object {
+        val EXTREMES_COLUMNS = listOf("field", "filter", "planner", "move", "share_of_cells", "share_of_error")
+        val COLUMNS = listOf(
+            "field",
+            "filter",
+            "planner",
+            "sensor",
+            "move",
+            "environments",
+            "mean_abs_error",
+            "standard_error",
+            "p10",
+            "p90",
+        )
+    }
+}

@@ -1,0 +1,79 @@
+package stillwater.benchmark
+
+import stillwater.plot.Figure
+import stillwater.report.HtmlReport
+import stillwater.report.Program
+import stillwater.report.Provenance
+import stillwater.report.Table
+import stillwater.run.ExperimentResult
+
+/**
+ * The page about an experiment.
+ *
+ * @param result what was found.
+ * @param figures the figure of each field, by the field's name.
+ * @param command the command as typed.
+ */
+internal class BenchmarkReport(
+    private val result: ExperimentResult,
+    private val figures: List<Pair<String, Figure>>,
+    private val command: String,
+) {
+    private val settings = result.settings
+
+    /** The page's text. */
+    fun render(): String {
+        val page = HtmlReport(
+            title = "Benchmark",
+            subtitle = "How wrong is the map after each move? Mean absolute error over all cells.",
+            provenance = Provenance(Program.VERSION, command, settings.seed),
+        )
+        page.summary("Environments", "${settings.environments} of each field")
+        page.summary("Sensor", settings.sensor.name)
+        page.summary("Moves", "${settings.moves}, ${settings.samplesPerMove} readings each")
+        for ((field, figure) in figures) {
+            page.section(figure.title) {
+                figure(figure, "Planners by colour, filters by line. Bands: one standard error of the mean either way.")
+                table(BenchmarkTable.of(result, field), "Mean absolute error at some of the moves")
+            }
+        }
+        val claims = ReportClaims(result).all()
+        if (claims.isNotEmpty()) {
+            page.section("The report's claims") {
+                paragraph("Held against the mean curves above, at the moves in results.csv.")
+                table(claimsTable(claims))
+            }
+        }
+        page.section("Settings") {
+            keyValues(settingsList())
+            details("The sensor as JSON") { code(settings.sensor.toJson()) }
+        }
+        return page.render()
+    }
+
+    private fun claimsTable(claims: List<Claim>) = Table.of(claims) {
+        text("Claim") { it.text }
+        text("Holds") { if (it.holds) "yes" else "no" }
+        text("Where") { it.detail }
+    }
+
+    private fun settingsList(): List<Pair<String, String>> {
+        val filter = settings.boundedFilter
+        val planner = settings.plannerSettings.bounded
+        return listOf(
+            "Grid" to "${settings.grid.columns} x ${settings.grid.rows} cells, prior ${settings.prior.lower} to " +
+                "${settings.prior.upper}",
+            "Bounded filter" to "median of ${filter.medianWindow}, slope over ${filter.slopeWindow} medians, epsilon " +
+                "${filter.epsilon} /s, crossing bounds ${filter.crossing.name.lowercase()}, windows " +
+                if (filter.clearOnEntry) "cleared on entering a cell" else "kept over cell borders",
+            "Random walk" to settings.plannerSettings.walk.name.words(),
+            "Lawnmower" to settings.plannerSettings.pattern.name.words(),
+            "Bounded planner" to "horizon ${planner.horizon}, ${planner.expansions} expansions, largest change " +
+                "${planner.maxChange}, visits on the path ${if (planner.discountVisits) "" else "not "}discounted, " +
+                "runs the ${planner.choice.name.words()} path, ${planner.execution.name.words()} before planning again",
+            "Time between readings" to "${settings.period} s",
+        )
+    }
+
+    private fun String.words() = lowercase().replace('_', ' ')
+}

@@ -1,0 +1,211 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.CliktCommand
+import com.github.ajalt.clikt.core.CliktError
+import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.context
+import com.github.ajalt.clikt.core.terminal
+import com.github.ajalt.clikt.parameters.groups.provideDelegate
+import com.github.ajalt.clikt.parameters.options.convert
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.option
+import kotlinx.coroutines.runBlocking
+import stillwater.benchmark.BenchmarkFiles
+import stillwater.benchmark.BenchmarkJson
+import stillwater.benchmark.BenchmarkTable
+import stillwater.benchmark.ReportClaims
+import stillwater.model.Grid
+import stillwater.report.OutputDirectory
+import stillwater.report.OutputException
+import stillwater.report.toTerminal
+import stillwater.run.Checkpoints
+import stillwater.run.Experiment
+import stillwater.run.ExperimentResult
+import stillwater.run.ExperimentSettings
+import stillwater.run.FilterKind
+import stillwater.run.PlannerKind
+import stillwater.run.Preset
+import java.nio.file.Path
+import java.util.concurrent.atomic.AtomicLong
+
+/** `stillwater benchmark`: the report's comparison of filters and planners in simulated fields. */
+class BenchmarkCommand : CliktCommand("benchmark") {
+    init {
+        context { helpFormatter = { OneLineErrors(it) } }
+    }
+
+    private val preset by option(
+        "--preset",
+        metavar = "NAME",
+        help = Preset.entries.joinToString("; ") { "${it.label}: ${it.describes}" },
+    ).oneOf(Preset.entries.associateBy { it.label }).default(Preset.REPORT, defaultForHelp = Preset.REPORT.label)
+    private val out by option(
+        "--out",
+        metavar = "DIR",
+        help = "directory for the results",
+    ).default("stillwater-benchmark")
+    private val fields by option("--field", metavar = "NAMES", help = "fields to draw: uniform, gaussian")
+        .someOf(listOf(Preset.UNIFORM, Preset.GAUSSIAN).associateWith { it })
+    private val filters by option(
+        "--filter",
+        metavar = "NAMES",
+        help = "filters to compare: ${FilterKind.entries.joinToString(", ") { it.label }}",
+    ).someOf(FilterKind.entries.associateBy { it.label })
+    private val planners by option(
+        "--planner",
+        metavar = "NAMES",
+        help = "planners to compare: ${PlannerKind.entries.joinToString(", ") { it.label }}",
+    ).someOf(PlannerKind.entries.associateBy { it.label })
+    private val environments by option("--environments", metavar = "N", help = "random fields of each kind")
+        .wholeNumber("a whole number within 1..1000000") { it in 1..MILLION }
+    private val moves by option("--moves", metavar = "N", help = "moves in a trial; the first is the start cell")
+        .wholeNumber("a whole number within 1..100000000") { it in 1..MOST_MOVES }
+    private val checkpoints by option(
+        "--checkpoints",
+        metavar = "MOVES",
+        help = "moves at which errors are taken, such as 50,100,200; without it about a dozen in every decade",
+    ).convert { text ->
+        text.split(',').map { it.trim().toIntOrNull() ?: throw BadFlag(name, "moves such as 50,100,200", "'$text'") }
+    }
+    private val grid by option("--grid", metavar = "COLSxROWS", help = "size of the fields in cells")
+        .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
+            columns >= 1 && rows >= 1 && columns % 1 == 0.0 && rows % 1 == 0.0 && columns * rows <= MILLION
+        }
+    private val samples by option("--samples", metavar = "N", help = "readings in a cell before the boat moves on")
+        .wholeNumber("a whole number within 1..1000000") { it in 1..MILLION }
+    private val epsilon by option(
+        "--epsilon",
+        metavar = "NUMBER",
+        help = "slope per reading that the bounded filter takes for noise",
+    ).number("a number of at least 0") { it >= 0 }
+    private val sensorOptions by SensorOptions()
+    private val filterOptions by BoundedFilterOptions()
+    private val plannerOptions by PlannerOptions()
+    private val seed by option(
+        "--seed",
+        metavar = "N",
+        help = "where all chance comes from; the same seed, the same bytes",
+    )
+        .convert { text -> text.toLongOrNull() ?: throw BadFlag(name, "a whole number", "'$text'") }.default(1L)
+    private val threads by option(
+        "--threads",
+        metavar = "N",
+        help = "environments at once; does not change the results",
+    )
+        .wholeNumber("a whole number within 1..1024") { it in 1..MOST_THREADS }
+        .default(Runtime.getRuntime().availableProcessors(), defaultForHelp = "all cores")
+    private val quiet by option("--quiet", help = "no progress bar and no table").flag()
+    private val json by option("--json", help = "print the results as JSON instead of tables").flag()
+
+    override fun help(context: Context) =
+        "Compare filters and planners in simulated fields, as the report does in its Figures 6 and 7."
+
+    override fun helpEpilog(context: Context) = helpEnd(
+        "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), figure-6 and " +
+            "figure-7 (SVG and PNG), sensor.json and report.html into DIR; nothing at all when something is wrong.",
+        listOf(
+            "stillwater benchmark",
+            "stillwater benchmark --preset noisy --out noisy",
+            "stillwater benchmark --field uniform --filter bounded --moves 6000",
+            "stillwater benchmark --preset original --choice best --seed 7",
+            "stillwater benchmark --sensor my-probe.json --environments 20 --json",
+        ),
+    )
+
+    override fun run() {
+        try {
+            work(settings())
+        } catch (wrong: BadFlag) {
+            throw wrong.of(currentContext)
+        } catch (problem: OutputException) {
+            throw CliktError("stillwater benchmark: ${problem.message}", statusCode = BAD_INPUT)
+        }
+    }
+
+    private fun work(settings: ExperimentSettings) {
+        // Opened first: where results cannot be written, nobody wants to wait for them.
+        OutputDirectory(Path.of(out)).use { directory ->
+            val result = measure(Experiment(settings))
+            val warnings = BenchmarkFiles(result, commandLine()).write(directory)
+            val written = directory.commit()
+            when {
+                json -> echo(BenchmarkJson.text(result, written))
+                !quiet -> show(result)
+            }
+            for (warning in warnings) echo("stillwater benchmark: warning: $warning", err = true)
+            if (!quiet &&
+                !json
+            ) {
+                echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}")
+            }
+        }
+    }
+
+    private fun measure(experiment: Experiment): ExperimentResult {
+        val done = AtomicLong()
+        return WorkProgress(terminal, "environments", "", experiment.size.toLong(), shown = !quiet).use { progress ->
+            runBlocking { experiment.run(threads) { progress.advance(done.incrementAndGet()) } }
+        }
+    }
+
+    private fun show(result: ExperimentResult) {
+        for (field in result.settings.fields.keys) {
+            terminal.println(BenchmarkTable.of(result, field).toTerminal("Mean absolute error, field $field, by moves"))
+            terminal.println()
+        }
+        for (claim in ReportClaims(result).all()) {
+            echo("${if (claim.holds) "holds" else "fails"}: ${claim.text} (${claim.detail})")
+        }
+    }
+
+    private fun settings(): ExperimentSettings {
+        val base = preset.settings()
+        val trialMoves = moves ?: checkpoints?.maxOrNull() ?: base.moves
+        return try {
+            base.copy(
+                fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
+                filters = filters ?: base.filters,
+                planners = planners ?: base.planners,
+                sensor = sensorOptions.applied(base.sensor, base.period),
+                boundedFilter = filterOptions.applied(
+                    base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
+                ),
+                plannerSettings = plannerOptions.applied(base.plannerSettings),
+                grid = grid?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) } ?: base.grid,
+                environments = environments ?: base.environments,
+                moves = trialMoves,
+                checkpoints = checkpoints ?: Checkpoints.upTo(trialMoves),
+                samplesPerMove = samples ?: base.samplesPerMove,
+                seed = seed,
+            )
+        } catch (unfit: IllegalArgumentException) {
+            throw CliktError("stillwater benchmark: ${unfit.message}", statusCode = BAD_INPUT)
+        }
+    }
+
+    private fun commandLine(): String {
+        val own = listOf(
+            "--preset" to preset.label,
+            "--out" to out,
+            "--field" to fields?.joinToString(","),
+            "--filter" to filters?.joinToString(",") { it.label },
+            "--planner" to planners?.joinToString(",") { it.label },
+            "--environments" to environments,
+            "--moves" to moves,
+            "--checkpoints" to checkpoints?.joinToString(","),
+            "--grid" to grid?.let { (columns, rows) -> "${columns.toInt()}x${rows.toInt()}" },
+            "--samples" to samples,
+            "--epsilon" to epsilon,
+            "--seed" to seed,
+        )
+        val grouped = sensorOptions.flags() + filterOptions.flags() + plannerOptions.flags()
+        return commandLineText("stillwater benchmark", null, own + grouped)
+    }
+
+    private companion object {
+        const val MILLION = 1_000_000
+        const val MOST_MOVES = 100_000_000
+        const val MOST_THREADS = 1024
+    }
+}

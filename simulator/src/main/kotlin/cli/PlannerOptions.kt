@@ -1,0 +1,87 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.parameters.groups.OptionGroup
+import com.github.ajalt.clikt.parameters.options.nullableFlag
+import com.github.ajalt.clikt.parameters.options.option
+import stillwater.plan.Execution
+import stillwater.plan.LawnmowerPattern
+import stillwater.plan.PathChoice
+import stillwater.plan.WalkSteps
+import stillwater.run.PlannerSettings
+
+/** The options of the planners. */
+class PlannerOptions : OptionGroup(name = "Planners") {
+    private val walk by option("--walk", metavar = "STEPS", help = "random walk: edge, or diagonal as in the original")
+        .oneOf(WALKS)
+    private val pattern by option(
+        "--pattern",
+        metavar = "NAME",
+        help = "lawnmower: ${PATTERNS.keys.joinToString(", ")}",
+    ).oneOf(PATTERNS)
+    private val horizon by option("--horizon", metavar = "N", help = "bounded planner: moves in the longest path")
+        .wholeNumber("a whole number within 1..$LONGEST_HORIZON") { it in 1..LONGEST_HORIZON }
+    private val expansions by option("--expansions", metavar = "N", help = "bounded planner: nodes expanded for a plan")
+        .wholeNumber("a whole number within 1..$MOST_EXPANSIONS") { it in 1..MOST_EXPANSIONS }
+    private val maxChange by option(
+        "--max-change",
+        metavar = "VALUE",
+        help = "bounded planner: largest change of the sensor expected in one cell",
+    ).number("a number above 0") { it > 0 }
+    private val discountVisits by option(
+        "--discount-visits",
+        help = "bounded planner: divide a cell's value by 1 + its visits earlier on the path, or do not",
+    ).nullableFlag("--no-discount-visits")
+    private val execution by option(
+        "--execution",
+        metavar = "HOW",
+        help = "bounded planner: run the whole-path, or a single-step, before planning again",
+    ).oneOf(EXECUTIONS)
+    private val choice by option(
+        "--choice",
+        metavar = "PATH",
+        help = "bounded planner: run the best path, or the last-polled as the original code did",
+    ).oneOf(CHOICES)
+
+    /** [settings] with what was given on the command line in their place. */
+    fun applied(settings: PlannerSettings): PlannerSettings = PlannerSettings(
+        walk = walk ?: settings.walk,
+        pattern = pattern ?: settings.pattern,
+        bounded = settings.bounded.copy(
+            horizon = horizon ?: settings.bounded.horizon,
+            expansions = expansions ?: settings.bounded.expansions,
+            maxChange = maxChange ?: settings.bounded.maxChange,
+            discountVisits = discountVisits ?: settings.bounded.discountVisits,
+            execution = execution ?: settings.bounded.execution,
+            choice = choice ?: settings.bounded.choice,
+        ),
+    )
+
+    /** The flags given, with their values, for writing the command down. */
+    fun flags(): List<Pair<String, Any?>> = listOf(
+        "--walk" to WALKS.nameOf(walk),
+        "--pattern" to PATTERNS.nameOf(pattern),
+        "--horizon" to horizon,
+        "--expansions" to expansions,
+        "--max-change" to maxChange,
+        "--discount-visits" to (discountVisits == true),
+        "--no-discount-visits" to (discountVisits == false),
+        "--execution" to EXECUTIONS.nameOf(execution),
+        "--choice" to CHOICES.nameOf(choice),
+    )
+
+    private fun <T> Map<String, T>.nameOf(value: T?): String? = entries.find { it.value == value }?.key
+
+    private companion object {
+        const val LONGEST_HORIZON = 1000
+        const val MOST_EXPANSIONS = 10_000_000
+        val WALKS = mapOf("edge" to WalkSteps.EDGE, "diagonal" to WalkSteps.DIAGONAL_CLAMPED)
+        val PATTERNS = mapOf(
+            "hamiltonian-cycle" to LawnmowerPattern.HAMILTONIAN_CYCLE,
+            "back-and-forth" to LawnmowerPattern.BACK_AND_FORTH,
+            "rows-then-columns" to LawnmowerPattern.ROWS_THEN_COLUMNS,
+            "raster" to LawnmowerPattern.RASTER,
+        )
+        val EXECUTIONS = mapOf("whole-path" to Execution.WHOLE_PATH, "single-step" to Execution.SINGLE_STEP)
+        val CHOICES = mapOf("best" to PathChoice.BEST, "last-polled" to PathChoice.LAST_POLLED)
+    }
+}
