@@ -52,8 +52,9 @@ public data class BoundedFilterSettings(
  * least-squares slope over a window of running medians, and counts when it exceeds ε. A cell's value is the midpoint
  * of its bounds.
  *
- * Guaranteed to contain the truth for a noise-free first-order sensor in a field that is constant within a cell and
- * inside the prior, with windows cleared on entry. Noise, dead time, a second-order response or uncleared windows
+ * Guaranteed to contain the truth, to the rounding of the sensor's numbers, for a noise-free first-order sensor in a
+ * field that is constant within a cell and inside the prior, with windows cleared on entry and a reading, be it without
+ * a value, from every cell passed. Noise, dead time, a second-order response or uncleared windows
  * can make a bound wrong; what the caller then sees is conflicts.
  *
  * Source: the report, section 5, Algorithm 1. Differs: both branches there read "gradient < ε"; the first is taken as
@@ -120,6 +121,6 @@ public class BoundedFilter(
 
     private fun believe(cell: Int, lower: Double, upper: Double) {
         map.setBounds(cell, lower, upper)
-        map.setValue(cell, (lower + upper) / 2)
+        map.setValue(cell, lower / 2 + upper / 2)
     }
 }

@@ -10,7 +10,8 @@ import stillwater.model.Interval
  * What every cell-by-cell estimator does before its own work: refuse what cannot be used, find the cell, notice that
  * the boat entered it, and count.
  *
- * A cell is entered when the last reading taken lay in another cell or in none.
+ * A cell is entered when the last reading with a time and a place lay in another cell or in none. A reading without a
+ * value counts too: it tells that the boat left.
  *
  * @param grid the cells.
  * @param prior the range every cell is believed to lie in before it is measured, sensor units.
@@ -28,9 +29,9 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         value: Double,
         conditions: Conditions,
     ): ReadingUse {
-        // A sum is finite only if its terms are: one comparison for four.
-        if (!(time.seconds + x + y + value).isFinite()) {
+        if (!time.seconds.isFinite() || !x.isFinite() || !y.isFinite() || !value.isFinite()) {
             map.countRejected()
+            noticeMove(time, x, y)
             return ReadingUse.NOT_FINITE
         }
         if (time.seconds < lastSeconds) {
@@ -50,6 +51,12 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         map.countReading(cell)
         take(cell, entered, time.seconds, value, conditions)
         return ReadingUse.USED
+    }
+
+    /** Notices that the boat left the last cell from a reading that has no value but a time and a place. */
+    private fun noticeMove(time: BoatTime, x: Double, y: Double) {
+        if (!time.seconds.isFinite() || time.seconds < lastSeconds || !x.isFinite() || !y.isFinite()) return
+        if (grid.cellAt(x, y) != lastCell) lastCell = Grid.OUTSIDE
     }
 
     /**

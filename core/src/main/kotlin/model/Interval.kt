@@ -14,9 +14,9 @@ public data class Interval(val lower: Double, val upper: Double) {
     }
 
     /** Half way between the ends. */
-    public val midpoint: Double get() = lower + (upper - lower) / 2
+    public val midpoint: Double get() = lower / 2 + upper / 2
 
-    /** Distance between the ends, never negative. */
+    /** Distance between the ends, never negative; infinite where it exceeds the largest number. */
     public val width: Double get() = upper - lower
 
     /** Whether [value] lies in the range, ends included. */

@@ -73,8 +73,8 @@ public class BoundedPlanner(
     private val random: Random,
     public val settings: BoundedPlannerSettings = BoundedPlannerSettings(),
 ) : Planner {
-    private val tree = SearchTree(capacity = minOf(MOST_CHILDREN * settings.expansions + 1L, MAX_INITIAL_NODES).toInt())
-    private val path = IntArray(settings.horizon)
+    private val tree = SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
+    private val path = IntArray(minOf(settings.horizon, settings.expansions))
     private val directions = IntArray(MOST_CHILDREN) { it }
 
     override fun plan(
@@ -92,8 +92,10 @@ public class BoundedPlanner(
         tree.add(start, parent = -1, value = 0.0, sensor = sensor, priority = 0.0, queued = true)
         var lastPolled = ROOT
         var expansions = 0
+        var stopped = false
         while (expansions < settings.expansions && !tree.exhausted) {
-            if (stop.stop()) break
+            stopped = stop.stop()
+            if (stopped) break
             val node = tree.poll()
             if (tree.value(node) > 0) lastPolled = node
             if (tree.depth(node) == settings.horizon) continue
@@ -101,7 +103,7 @@ public class BoundedPlanner(
             expansions++
         }
         val chosen = if (settings.choice == PathChoice.BEST) best() else lastPolled
-        if (chosen == ROOT) return if (expansions == 0) PlanOutcome.Stopped else PlanOutcome.NothingToGain
+        if (chosen == ROOT) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
         write(map.grid, chosen, plan)
         if (settings.execution == Execution.SINGLE_STEP) plan.truncate(1)
         return PlanOutcome.Planned
@@ -163,7 +165,7 @@ public class BoundedPlanner(
         for (place in 0 until length) plan.add(grid.centerX(path[place]), grid.centerY(path[place]))
     }
 
-    private fun midpoint(map: FieldMap, cell: Int) = (map.lower(cell) + map.upper(cell)) / 2
+    private fun midpoint(map: FieldMap, cell: Int) = map.lower(cell) / 2 + map.upper(cell) / 2
 
     private companion object {
         const val ROOT = 0

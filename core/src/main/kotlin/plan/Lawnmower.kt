@@ -29,15 +29,18 @@ public enum class LawnmowerPattern {
 /**
  * Visits the cells in a fixed order, whatever is measured. Plans one move at a time.
  *
- * Starts at the pattern's first visit to the cell the boat is in, and picks up there again if the boat was moved.
- * Source: the report, section 7, which does not say which pattern.
+ * Starts at the pattern's first visit to the cell the boat is in, and picks up there again if the boat was moved. Asked
+ * again before the boat has left its cell, it repeats the move. Where a grid has no Hamiltonian cycle ([fits]) it mows
+ * back and forth. Source: the report, section 7, which does not say which pattern.
  *
  * @property pattern the order.
  */
 public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
     private var grid: Grid? = null
     private var tour = IntArray(0)
-    private var place = 0
+
+    /** Place in the tour of the last waypoint planned, or [NOWHERE]. */
+    private var place = NOWHERE
 
     override fun plan(
         map: FieldMap,
@@ -48,20 +51,32 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
     ): PlanOutcome {
         plan.clear()
         if (map.grid != grid) {
-            tour = tour(map.grid, pattern)
+            tour = tour(map.grid, if (fits(map.grid, pattern)) pattern else LawnmowerPattern.BACK_AND_FORTH)
             grid = map.grid
-            place = 0
+            place = NOWHERE
         }
         val cell = map.grid.cellAt(from)
         if (cell == Grid.OUTSIDE) return PlanOutcome.OffMap
         if (tour.size == 1) return PlanOutcome.NothingToGain
-        if (tour[place] != cell) place = tour.indexOf(cell)
-        place = (place + 1) % tour.size
+        place = next(cell)
         plan.add(map.grid.centerX(tour[place]), map.grid.centerY(tour[place]))
         return PlanOutcome.Planned
     }
 
+    /** Place in the tour of the waypoint that comes after [cell]. */
+    private fun next(cell: Int): Int {
+        val arrived = place != NOWHERE && tour[place] == cell
+        val notYetLeft = place != NOWHERE && tour[(place + tour.size - 1) % tour.size] == cell
+        return when {
+            arrived -> (place + 1) % tour.size
+            notYetLeft -> place
+            else -> (tour.indexOf(cell) + 1) % tour.size
+        }
+    }
+
     public companion object {
+        private const val NOWHERE = -1
+
         /** Whether [pattern] exists on [grid]: only [LawnmowerPattern.HAMILTONIAN_CYCLE] asks for a certain shape. */
         public fun fits(grid: Grid, pattern: LawnmowerPattern): Boolean =
             pattern != LawnmowerPattern.HAMILTONIAN_CYCLE ||

@@ -4,7 +4,8 @@ package stillwater.plan
  * The bounded planner's tree of paths and the queue of its open nodes, in arrays that are used again for every plan.
  *
  * Nodes are numbered in the order in which they are added; 0 is the root. The queue polls the node with the highest
- * priority, and of equal ones the one that was added last, so that a tie is followed in depth. No call allocates once the arrays have grown.
+ * priority, and of equal ones the one that was added last, so that a tie is followed in depth. No call allocates once
+ * the arrays have grown.
  *
  * @param capacity nodes it holds before it grows.
  */

@@ -2,6 +2,7 @@ package stillwater.sensor
 
 import stillwater.model.Conditions
 import kotlin.math.expm1
+import kotlin.math.ln1p
 
 /**
  * A sensor that closes a fixed share of its distance to the truth per unit of time: exponential response.
@@ -29,12 +30,13 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
     private var gain = 0.0
 
     override fun step(input: Double, dt: Double, conditions: Conditions): Double {
-        if (!input.isFinite() || !(dt > 0)) return state
+        if (!input.isFinite() || !(dt > 0 && dt.isFinite())) return state
         if (dt != gainDt) {
             gainDt = dt
             gain = -expm1(-dt / timeConstant)
         }
-        state += gain * (input - state)
+        // s ← s + α (ψ − s), in halves because the difference of two huge numbers overflows.
+        state = 2 * (state / 2 + gain * (input / 2 - state / 2))
         return state
     }
 
@@ -50,7 +52,7 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
         public fun timeConstant(alpha: Double, period: Double): Double {
             require(alpha > 0 && alpha < 1) { "alpha ($alpha) must be above 0 and below 1" }
             require(period > 0 && period.isFinite()) { "period ($period s) must be above 0 and finite" }
-            return -period / kotlin.math.ln(1 - alpha)
+            return -period / ln1p(-alpha)
         }
     }
 }

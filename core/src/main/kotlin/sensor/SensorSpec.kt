@@ -3,6 +3,7 @@ package stillwater.sensor
 import kotlinx.serialization.SerialName
 import kotlinx.serialization.Serializable
 import kotlinx.serialization.SerializationException
+import kotlinx.serialization.descriptors.elementNames
 import kotlinx.serialization.json.Json
 import kotlin.random.Random
 
@@ -77,9 +78,12 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
      *
      * @param initial truth at which the sensor has come to rest, sensor units, finite.
      * @param random where its noise comes from. Retained.
+     * @throws IllegalArgumentException if [initial] is not finite.
      */
-    public fun build(initial: Double, random: Random): SensorModel =
-        SensorChain(Array(stages.size) { stages[it].build(initial, random) })
+    public fun build(initial: Double, random: Random): SensorModel {
+        require(initial.isFinite()) { "initial ($initial) must be finite" }
+        return SensorChain(Array(stages.size) { stages[it].build(initial, random) })
+    }
 
     /** The JSON form, indented. */
     public fun toJson(): String = FORMAT.encodeToString(serializer(), this)
@@ -90,6 +94,9 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
             prettyPrintIndent = "  "
         }
 
+        /** The names of the stages: the second element of a sealed type's descriptor lists its subtypes. */
+        private val TYPES = SensorStage.serializer().descriptor.getElementDescriptor(1).elementNames.toList()
+
         /**
          * Reads the JSON form.
          *
@@ -99,7 +106,19 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
         public fun fromJson(json: String): SensorSpec = try {
             FORMAT.decodeFromString(serializer(), json)
         } catch (e: SerializationException) {
-            throw IllegalArgumentException("not a sensor spec: ${e.message?.lineSequence()?.first()}", e)
+            throw IllegalArgumentException("not a sensor spec: ${reason(e)}", e)
+        }
+
+        /** What [e] says in one line, in the words of a sensor where the library uses its own. */
+        private fun reason(e: SerializationException): String {
+            val line = e.message.orEmpty().lineSequence().first()
+            val refused = e.cause?.takeIf { it is IllegalArgumentException }?.message
+            val words = when {
+                refused != null -> refused
+                "polymorphic scope" in line -> "a stage must have a type, one of ${TYPES.joinToString()}"
+                else -> return line
+            }
+            return "$words at path: ${line.substringAfterLast(" at path: ")}"
         }
     }
 }

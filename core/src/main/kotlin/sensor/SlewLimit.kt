@@ -20,9 +20,9 @@ public class SlewLimit(public val rate: Double, initial: Double) : SensorModel {
     private var state = initial
 
     override fun step(input: Double, dt: Double, conditions: Conditions): Double {
-        if (!input.isFinite() || !(dt > 0)) return state
+        if (!input.isFinite() || !(dt > 0 && dt.isFinite())) return state
         val most = rate * dt
-        state += (input - state).coerceIn(-most, most)
+        state = if (input > state) minOf(input, state + most) else maxOf(input, state - most)
         return state
     }
 }

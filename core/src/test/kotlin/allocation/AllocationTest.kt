@@ -1,0 +1,135 @@
+package stillwater.allocation
+
+import org.junit.jupiter.api.DynamicTest
+import org.junit.jupiter.api.DynamicTest.dynamicTest
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.TestFactory
+import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BoundedFilter
+import stillwater.estimate.BoundedFilterSettings
+import stillwater.estimate.CrossingPolicy
+import stillwater.estimate.ExponentialFilter
+import stillwater.estimate.FieldEstimator
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.model.Plan
+import stillwater.model.Position
+import stillwater.plan.BoundedPlanner
+import stillwater.plan.BoundedPlannerSettings
+import stillwater.plan.Execution
+import stillwater.plan.Lawnmower
+import stillwater.plan.LawnmowerPattern
+import stillwater.plan.PathChoice
+import stillwater.plan.Planner
+import stillwater.plan.RandomWalk
+import stillwater.plan.StopCondition
+import stillwater.plan.WalkSteps
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import kotlin.random.Random
+import kotlin.test.assertTrue
+
+/** Rule 3 of the design: hot loops allocate nothing. */
+class AllocationTest {
+    private val grid = Grid(Position(-3.0, 7.0), columns = 10, rows = 10, cellWidth = 2.0, rotation = 0.3)
+    private var sink = 0.0
+
+    @Test
+    fun theMeterSeesASingleObjectPerCall() {
+        var kept: Any? = null
+        val bytes = AllocationMeter.bytes { kept = Position(it.toDouble(), 0.0) }
+        assertTrue(kept is Position)
+        // The smallest object of the JVM has 16 bytes.
+        assertTrue(bytes >= 16L * AllocationMeter.CALLS, "$bytes bytes")
+    }
+
+    @Test
+    fun theMeterSeesOneObjectInAHundredCalls() {
+        var kept: Any? = null
+        val bytes = AllocationMeter.bytes { if (it % 100 == 0) kept = Position(0.0, 0.0) }
+        assertTrue(kept is Position)
+        assertTrue(bytes >= 16L * AllocationMeter.CALLS / 100, "$bytes bytes")
+    }
+
+    @TestFactory
+    fun sensorStep(): List<DynamicTest> {
+        val stages = listOf(
+            SensorStage.Lag(9.5),
+            SensorStage.Slew(0.01),
+            SensorStage.Noise(0.002),
+            SensorStage.Quantum(0.005),
+        )
+        val sensors = stages.map { it.toString() to it.build(0.5, Random(1)) } +
+            ("the chain of all" to SensorSpec("all", stages).build(0.5, Random(1)))
+        return sensors.map { (name, sensor) ->
+            dynamicTest(name) {
+                AllocationMeter.assertNone(name) {
+                    val input = if (it % 50 == 49) Double.NaN else 0.001 * it
+                    sink += sensor.step(input, 0.1 + 0.01 * (it % 3), Conditions.NONE)
+                }
+            }
+        }
+    }
+
+    @TestFactory
+    fun filterUpdate(): List<DynamicTest> {
+        val settings = BoundedFilterSettings(epsilon = 1e-4, medianWindow = 5, slopeWindow = 7)
+        val filters = listOf<Pair<String, FieldEstimator>>(
+            "averaging" to AveragingFilter(grid, Interval.UNIT),
+            "exponential" to ExponentialFilter(grid, Interval.UNIT),
+            "bounded, uncleared" to BoundedFilter(grid, Interval.UNIT, settings.copy(clearOnEntry = false)),
+        ) + CrossingPolicy.entries.map {
+            "bounded, $it" to BoundedFilter(grid, Interval.UNIT, settings.copy(crossing = it))
+        }
+        return filters.map { (name, filter) ->
+            dynamicTest(name) {
+                var seconds = 0.0
+                AllocationMeter.assertNone(name) {
+                    val cell = it / 20 % grid.size
+                    seconds += 0.1
+                    // In order and not, inside and outside, values and none, rising and falling.
+                    val time = if (it % 97 == 0) seconds - 50 else seconds
+                    val x = if (it % 89 == 0) 1e6 else grid.centerX(cell)
+                    val value = if (it % 83 == 0) Double.NaN else 0.5 + 0.4 * kotlin.math.sin(it * 0.03)
+                    filter.update(BoatTime(time), x, grid.centerY(cell), value, Conditions.NONE)
+                }
+                // The calls did something.
+                assertTrue((0 until grid.size).sumOf { filter.map.readings(it) } > AllocationMeter.CALLS)
+                assertTrue(filter.map.outside > 0 && filter.map.rejected > 0)
+            }
+        }
+    }
+
+    @TestFactory
+    fun plannerDecision(): List<DynamicTest> {
+        val bounded = Execution.entries.flatMap { execution ->
+            PathChoice.entries.map { choice ->
+                val settings = BoundedPlannerSettings(horizon = 6, expansions = 40, execution = execution, choice = choice)
+                "$settings" to BoundedPlanner(Random(1), settings)
+            }
+        }
+        val planners = WalkSteps.entries.map { "walk, $it" to RandomWalk(Random(1), it) } +
+            LawnmowerPattern.entries.map { "lawnmower, $it" to Lawnmower(it) } + bounded
+        return planners.map { (name, planner) -> dynamicTest(name) { assertDecisionsAllocateNothing(name, planner) } }
+    }
+
+    private fun assertDecisionsAllocateNothing(name: String, planner: Planner) {
+        val map = FieldMap(grid, Interval.UNIT)
+        val random = Random(2)
+        for (cell in 0 until grid.size) map.setBounds(cell, 0.4 * random.nextDouble(), 0.6 + 0.4 * random.nextDouble())
+        // The caller's positions: a boat has one anyway.
+        val centers = List(grid.size) { grid.center(it) }
+        val plan = Plan()
+        var at = 0
+        var moves = 0L
+        AllocationMeter.assertNone(name) {
+            planner.plan(map, centers[at], 0.5, StopCondition.NEVER, plan)
+            moves += plan.size
+            at = grid.cellAt(plan.x(plan.size - 1), plan.y(plan.size - 1))
+        }
+        assertTrue(moves >= AllocationMeter.ROUNDS * AllocationMeter.CALLS, "$moves moves")
+    }
+}

@@ -1,0 +1,79 @@
+package stillwater.field
+
+import org.junit.jupiter.api.Test
+import stillwater.model.Grid
+import stillwater.model.Interval
+import kotlin.test.assertEquals
+import kotlin.test.assertSame
+
+class FieldMapTest {
+    private val grid = Grid.unit(3, 2)
+    private val prior = Interval(75.0, 85.0)
+
+    @Test
+    fun startsWithThePriorInEveryCell() {
+        val map = FieldMap(grid, prior)
+        for (cell in 0 until grid.size) {
+            assertEquals(80.0, map.value(cell), 0.0)
+            assertEquals(75.0, map.lower(cell), 0.0)
+            assertEquals(85.0, map.upper(cell), 0.0)
+            assertEquals(0, map.visits(cell) + map.readings(cell) + map.conflicts(cell))
+        }
+        assertEquals(0L, map.outside + map.rejected)
+    }
+
+    @Test
+    fun keepsEachNumberOfEachCellApart() {
+        val map = FieldMap(grid, prior)
+        for (cell in 0 until grid.size) fill(map, cell)
+        for (cell in 0 until grid.size) {
+            assertEquals(100.0 + cell, map.value(cell), 0.0)
+            assertEquals(200.0 + cell, map.lower(cell), 0.0)
+            // Bounds may cross.
+            assertEquals(-300.0 - cell, map.upper(cell), 0.0)
+            assertEquals(cell, map.visits(cell))
+            assertEquals(2 * cell, map.readings(cell))
+            assertEquals(3 * cell, map.conflicts(cell))
+        }
+    }
+
+    @Test
+    fun countsWhatHasNoCell() {
+        val map = FieldMap(grid, prior)
+        repeat(3) { map.countOutside() }
+        repeat(2) { map.countRejected() }
+        assertEquals(3L, map.outside)
+        assertEquals(2L, map.rejected)
+    }
+
+    @Test
+    fun aCopyHasAllAndStandsOnItsOwn() {
+        val map = FieldMap(grid, prior)
+        for (cell in 0 until grid.size) fill(map, cell)
+        map.countOutside()
+        repeat(2) { map.countRejected() }
+        val copy = map.copy()
+        assertSame(grid, copy.grid)
+        assertSame(prior, copy.prior)
+        val before = content(map)
+        assertEquals(before, content(copy))
+        for (cell in 0 until grid.size) {
+            fill(map, grid.size - 1 - cell)
+        }
+        map.countOutside()
+        map.countRejected()
+        assertEquals(before, content(copy))
+    }
+
+    private fun fill(map: FieldMap, cell: Int) {
+        map.setValue(cell, 100.0 + cell)
+        map.setBounds(cell, 200.0 + cell, -300.0 - cell)
+        repeat(cell) { map.countVisit(cell) }
+        repeat(2 * cell) { map.countReading(cell) }
+        repeat(3 * cell) { map.countConflict(cell) }
+    }
+
+    private fun content(map: FieldMap): List<Any> = List(grid.size) {
+        listOf(map.value(it), map.lower(it), map.upper(it), map.visits(it), map.readings(it), map.conflicts(it))
+    } + map.outside + map.rejected
+}

@@ -1,0 +1,167 @@
+package stillwater.plan
+
+import org.junit.jupiter.api.Test
+import stillwater.field.FieldMap
+import stillwater.model.Plan
+import stillwater.property.drawn
+import stillwater.property.forEvery
+import java.util.PriorityQueue
+import kotlin.math.abs
+import kotlin.math.max
+import kotlin.math.min
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/**
+ * The bounded planner against naive ones that share no code with it: paths as lists, all of them, and Algorithm 2 with
+ * java.util.PriorityQueue.
+ */
+class BoundedPlannerOracleTest {
+    /** What Algorithm 2 says the path of [cells] from [start] is worth, and the sensor at its end. */
+    private fun worth(map: FieldMap, start: Int, sensor: Double, cells: List<Int>, case: Case): Double {
+        var value = 0.0
+        var expected = sensor
+        for ((i, cell) in cells.withIndex()) {
+            val middle = (map.lower(cell) + map.upper(cell)) / 2
+            var gain = max(0.0, map.upper(cell) - map.lower(cell) - abs(middle - expected))
+            if (case.discount) gain /= 1.0 + (listOf(start) + cells.take(i)).count { it == cell }
+            value += gain
+            expected += max(-case.maxChange, min(case.maxChange, middle - expected))
+        }
+        return value
+    }
+
+    private fun allPaths(map: FieldMap, start: Int, horizon: Int): List<List<Int>> {
+        var longest = listOf(emptyList<Int>())
+        val paths = ArrayList<List<Int>>()
+        repeat(horizon) {
+            longest = longest.flatMap { path ->
+                neighbours(map.grid, path.lastOrNull() ?: start).map { path + it }
+            }
+            paths += longest
+        }
+        return paths
+    }
+
+    @Test
+    fun withEnoughExpansionsNoPathIsBetter() {
+        forEvery(drawn { Case(it, everySort = true) }, cases = 200) { case ->
+            val best = allPaths(case.map, case.start, case.horizon).maxOfOrNull {
+                worth(case.map, case.start, case.sensor, it, case)
+            } ?: 0.0
+            val plan = Plan()
+            val outcome = case.planner(PathChoice.BEST, expansions = 5000).plan(case, plan)
+            val path = cells(plan, case.map.grid)
+            // The same sum of at most five terms below 1, in the same order: a few last places.
+            assertEquals(best, worth(case.map, case.start, case.sensor, path, case), 1e-14)
+            assertEquals(if (best > 0) PlanOutcome.Planned else PlanOutcome.NothingToGain, outcome)
+        }
+    }
+
+    @Test
+    fun withFewExpansionsItPollsWhatAPriorityQueueWould() {
+        for (choice in PathChoice.entries) {
+            var compared = 0
+            forEvery(drawn { Case(it, everySort = false) }, cases = 300) { case ->
+                val naive = Naive(case, choice)
+                naive.run()
+                // With two paths of equal worth the order in which the children are drawn decides: not compared.
+                if (naive.ties) return@forEvery
+                compared++
+                val plan = Plan()
+                val outcome = case.planner(choice, case.expansions).plan(case, plan)
+                assertEquals(naive.chosen, cells(plan, case.map.grid), "$choice")
+                val expected = if (naive.chosen.isEmpty()) PlanOutcome.NothingToGain else PlanOutcome.Planned
+                assertEquals(expected, outcome)
+            }
+            assertTrue(compared > 200, "$choice: only $compared cases without ties")
+        }
+    }
+
+    @Test
+    fun theOriginalsChoiceIsOftenNotTheBest() {
+        var worse = 0
+        forEvery(drawn { Case(it, everySort = false) }, cases = 200) { case ->
+            val best = Naive(case, PathChoice.BEST).also { it.run() }.chosen
+            val last = Naive(case, PathChoice.LAST_POLLED).also { it.run() }.chosen
+            val bestWorth = worth(case.map, case.start, case.sensor, best, case)
+            val lastWorth = worth(case.map, case.start, case.sensor, last, case)
+            assertTrue(lastWorth <= bestWorth + 1e-14, "$lastWorth above the best $bestWorth")
+            if (lastWorth < bestWorth - 1e-9) worse++
+        }
+        // The oracle itself tells the two choices apart, or the test above would compare nothing.
+        assertTrue(worse > 50, "$worse of 200")
+    }
+
+    /** Algorithm 2 as printed, with the readings BoundedPlanner names. */
+    private inner class Naive(private val case: Case, private val choice: PathChoice) {
+        private inner class Node(val path: List<Int>) {
+            val value = worth(case.map, case.start, case.sensor, path, case)
+            val priority = if (path.isEmpty()) 0.0 else value / path.size
+        }
+
+        var ties = false
+            private set
+
+        var chosen = emptyList<Int>()
+            private set
+
+        fun run() {
+            val nodes = ArrayList<Node>()
+            val queue = PriorityQueue(compareByDescending<Node> { it.priority })
+            queue += Node(emptyList())
+            var expansions = 0
+            var lastPolled = emptyList<Int>()
+            while (expansions < case.expansions && queue.isNotEmpty()) {
+                val node = queue.poll()
+                if (node.value > 0) lastPolled = node.path
+                if (node.path.size == case.horizon) continue
+                expansions++
+                for (cell in neighbours(case.map.grid, node.path.lastOrNull() ?: case.start)) {
+                    val child = Node(node.path + cell)
+                    nodes += child
+                    queue += child
+                }
+            }
+            // Worths that differ by rounding only are ties too.
+            ties = haveTies(nodes.map { it.value }) || haveTies(nodes.map { it.priority })
+            val best = nodes.maxByOrNull { it.value }?.takeIf { it.value > 0 }
+            chosen = if (choice == PathChoice.BEST) best?.path.orEmpty() else lastPolled
+        }
+
+        private fun haveTies(numbers: List<Double>) = numbers.sorted().zipWithNext().any { (a, b) -> b - a < 1e-13 }
+    }
+
+    private class Case(random: Random, everySort: Boolean) {
+        val horizon = random.nextInt(1, 6)
+        val expansions = random.nextInt(1, 40)
+        val maxChange = random.nextDouble(0.01, 0.6)
+        val discount = random.nextBoolean()
+        val sensor = random.nextDouble()
+        val seed = random.nextInt()
+        val map = randomMap(random, random.nextInt(1, 5), random.nextInt(1, 5))
+        val start = random.nextInt(map.grid.size)
+
+        init {
+            if (!everySort) {
+                // Wide bounds: every cell is worth something, so that ties are rare.
+                for (cell in 0 until map.grid.size) {
+                    map.setBounds(cell, random.nextDouble(0.0, 0.3), random.nextDouble(0.8, 1.0))
+                }
+            }
+        }
+
+        fun planner(choice: PathChoice, expansions: Int) = BoundedPlanner(
+            Random(seed),
+            BoundedPlannerSettings(horizon, expansions, maxChange, discount, Execution.WHOLE_PATH, choice),
+        )
+
+        override fun toString() = "horizon $horizon, expansions $expansions, maxChange $maxChange, " +
+            "discount $discount, sensor $sensor, start $start, ${map.grid.columns} x ${map.grid.rows}: " +
+            List(map.grid.size) { "${map.lower(it)}..${map.upper(it)}" }
+    }
+
+    private fun BoundedPlanner.plan(case: Case, plan: Plan) =
+        plan(case.map, case.map.grid.center(case.start), case.sensor, StopCondition.NEVER, plan)
+}

@@ -1,0 +1,162 @@
+package stillwater.sensor
+
+import io.kotest.property.Arb
+import io.kotest.property.arbitrary.numericDouble
+import org.junit.jupiter.api.Test
+import stillwater.model.Conditions
+import stillwater.property.forEvery
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
+
+class FirstOrderLagTest {
+    private fun FirstOrderLag.step(input: Double, dt: Double) = step(input, dt, Conditions.NONE)
+
+    @Test
+    fun followsTheClosedFormForIrregularSteps() {
+        val lag = FirstOrderLag(timeConstant = 9.5, initial = 2.0)
+        var elapsed = 0.0
+        for (dt in listOf(0.1, 3.0, 0.007, 25.0, 1e-6, 9.5)) {
+            elapsed += dt
+            // s(t) = ψ + (s(0) − ψ) exp(−t/τ) with ψ = 8, s(0) = 2.
+            val expected = 8.0 - 6.0 * exp(-elapsed / 9.5)
+            // Six steps, each rounded a few times at magnitude 8: 1e-14 is ten units in the last place.
+            assertEquals(expected, lag.step(8.0, dt), 1e-14)
+        }
+    }
+
+    @Test
+    fun showsSixtyThreePercentOfAStepAfterTheTimeConstant() {
+        // 1 − 1/e; one rounding of a number below 1.
+        assertEquals(0.632120558828557678, FirstOrderLag(30.0, 0.0).step(1.0, 30.0), 1e-15)
+    }
+
+    @Test
+    fun twoPartialStepsEqualOneWholeStep() {
+        forEvery(
+            Arb.numericDouble(0.01, 1000.0),
+            Arb.numericDouble(1e-4, 5000.0),
+            Arb.numericDouble(0.0, 1.0),
+        ) { tau, dt, share ->
+            val whole = FirstOrderLag(tau, initial = -3.0)
+            val parts = FirstOrderLag(tau, initial = -3.0)
+            parts.step(10.0, share * dt)
+            // Exact but for rounding; share·dt + (1 − share)·dt itself is rounded, at most 1e-15 of dt/τ · 13.
+            val tolerance = 1e-14 * (1 + dt / tau) * 13
+            assertEquals(whole.step(10.0, dt), parts.step(10.0, dt - share * dt), minOf(tolerance, 1e-9))
+        }
+    }
+
+    @Test
+    fun neverLeavesTheRangeOfStateAndInput() {
+        forEvery(
+            Arb.numericDouble(-1e6, 1e6),
+            Arb.numericDouble(-1e6, 1e6),
+            Arb.numericDouble(1e-3, 1e5),
+        ) { initial, input, dt ->
+            val output = FirstOrderLag(10.0, initial).step(input, dt)
+            // One rounding of the difference, one of the sum, at magnitude 1e6.
+            val slack = 1e-9
+            assertTrue(output in minOf(initial, input) - slack..maxOf(initial, input) + slack, "$output")
+        }
+    }
+
+    @Test
+    fun alphaAndTimeConstantAreTwoNamesOfOneThing() {
+        forEvery(Arb.numericDouble(1e-6, 0.999), Arb.numericDouble(1e-3, 1e4)) { alpha, period ->
+            val tau = FirstOrderLag.timeConstant(alpha, period)
+            // A unit step shows the gain per sample. Near alpha = 1 the exponent is up to 7: a few last places.
+            assertEquals(alpha, FirstOrderLag(tau, 0.0).step(1.0, period), 1e-14)
+        }
+        // τ = −Δt / ln(1 − α), computed by hand for the report's alpha of 0.1 at 1 s.
+        assertEquals(9.491221581029903, FirstOrderLag.timeConstant(0.1, 1.0), 1e-14)
+        assertEquals(-2.0 / ln(0.5), FirstOrderLag.timeConstant(0.5, 2.0), 1e-15)
+    }
+
+    @Test
+    fun aTinyAlphaKeepsItsDigits() {
+        // τ → Δt/α − Δt/2 for small α; relative error of the series α²/12.
+        assertEquals(1e18, FirstOrderLag.timeConstant(1e-18, 1.0), 1e3)
+        assertEquals(1e9 - 0.5, FirstOrderLag.timeConstant(1e-9, 1.0), 1e-6)
+    }
+
+    @Test
+    fun smallStepsKeepTheirGain() {
+        // dt/τ = 1e-12: 1 − exp(−x) would keep four digits, expm1 keeps all; x − x²/2.
+        assertEquals(1e-12, FirstOrderLag(1.0, 0.0).step(1.0, 1e-12), 1e-24)
+    }
+
+    @Test
+    fun noTimeNoChange() {
+        for (dt in listOf(0.0, -0.0, -1.0, Double.NaN, Double.POSITIVE_INFINITY, Double.NEGATIVE_INFINITY)) {
+            val lag = FirstOrderLag(5.0, initial = 4.0)
+            assertEquals(4.0, lag.step(9.0, dt), 0.0, "dt = $dt")
+        }
+    }
+
+    @Test
+    fun keepsItsStateWhenTheInputIsNotFinite() {
+        val lag = FirstOrderLag(5.0, initial = 4.0)
+        val before = lag.step(9.0, 1.0)
+        for (input in listOf(Double.NaN, Double.POSITIVE_INFINITY, Double.NEGATIVE_INFINITY)) {
+            assertEquals(before, lag.step(input, 1.0), 0.0, "input = $input")
+        }
+        assertTrue(lag.step(9.0, 1.0) > before)
+    }
+
+    @Test
+    fun theLargestNumbersDoNotOverflow() {
+        val lag = FirstOrderLag(1.0, initial = -Double.MAX_VALUE)
+        val output = lag.step(Double.MAX_VALUE, 1.0)
+        // −M + (1 − 1/e) 2M = (1 − 2/e) M.
+        assertEquals(1 - 2 / exp(1.0), output / Double.MAX_VALUE, 1e-15)
+    }
+
+    @Test
+    fun theGainFollowsAChangeOfStepAndBack() {
+        val lag = FirstOrderLag(2.0, initial = 0.0)
+        var expected = 0.0
+        for (dt in listOf(1.0, 1.0, 0.5, 1.0, 0.5, 0.5)) {
+            expected += (1 - exp(-dt / 2.0)) * (1 - expected)
+            // A handful of roundings below 1.
+            assertEquals(expected, lag.step(1.0, dt), 1e-15)
+        }
+    }
+
+    @Test
+    fun impossibleNumbersAreRefusedByName() {
+        for (tau in listOf(0.0, -1.0, Double.NaN, Double.POSITIVE_INFINITY)) {
+            val error = assertFailsWith<IllegalArgumentException> { FirstOrderLag(tau, 0.0) }
+            assertEquals("timeConstant ($tau s) must be above 0 and finite", error.message)
+        }
+        for (initial in listOf(Double.NaN, Double.NEGATIVE_INFINITY)) {
+            val error = assertFailsWith<IllegalArgumentException> { FirstOrderLag(1.0, initial) }
+            assertEquals("initial ($initial) must be finite", error.message)
+        }
+        for (alpha in listOf(0.0, 1.0, -0.1, 1.1, Double.NaN)) {
+            assertFailsWith<IllegalArgumentException> { FirstOrderLag.timeConstant(alpha, 1.0) }
+        }
+        for (period in listOf(0.0, -1.0, Double.NaN, Double.POSITIVE_INFINITY)) {
+            assertFailsWith<IllegalArgumentException> { FirstOrderLag.timeConstant(0.1, period) }
+        }
+    }
+
+    @Test
+    fun theLagBehindARampIsTheTimeConstant() {
+        // A first-order sensor trails a ramp of slope r by r·τ. Steps hold the input, which adds r·dt/2 of lead.
+        val tau = 7.0
+        val dt = 0.01
+        val lag = FirstOrderLag(tau, 0.0)
+        var output = 0.0
+        var time = 0.0
+        while (time < 20 * tau) {
+            time += dt
+            output = lag.step(0.3 * time, dt)
+        }
+        // exp(−20) of the transient is left, 2e-9, times r·τ; the held input moves it by r·dt/2 = 0.0015.
+        assertTrue(abs(0.3 * time - output - 0.3 * tau) < 0.002, "${0.3 * time - output}")
+    }
+}
