@@ -24,6 +24,7 @@ dependencies {
     api(libs.fastcsv)
     api(libs.lets.plot.kotlin)
     api(libs.lets.plot.awt)
+    api(libs.jsvg)
     runtimeOnly(libs.slf4j.nop)
 
     testImplementation(libs.junit.jupiter)

@@ -35,34 +35,24 @@ public class ErrorCurve(
 }
 
 /**
- * The report's comparison of planners and filters (its Figures 6 and 7): error over moves, planners by colour,
- * filters by line type, bands shaded.
+ * The report's comparison of planners and filters (its Figures 6 and 7): error over moves, both on logarithmic
+ * axes, planners by colour, filters by line type, bands shaded.
  *
  * Colours and line types go by the order of first appearance, but the report's filters always look as there:
  * `bounded` solid, `averaging` dashed, `exponential` dotted.
- *
- * @param lineTypes line type by filter name, over the default ones.
- * @param width drawn width, px. @param height drawn height, px.
  */
 public class ErrorCurves(
     title: String,
     subtitle: String = "",
     private val curves: List<ErrorCurve>,
-    private val moveLabel: String = "Moves",
-    private val errorLabel: String = "Mean absolute error",
-    private val moveScale: AxisScale = AxisScale.LOG10,
-    private val errorScale: AxisScale = AxisScale.LOG10,
-    private val lineTypes: Map<String, LineType> = emptyMap(),
-    width: Int = 860,
-    height: Int = 540,
 ) : Drawing {
-    private val sheet = Sheet(title, subtitle, width, height)
+    private val sheet = Sheet(title, subtitle, WIDTH, HEIGHT)
 
     override fun draw(): Figure {
         val strokes = curves.map { curve ->
             Stroke.of(curve.move, curve.error, curve.lower, curve.upper, curve.planner, curve.filter)
         }
-        val axes = Axes.around(strokes, moveScale, errorScale) ?: return sheet.empty("no data")
+        val axes = Axes.around(strokes, AxisScale.LOG10, AxisScale.LOG10) ?: return sheet.empty("no data")
         val table = StrokeTable(strokes.map { it.on(axes) })
         val planners = curves.map { it.planner }.distinct()
         val filters = curves.map { it.filter }.distinct()
@@ -84,18 +74,19 @@ public class ErrorCurves(
             scaleColorManual(colours, name = "Planner", limits = planners) +
             scaleFillManual(colours, limits = planners, guide = "none") +
             scaleLinetypeManual(lineTypesOf(filters).map { it.pattern }, name = "Filter", limits = filters) +
-            axes.scales(moveLabel, errorLabel)
+            axes.scales("Moves", "Mean absolute error")
         return sheet.figure(plot)
     }
 
     private fun lineTypesOf(filters: List<String>): List<LineType> {
-        val known = REPORT_LINES + lineTypes
-        val free = (LineType.entries - filters.mapNotNull(known::get).toSet()).ifEmpty { LineType.entries }
+        val free = LineType.entries - filters.mapNotNull(REPORT_LINES::get).toSet()
         var next = 0
-        return filters.map { known[it] ?: free[next++ % free.size] }
+        return filters.map { REPORT_LINES[it] ?: free[next++ % free.size] }
     }
 
     private companion object {
+        const val WIDTH = 860
+        const val HEIGHT = 540
         val REPORT_LINES = mapOf(
             "bounded" to LineType.SOLID,
             "averaging" to LineType.DASHED,

@@ -17,24 +17,15 @@ public class Figure internal constructor(
     public val width: Int,
     public val height: Int,
 ) {
-    private val doubleSize: ByteArray by lazy { PngImage.of(this, DEFAULT_SCALE) }
+    private val image: ByteArray by lazy { PngImage.of(this) }
 
     /**
-     * The figure as a PNG image on white.
+     * The figure as a PNG image on white, 2 image px per CSS px.
      *
-     * @param scale image px per CSS px, dimensionless, more than 0 and at most 8; 2 gives at least 1200 px of width.
      * @return the file's bytes. The caller's own copy.
      * @throws FigureException if this machine cannot draw text (a Java without any font).
      */
-    public fun png(scale: Double = DEFAULT_SCALE): ByteArray {
-        require(scale > 0 && scale <= MAX_SCALE) { "scale ($scale) must be above 0 and at most $MAX_SCALE" }
-        return if (scale == DEFAULT_SCALE) doubleSize.copyOf() else PngImage.of(this, scale)
-    }
-
-    private companion object {
-        const val DEFAULT_SCALE = 2.0
-        const val MAX_SCALE = 8.0
-    }
+    public fun png(): ByteArray = image.copyOf()
 }
 
 /** A figure that could not be made; the message is one line and says what to do. */

@@ -19,10 +19,8 @@ public class Histogram(
     private val counts: LongArray,
     private val valueLabel: String,
     private val countLabel: String = "Count",
-    width: Int = 860,
-    height: Int = 420,
 ) : Drawing {
-    private val sheet = Sheet(title, subtitle, width, height)
+    private val sheet = Sheet(title, subtitle, WIDTH, HEIGHT)
 
     init {
         require(edges.size == counts.size + 1 || (edges.isEmpty() && counts.isEmpty())) {
@@ -59,6 +57,8 @@ public class Histogram(
     }
 
     public companion object {
+        private const val WIDTH = 860
+        private const val HEIGHT = 420
         private const val ACROSS = 10
         private const val UP = 6
         private const val HEADROOM = 1.05
@@ -73,12 +73,11 @@ public class Histogram(
             values: DoubleArray,
             bins: Int,
             valueLabel: String,
-            countLabel: String = "Count",
         ): Histogram {
             require(bins >= 1) { "bins ($bins) must be 1 or more" }
             val finite = values.filter(Double::isFinite)
             if (finite.isEmpty()) {
-                return Histogram(title, subtitle, DoubleArray(0), LongArray(0), valueLabel, countLabel)
+                return Histogram(title, subtitle, DoubleArray(0), LongArray(0), valueLabel)
             }
             val low = finite.min()
             val high = finite.max()
@@ -91,13 +90,12 @@ public class Histogram(
                     doubleArrayOf(low - room, high + room),
                     longArrayOf(finite.size.toLong()),
                     valueLabel,
-                    countLabel,
                 )
             }
             val edges = DoubleArray(bins + 1) { if (it == bins) high else low + it * width }
             val counts = LongArray(bins)
             for (value in finite) counts[((value - low) / width).toInt().coerceIn(0, bins - 1)]++
-            return Histogram(title, subtitle, edges, counts, valueLabel, countLabel)
+            return Histogram(title, subtitle, edges, counts, valueLabel)
         }
 
         private const val ROOM = 8

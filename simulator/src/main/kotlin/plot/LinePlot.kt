@@ -1,7 +1,7 @@
 package stillwater.plot
 
 import org.jetbrains.letsPlot.geom.geomHLine
-import org.jetbrains.letsPlot.geom.geomLine
+import org.jetbrains.letsPlot.geom.geomPath
 import org.jetbrains.letsPlot.geom.geomPoint
 import org.jetbrains.letsPlot.geom.geomRibbon
 import org.jetbrains.letsPlot.letsPlot
@@ -18,7 +18,7 @@ public enum class Mark { LINE, POINTS, LINE_AND_POINTS }
  * @property name shown in the legend; series of one name share a colour. Without any name there is no legend.
  * @param x abscissae, length n, in the order in which a line joins them. Retained, not modified.
  * @param y ordinates, length n; NaN interrupts a line. Retained, not modified.
- * @param lower lower end of the band, length n, or null. Retained, not modified.
+ * @param lower lower end of the band, length n, or null; bands are drawn by ascending x. Retained, not modified.
  * @param upper upper end of the band, length n, or null. Retained, not modified.
  */
 public class Series(
@@ -54,10 +54,8 @@ public class LinePlot(
     private val xScale: AxisScale = AxisScale.LINEAR,
     private val yScale: AxisScale = AxisScale.LINEAR,
     private val references: List<Double> = emptyList(),
-    width: Int = 860,
-    height: Int = 460,
 ) : Drawing {
-    private val sheet = Sheet(title, subtitle, width, height)
+    private val sheet = Sheet(title, subtitle, WIDTH, HEIGHT)
 
     override fun draw(): Figure {
         val strokes = series.map { it to Stroke.of(it.x, it.y, it.lower, it.upper, it.name, "") }
@@ -90,7 +88,7 @@ public class LinePlot(
         }
 
     private fun lines(strokes: List<Stroke>) =
-        geomLine(StrokeTable(strokes).columns, size = 1.0, sampling = samplingNone) {
+        geomPath(StrokeTable(strokes).columns, size = 1.0, sampling = samplingNone) {
             x = StrokeTable.X
             y = StrokeTable.Y
             color = StrokeTable.COLOUR
@@ -103,4 +101,9 @@ public class LinePlot(
             y = StrokeTable.Y
             color = StrokeTable.COLOUR
         }
+
+    private companion object {
+        const val WIDTH = 860
+        const val HEIGHT = 460
+    }
 }

@@ -21,10 +21,6 @@ import org.jetbrains.letsPlot.themes.themeMinimal
 
 /** Title, subtitle and size, common to all kinds of figures. Sizes in CSS px. */
 internal class Sheet(val title: String, val subtitle: String, val width: Int, val height: Int) {
-    init {
-        require(width in SIZES && height in SIZES) { "width ($width px) and height ($height px) must be in $SIZES px" }
-    }
-
     /** Puts [plot] on this sheet, in the house's type and colours. */
     fun figure(plot: Plot, more: Feature = theme()): Figure {
         val heading = ggtitle(title.ifEmpty { " " }, subtitle.ifEmpty { null })
@@ -73,8 +69,4 @@ internal class Sheet(val title: String, val subtitle: String, val width: Int, va
         plotBackground = elementRect(fill = Palette.PAPER, color = Palette.PAPER, size = 0),
         plotMargin = margin(t = 12, r = 16, b = 10, l = 10),
     )
-
-    internal companion object {
-        val SIZES = 200..4000
-    }
 }

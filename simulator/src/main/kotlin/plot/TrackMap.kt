@@ -9,7 +9,7 @@ import org.jetbrains.letsPlot.letsPlot
 import org.jetbrains.letsPlot.sampling.samplingNone
 
 /**
- * A boat's track in a local frame (x east, y north), coloured by what its sensor read, true to scale.
+ * A boat's track in a local frame (x east, y north), coloured by what its sensor read, true to scale, its ends marked.
  *
  * Points without a finite position are left out and interrupt the track; those without a value are grey. Give some
  * thousand points at most: each becomes an element of the SVG.
@@ -18,7 +18,6 @@ import org.jetbrains.letsPlot.sampling.samplingNone
  * @param north y of each point, m, length n. Retained, not modified.
  * @param value reading at each point, length n, in the map's unit. Retained, not modified.
  * @param unit what the colours mean, such as `Oxygen (mg/L)`.
- * @param ends whether to mark where the track starts and ends.
  * @param colours the values at the ends of the colour scale; by default those of the track.
  */
 public class TrackMap(
@@ -28,7 +27,6 @@ public class TrackMap(
     private val north: DoubleArray,
     private val value: DoubleArray,
     private val unit: String,
-    private val ends: Boolean = true,
     private val colours: ClosedFloatingPointRange<Double>? = null,
 ) : Drawing {
     init {
@@ -42,7 +40,7 @@ public class TrackMap(
         if (placed.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no positions")
         val x = DoubleArray(placed.size) { east[placed[it]] }
         val y = DoubleArray(placed.size) { north[placed[it]] }
-        val frame = MapFrame.around(listOf(x), listOf(y), if (ends) ROOM_FOR_LABELS else MARGIN)
+        val frame = MapFrame.around(listOf(x), listOf(y), ROOM_FOR_LABELS)
         val scale = ColourScale.of(placed.map { value[it] }, colours)
         val table = mapOf(
             "east" to x.asList(),
@@ -51,13 +49,13 @@ public class TrackMap(
             // Points without position between two placed ones make the difference grow: a new part.
             "part" to placed.mapIndexed { index, point -> point - index },
         )
-        val track = letsPlot(table) {
+        val plot = letsPlot(table) {
             this.x = "east"
             this.y = "north"
         } +
             geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
-            points(placed, scale.colour(unit, frame.isFlat)) + frame.axes()
-        val plot = if (ends) track + start(x, y, frame.size) + end(x, y, frame.size) else track
+            points(placed, scale.colour(unit, frame.isFlat)) + frame.axes() +
+            start(x, y, frame.size) + end(x, y, frame.size)
         return frame.sheet(title, subtitle).figure(plot, frame.legend())
     }
 
@@ -94,7 +92,6 @@ public class TrackMap(
     )
 
     private companion object {
-        const val MARGIN = 0.03
         const val ROOM_FOR_LABELS = 0.06
         const val LABEL_DISTANCE = 0.028
         const val CIRCLE = 1

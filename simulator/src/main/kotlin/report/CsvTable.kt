@@ -8,8 +8,8 @@ import java.io.OutputStreamWriter
 /**
  * Writes a table for machines: RFC 4180 CSV in UTF-8, lines ending in `\n`, the same bytes in every locale.
  *
- * Numbers are written so that reading them gives the same double, in the fewest digits ([ShortestNumber]); a missing
- * value is an empty field. Confined to one thread; closing it closes the stream.
+ * Numbers are written so that reading them gives the same double (`0.1`, `100.0`, `1.0E-7`), not always in the fewest
+ * digits before Java 19; a missing value is an empty field. Confined to one thread; closing it closes the stream.
  *
  * @param out where the text goes, buffered by the caller. Closed with this.
  * @param header the columns' names, with the units in them, such as `mean_abs_error`.
@@ -42,8 +42,7 @@ public class CsvTable(out: OutputStream, private val header: List<String>) : Aut
 
     private fun text(value: Any?): String? = when (value) {
         null -> null
-        is Double -> if (value.isNaN()) null else ShortestNumber.text(value)
-        is Float -> if (value.isNaN()) null else ShortestNumber.text(value.toDouble())
+        is Double -> if (value.isNaN()) null else value.toString()
         else -> value.toString()
     }
 }

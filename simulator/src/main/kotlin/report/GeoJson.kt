@@ -5,13 +5,10 @@ import kotlinx.serialization.json.JsonArrayBuilder
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonPrimitive
-import kotlinx.serialization.json.JsonUnquotedLiteral
 import kotlinx.serialization.json.addJsonArray
 import kotlinx.serialization.json.buildJsonArray
 import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
-import java.math.BigDecimal
-import java.math.RoundingMode
 
 /**
  * One corner of a [GeoPolygon].
@@ -42,7 +39,7 @@ public class GeoPolygon(public val corners: List<GeoCorner>, public val properti
  * 1e-8 degrees (about 1 mm), which is what the areas are known to at best.
  */
 public object GeoJson {
-    private const val DECIMALS = 8
+    private const val UNITS = 1e8
 
     /** The text of a feature collection, one feature a line, in the order of [polygons]. */
     public fun text(polygons: Iterable<GeoPolygon>): String = buildString {
@@ -79,20 +76,12 @@ public object GeoJson {
             (b.longitude - corners[0].longitude) * (a.latitude - corners[0].latitude)
     }
 
-    private fun degrees(value: Double): JsonElement {
-        val rounded = BigDecimal(value).setScale(DECIMALS, RoundingMode.HALF_EVEN).stripTrailingZeros()
-        return number(if (rounded.signum() == 0) "0" else rounded.toPlainString())
-    }
+    private fun degrees(value: Double) = JsonPrimitive(Math.round(value * UNITS) / UNITS)
 
     private fun element(value: Any?): JsonElement = when (value) {
         null -> JsonNull
         is Boolean -> JsonPrimitive(value)
-        is Double -> if (value.isFinite()) number(ShortestNumber.text(value)) else JsonNull
-        is Float -> element(value.toDouble())
-        is Number -> JsonPrimitive(value)
+        is Number -> if (value.toDouble().isFinite()) JsonPrimitive(value) else JsonNull
         else -> JsonPrimitive(value.toString())
     }
-
-    @OptIn(kotlinx.serialization.ExperimentalSerializationApi::class)
-    private fun number(text: String): JsonElement = JsonUnquotedLiteral(text)
 }

@@ -44,6 +44,16 @@ class ChartsTest {
     }
 
     @Test
+    fun aLineJoinsItsPointsInTheirOrder() {
+        val loop = Series("a", doubleArrayOf(0.0, 2.0, 1.0, 3.0), doubleArrayOf(0.0, 1.0, 2.0, 3.0))
+        val line = SvgParts(LinePlot("t", "", listOf(loop), "x", "y").draw()).strokes(SvgParts.BLUE).single()
+        val across = Regex("[ML]([\\d.]+)").findAll(line.getAttribute("d")).map {
+            it.groupValues[1].toDouble()
+        }.distinct().toList()
+        assertEquals(listOf(0, 2, 1, 3), across.map { across.sorted().indexOf(it) })
+    }
+
+    @Test
     fun aBandReachingBelowALogarithmicAxisIsCutNotLost() {
         val low = DoubleArray(100) { -1.0 }
         val plot = LinePlot("t", "", listOf(Series("a", time, time, low, time)), "s", "u", yScale = AxisScale.LOG10)

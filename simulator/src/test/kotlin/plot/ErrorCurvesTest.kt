@@ -118,8 +118,8 @@ class ErrorCurvesTest {
             ).draw()
             assertContains(SvgParts(figure).texts, "Moves")
         }
-        val wide = ErrorCurve("w", "bounded", doubleArrayOf(1.0, 2.0), doubleArrayOf(-1e300, 1e300))
-        val figure = ErrorCurves("t", "", listOf(wide), errorScale = AxisScale.LINEAR).draw()
+        val wide = Series("a", doubleArrayOf(1.0, 2.0), doubleArrayOf(-1e300, 1e300))
+        val figure = LinePlot("t", "", listOf(wide), "x", "y").draw()
         assertEquals(1, SvgParts(figure).strokes(SvgParts.BLUE).size)
     }
 

@@ -39,28 +39,13 @@ class CsvTableTest {
     }
 
     @Test
-    fun numbersAreShortestAndReadBackTheSame() {
-        val known = mapOf(
-            0.1 to "0.1",
-            -0.0 to "0",
-            100.0 to "100",
-            1e15 to "1000000000000000",
-            2e23 to "2e23",
-            1.0E-7 to "1e-7",
-            0.1 + 0.2 to "0.30000000000000004",
-            // Java 17 writes 2.2250738585072014E-308 and 4.9E-324 here; the second is one digit too many.
-            java.lang.Double.MIN_NORMAL to "2.2250738585072014e-308",
-            Double.MIN_VALUE to "5e-324",
-            Double.MAX_VALUE to "1.7976931348623157e308",
-        )
-        for ((value, text) in known) assertEquals(text, ShortestNumber.text(value))
+    fun numbersReadBackTheSame() {
         val random = Random(5)
-        repeat(20_000) {
-            val value = Double.fromBits(random.nextLong())
-            if (value.isFinite()) assertEquals(value, ShortestNumber.text(value).toDouble())
-            val usual = random.nextDouble()
-            assertEquals(usual, ShortestNumber.text(usual).toDouble())
-        }
+        val values = listOf(0.1 + 0.2, 1e15, 2e23, Double.MIN_VALUE, Double.MAX_VALUE, Double.NEGATIVE_INFINITY) +
+            List(2000) { Double.fromBits(random.nextLong()) }.filter { it.isFinite() } +
+            List(2000) { random.nextDouble() }
+        val text = csv("a") { values.forEach { row(it) } }
+        assertEquals(values, text.lines().drop(1).dropLast(1).map { it.toDouble() })
     }
 
     @Test
