@@ -28,15 +28,36 @@ public enum class PathChoice {
     LAST_POLLED,
 }
 
+/** Which cells the boat can reach in one move. */
+public enum class Neighbours {
+    /** The up to four that share an edge. */
+    EDGE,
+
+    /** The up to eight that share an edge or a corner: the original. */
+    EDGE_OR_CORNER,
+}
+
+/** Which open node of the tree is expanded first. */
+public enum class Priority {
+    /** The one whose path has the highest value per move: the report's "rate that value has accumulated". */
+    VALUE_PER_MOVE,
+
+    /** The one whose path has the highest value: the original. */
+    VALUE,
+}
+
 /**
  * Settings of a [BoundedPlanner]; the defaults reproduce the report's Figures 6 and 7.
  *
  * @property horizon moves in the longest path, at least 1.
- * @property expansions nodes expanded for one plan, at least 1.
+ * @property expansions nodes polled from the queue for one plan, at least 1. Each is expanded but those at the horizon,
+ *   which only [PathChoice.LAST_POLLED] polls.
  * @property maxChange largest change of the sensor expected within one cell, sensor units, above 0.
  * @property discountVisits whether a cell's value is divided by 1 + its visits earlier on the path.
  * @property execution how much of the path is run.
  * @property choice which path is run.
+ * @property neighbours which cells can be reached in one move.
+ * @property priority which node is expanded first.
  * @throws IllegalArgumentException if a number is out of its range.
  */
 public data class BoundedPlannerSettings(
@@ -46,6 +67,8 @@ public data class BoundedPlannerSettings(
     val discountVisits: Boolean = true,
     val execution: Execution = Execution.WHOLE_PATH,
     val choice: PathChoice = PathChoice.BEST,
+    val neighbours: Neighbours = Neighbours.EDGE,
+    val priority: Priority = Priority.VALUE_PER_MOVE,
 ) {
     init {
         require(horizon >= 1) { "horizon ($horizon moves) must be at least 1" }
@@ -57,25 +80,29 @@ public data class BoundedPlannerSettings(
 /**
  * Seeks the path on which the sensor is expected to tighten the bounds most.
  *
- * A best-first tree of moves between cells that share an edge. A cell with bounds [L, U] and midpoint m is worth
+ * A best-first tree of moves between neighbouring cells. A cell with bounds [L, U] and midpoint m is worth
  * max(0, (U − L) − |m − s|) to a sensor that enters it at s, and the sensor is expected to leave it at
- * s + clamp(m − s, ±maxChange). The queue polls the node with the highest value per move.
+ * s + clamp(m − s, ±maxChange). The queue polls the node with the highest value per move, or as
+ * [BoundedPlannerSettings.priority] says.
  *
  * Source: the report, section 6, Algorithm 2. Differs: the printed value lacks the absolute value, the printed change
  * its lower clip; the visit discount 1 / (1 + visits on the path) and the heuristic value / depth are readings of
  * "the number of times that cell has been previously visited on the path" and "the current expansion depth and the
- * rate that value has accumulated". Bounds that crossed count as having no width. Plans for the cell grid of the map;
- * no allocation once warm.
+ * rate that value has accumulated". Before anything is measured all cells are alike: neighbours enter the tree in a
+ * random order, so that no direction is preferred. Bounds that crossed count as having no width. Plans for the cell grid
+ * of the map; no allocation once warm.
  *
+ * @param random where the order of neighbours comes from. Retained.
  * @property settings horizon, expansions and choices.
  */
 public class BoundedPlanner(
     private val random: Random,
     public val settings: BoundedPlannerSettings = BoundedPlannerSettings(),
 ) : Planner {
-    private val tree = SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
+    private val tree =
+        SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
     private val path = IntArray(minOf(settings.horizon, settings.expansions))
-    private val directions = IntArray(MOST_CHILDREN) { it }
+    private val directions = IntArray(if (settings.neighbours == Neighbours.EDGE) EDGES else MOST_CHILDREN) { it }
 
     override fun plan(
         map: FieldMap,
@@ -91,16 +118,15 @@ public class BoundedPlanner(
         tree.clear()
         tree.add(start, parent = -1, value = 0.0, sensor = sensor, priority = 0.0, queued = true)
         var lastPolled = ROOT
-        var expansions = 0
+        var polls = 0
         var stopped = false
-        while (expansions < settings.expansions && !tree.exhausted) {
+        while (polls < settings.expansions && !tree.exhausted) {
             stopped = stop.stop()
             if (stopped) break
             val node = tree.poll()
             if (tree.value(node) > 0) lastPolled = node
-            if (tree.depth(node) == settings.horizon) continue
-            expand(map, node)
-            expansions++
+            if (tree.depth(node) < settings.horizon) expand(map, node)
+            polls++
         }
         val chosen = if (settings.choice == PathChoice.BEST) best() else lastPolled
         if (chosen == ROOT) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
@@ -116,12 +142,10 @@ public class BoundedPlanner(
         val row = cell / grid.columns
         shuffleDirections()
         for (direction in directions) {
-            when (direction) {
-                WEST -> if (column > 0) enter(map, node, cell - 1)
-                EAST -> if (column < grid.columns - 1) enter(map, node, cell + 1)
-                SOUTH -> if (row > 0) enter(map, node, cell - grid.columns)
-                NORTH -> if (row < grid.rows - 1) enter(map, node, cell + grid.columns)
-            }
+            val toColumn = column + COLUMN_STEPS[direction]
+            val toRow = row + ROW_STEPS[direction]
+            val inGrid = toColumn >= 0 && toColumn < grid.columns && toRow >= 0 && toRow < grid.rows
+            if (inGrid) enter(map, node, toRow * grid.columns + toColumn)
         }
     }
 
@@ -145,7 +169,8 @@ public class BoundedPlanner(
         val depth = tree.depth(from) + 1
         // A node at the horizon can't be expanded; polling it matters only to the original's choice.
         val queued = depth < settings.horizon || settings.choice == PathChoice.LAST_POLLED
-        tree.add(cell, from, value, sensor + change, value / depth, queued)
+        val priority = if (settings.priority == Priority.VALUE) value else value / depth
+        tree.add(cell, from, value, sensor + change, priority, queued)
     }
 
     /** The node with the highest value, of equal ones the first; [ROOT] when none has any. */
@@ -169,11 +194,12 @@ public class BoundedPlanner(
 
     private companion object {
         const val ROOT = 0
-        const val WEST = 0
-        const val EAST = 1
-        const val SOUTH = 2
-        const val NORTH = 3
-        const val MOST_CHILDREN = 4
+        const val EDGES = 4
+        const val MOST_CHILDREN = 8
+
+        // West, east, south, north; then the corners.
+        val COLUMN_STEPS = intArrayOf(-1, 1, 0, 0, -1, -1, 1, 1)
+        val ROW_STEPS = intArrayOf(0, 0, -1, 1, -1, 1, -1, 1)
         const val MAX_INITIAL_NODES = 1L shl 16
     }
 }

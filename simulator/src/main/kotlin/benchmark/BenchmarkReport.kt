@@ -70,6 +70,7 @@ internal class BenchmarkReport(
             "Lawnmower" to settings.plannerSettings.pattern.name.words(),
             "Bounded planner" to "horizon ${planner.horizon}, ${planner.expansions} expansions, largest change " +
                 "${planner.maxChange}, visits on the path ${if (planner.discountVisits) "" else "not "}discounted, " +
+                "moves over ${planner.neighbours.name.words()}, expands by ${planner.priority.name.words()}, " +
                 "runs the ${planner.choice.name.words()} path, ${planner.execution.name.words()} before planning again",
             "Time between readings" to "${settings.period} s",
         )

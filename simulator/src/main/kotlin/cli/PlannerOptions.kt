@@ -5,7 +5,9 @@ import com.github.ajalt.clikt.parameters.options.nullableFlag
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.plan.Execution
 import stillwater.plan.LawnmowerPattern
+import stillwater.plan.Neighbours
 import stillwater.plan.PathChoice
+import stillwater.plan.Priority
 import stillwater.plan.WalkSteps
 import stillwater.run.PlannerSettings
 
@@ -42,6 +44,17 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         help = "bounded planner: run the best path, or the last-polled as the original code did",
     ).oneOf(CHOICES)
 
+    private val neighbours by option(
+        "--neighbours",
+        metavar = "WHICH",
+        help = "bounded planner: cells reached in one move, edge or edge-or-corner as in the original",
+    ).oneOf(NEIGHBOURS)
+    private val priority by option(
+        "--priority",
+        metavar = "WHAT",
+        help = "bounded planner: expand the highest value-per-move first, or value as the original code did",
+    ).oneOf(PRIORITIES)
+
     /** [settings] with what was given on the command line in their place. */
     fun applied(settings: PlannerSettings): PlannerSettings = PlannerSettings(
         walk = walk ?: settings.walk,
@@ -53,6 +66,8 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             discountVisits = discountVisits ?: settings.bounded.discountVisits,
             execution = execution ?: settings.bounded.execution,
             choice = choice ?: settings.bounded.choice,
+            neighbours = neighbours ?: settings.bounded.neighbours,
+            priority = priority ?: settings.bounded.priority,
         ),
     )
 
@@ -67,6 +82,8 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         "--no-discount-visits" to (discountVisits == false),
         "--execution" to EXECUTIONS.nameOf(execution),
         "--choice" to CHOICES.nameOf(choice),
+        "--neighbours" to NEIGHBOURS.nameOf(neighbours),
+        "--priority" to PRIORITIES.nameOf(priority),
     )
 
     private fun <T> Map<String, T>.nameOf(value: T?): String? = entries.find { it.value == value }?.key
@@ -82,6 +99,8 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             "raster" to LawnmowerPattern.RASTER,
         )
         val EXECUTIONS = mapOf("whole-path" to Execution.WHOLE_PATH, "single-step" to Execution.SINGLE_STEP)
+        val NEIGHBOURS = mapOf("edge" to Neighbours.EDGE, "edge-or-corner" to Neighbours.EDGE_OR_CORNER)
+        val PRIORITIES = mapOf("value-per-move" to Priority.VALUE_PER_MOVE, "value" to Priority.VALUE)
         val CHOICES = mapOf("best" to PathChoice.BEST, "last-polled" to PathChoice.LAST_POLLED)
     }
 }

@@ -4,7 +4,9 @@ import stillwater.estimate.BoundedFilterSettings
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
+import stillwater.plan.Neighbours
 import stillwater.plan.PathChoice
+import stillwater.plan.Priority
 import stillwater.plan.WalkSteps
 import stillwater.sensor.FirstOrderLag
 import stillwater.sensor.SensorSpec
@@ -56,11 +58,14 @@ enum class Preset(val label: String, val describes: String) {
             walk = WalkSteps.DIAGONAL_CLAMPED,
             pattern = LawnmowerPattern.RASTER,
             bounded = BoundedPlannerSettings(
-                horizon = 6,
+                // The original's horizon of 6 counts the start: its longest path has 5 moves.
+                horizon = 5,
                 expansions = 10_000,
                 maxChange = 0.1,
                 discountVisits = false,
                 choice = PathChoice.LAST_POLLED,
+                neighbours = Neighbours.EDGE_OR_CORNER,
+                priority = Priority.VALUE,
             ),
         ),
         moves = 500,

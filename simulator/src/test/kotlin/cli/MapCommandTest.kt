@@ -52,7 +52,7 @@ class MapCommandTest {
         val out = directory.out().toString()
         runMap(log(text), "--out", out, "--cell", "10", "--filter", "averaging", "--quiet")
         val rows = cells()
-        assertEquals(listOf("1.5", "7"), rows.map { it[7] })
+        assertEquals(listOf("1.5", "7.0"), rows.map { it[7] })
         assertEquals(listOf("2", "3"), rows.map { it[11] })
         assertEquals(listOf("", ""), rows.map { it[5] }, "no latitudes in this log")
     }
