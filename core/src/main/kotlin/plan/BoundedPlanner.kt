@@ -73,7 +73,8 @@ public class BoundedPlanner(
     private val random: Random,
     public val settings: BoundedPlannerSettings = BoundedPlannerSettings(),
 ) : Planner {
-    private val tree = SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
+    private val tree =
+        SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
     private val path = IntArray(minOf(settings.horizon, settings.expansions))
     private val directions = IntArray(MOST_CHILDREN) { it }
 

@@ -107,7 +107,8 @@ class AllocationTest {
     fun plannerDecision(): List<DynamicTest> {
         val bounded = Execution.entries.flatMap { execution ->
             PathChoice.entries.map { choice ->
-                val settings = BoundedPlannerSettings(horizon = 6, expansions = 40, execution = execution, choice = choice)
+                val settings =
+                    BoundedPlannerSettings(horizon = 6, expansions = 40, execution = execution, choice = choice)
                 "$settings" to BoundedPlanner(Random(1), settings)
             }
         }

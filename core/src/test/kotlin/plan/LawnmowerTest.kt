@@ -9,7 +9,8 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
 class LawnmowerTest {
-    private val shapes = (1..7).flatMap { columns -> (1..7).map { rows -> columns to rows } } + listOf(10 to 10, 3 to 20)
+    private val shapes =
+        (1..7).flatMap { columns -> (1..7).map { rows -> columns to rows } } + listOf(10 to 10, 3 to 20)
 
     /** The tour of [pattern] on every shape that has it, with the moves of one period, the closing one included. */
     private fun forEveryTour(
@@ -31,7 +32,9 @@ class LawnmowerTest {
     @Test
     fun everyPatternVisitsEveryCell() {
         for (pattern in LawnmowerPattern.entries) {
-            forEveryTour(pattern) { grid, tour, _ -> assertEquals((0 until grid.size).toSet(), tour.toSet(), "$pattern") }
+            forEveryTour(pattern) { grid, tour, _ ->
+                assertEquals((0 until grid.size).toSet(), tour.toSet(), "$pattern")
+            }
         }
     }
 
@@ -40,7 +43,10 @@ class LawnmowerTest {
         for (pattern in LawnmowerPattern.entries - LawnmowerPattern.RASTER) {
             forEveryTour(pattern) { grid, tour, moves ->
                 for ((from, to) in moves) {
-                    assertTrue(shareAnEdge(grid, from, to), "$pattern $from to $to on ${grid.columns} x ${grid.rows}: $tour")
+                    assertTrue(
+                        shareAnEdge(grid, from, to),
+                        "$pattern $from to $to on ${grid.columns} x ${grid.rows}: $tour",
+                    )
                 }
             }
         }

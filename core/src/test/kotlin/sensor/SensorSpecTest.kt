@@ -112,8 +112,10 @@ class SensorSpecTest {
     fun whatIsWrongIsSaidInOneLine() {
         fun stage(json: String) = """{"name": "x", "stages": [{"type": "noise", "standard_deviation": 1}, $json]}"""
         for ((json, words) in listOf(
-            stage("""{"type": "warp", "factor": 9}""") to listOf("type", "first-order-lag, noise, quantisation, slew-limit", "$.stages[1]"),
-            stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to listOf("timeConstant (-2.0 s) must be above 0", "$.stages[1]"),
+            stage("""{"type": "warp", "factor": 9}""") to
+                listOf("type", "first-order-lag, noise, quantisation, slew-limit", "$.stages[1]"),
+            stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to
+                listOf("timeConstant (-2.0 s) must be above 0", "$.stages[1]"),
             stage("""{"type": "first-order-lag"}""") to listOf("time_constant_s", "$.stages[1]"),
             stage("""{"type": "first-order-lag", "time_constant_s": NaN}""") to listOf("time_constant_s"),
             stage("""{"type": "first-order-lag", "time_constant_s": "ten"}""") to listOf("time_constant_s", "ten"),
@@ -129,7 +131,9 @@ class SensorSpecTest {
             "null" to listOf("sensor spec"),
             """{"name": "x", "stages": [""" to listOf("sensor spec"),
         )) {
-            val message = assertFailsWith<IllegalArgumentException>(json) { SensorSpec.fromJson(json) }.message.orEmpty()
+            val message = assertFailsWith<IllegalArgumentException>(json) {
+                SensorSpec.fromJson(json)
+            }.message.orEmpty()
             assertFalse('\n' in message, "one line: $message")
             assertTrue(message.startsWith("not a sensor spec: "), message)
             for (word in words) assertContains(message, word, message = "of $json")

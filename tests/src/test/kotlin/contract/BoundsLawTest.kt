@@ -73,7 +73,10 @@ class BoundsLawTest {
             // No tolerance: the bounds are the sensor's own outputs, and it never passes the truth.
             survey.run(filter) { cell ->
                 val truth = survey.truths[cell]
-                assertTrue(truth in map.lower(cell)..map.upper(cell), "$truth in ${map.lower(cell)}..${map.upper(cell)}")
+                assertTrue(
+                    truth in map.lower(cell)..map.upper(cell),
+                    "$truth in ${map.lower(cell)}..${map.upper(cell)}",
+                )
                 assertEquals(0, map.conflicts(cell))
             }
             tightened += (0 until survey.grid.size).count {

@@ -94,7 +94,10 @@ class EquivarianceTest {
             // Bounds are readings: exact. A negative scale swaps them.
             assertEquals(a * (if (a > 0) old.lower else old.upper) + b, new.lower, 0.0)
             assertEquals(a * (if (a > 0) old.upper else old.lower) + b, new.upper, 0.0)
-            assertEquals(listOf(old.visits, old.readings, old.conflicts), listOf(new.visits, new.readings, new.conflicts))
+            assertEquals(
+                listOf(old.visits, old.readings, old.conflicts),
+                listOf(new.visits, new.readings, new.conflicts),
+            )
         }
     }
 
@@ -120,14 +123,19 @@ class EquivarianceTest {
                     for (cell in 0 until grid.size) {
                         val hull = readings.samples.filter { it.second == cell }.map { it.third } + map.prior.midpoint
                         // Up to 150 roundings at magnitude 10.
-                        assertTrue(map.value(cell) in hull.min() - 1e-12..hull.max() + 1e-12, "${map.value(cell)} of $hull")
+                        assertTrue(
+                            map.value(cell) in hull.min() - 1e-12..hull.max() + 1e-12,
+                            "${map.value(cell)} of $hull",
+                        )
                     }
                 }
             }
         }
 
     @TestFactory
-    fun averagesComeToAValueThatStays(): List<DynamicTest> = FilterKind.entries.filterNot { it.givesBounds }.map { kind ->
+    fun averagesComeToAValueThatStays(): List<DynamicTest> = FilterKind.entries.filterNot {
+        it.givesBounds
+    }.map { kind ->
         dynamicTest(kind.label) {
             val estimator = kind.estimator(grid, Interval.UNIT, BoundedFilterSettings(0.0))
             val random = Random(SEED)

@@ -155,7 +155,10 @@ class EstimatorContractTest {
         for (sample in stream.samples) {
             estimator.take(sample)
             for (cell in content(estimator.map)) {
-                assertTrue(cell.value.isFinite() && cell.lower.isFinite() && cell.upper.isFinite(), "$cell after $sample")
+                assertTrue(
+                    cell.value.isFinite() && cell.lower.isFinite() && cell.upper.isFinite(),
+                    "$cell after $sample",
+                )
             }
         }
     }

@@ -29,9 +29,11 @@ class PlannerContractTest {
         val name = "${kind.label}, $setting"
 
         /** Whether one waypoint shares an edge with the next. */
-        val movesByEdges = kind == PlannerKind.BOUNDED ||
-            kind == PlannerKind.LAWNMOWER && settings.pattern != LawnmowerPattern.RASTER ||
-            kind == PlannerKind.RANDOM_WALK && settings.walk == WalkSteps.EDGE
+        val movesByEdges = when (kind) {
+            PlannerKind.RANDOM_WALK -> settings.walk == WalkSteps.EDGE
+            PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
+            PlannerKind.BOUNDED -> true
+        }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
     }
@@ -88,7 +90,11 @@ class PlannerContractTest {
             } else {
                 grid.center(cell)
             }
-            Decision(from, random.hostile(-0.5, 1.5), asks = if (random.nextBoolean()) Int.MAX_VALUE else random.nextInt(4))
+            Decision(
+                from,
+                random.hostile(-0.5, 1.5),
+                asks = if (random.nextBoolean()) Int.MAX_VALUE else random.nextInt(4),
+            )
         }
 
         init {

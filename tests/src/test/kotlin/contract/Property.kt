@@ -14,9 +14,12 @@ internal const val SEED = 20_260_102L
 /** Checks [law] on [cases] cases that [make] draws; a case must say in toString what it is. */
 internal fun <A> forEvery(cases: Int, make: (Random) -> A, law: (A) -> Unit) {
     runBlocking {
-        checkAll(PropTestConfig(seed = SEED, iterations = cases), arbitrary { source: RandomSource ->
-            make(source.random)
-        }) { law(it) }
+        checkAll(
+            PropTestConfig(seed = SEED, iterations = cases),
+            arbitrary { source: RandomSource ->
+                make(source.random)
+            },
+        ) { law(it) }
     }
 }
 
