@@ -5,6 +5,7 @@ import stillwater.run.ExperimentResult
 import stillwater.run.FilterKind
 import stillwater.run.PlannerKind
 import stillwater.run.Preset
+import java.util.Locale
 
 /**
  * One of the report's claims, held against an experiment.
@@ -43,6 +44,7 @@ class ReportClaims(private val result: ExperimentResult) {
             "lowest from move ${since.first()} on"
         } else {
             "at move $last %s with %s is lower: %.4f against %.4f".format(
+                Locale.ROOT,
                 best.planner.label,
                 best.filter.label,
                 best.at(last).mean,
@@ -60,7 +62,7 @@ class ReportClaims(private val result: ExperimentResult) {
         val final = lawnmower.at(last).mean
         val settled = lawnmower.checkpoints.takeLastWhile { lawnmower.at(it).mean == final }
         val holds = better.isNotEmpty() && settled.size > 1 && final > walk.at(last).mean
-        val detail = "below the walk at ${moves(better)}; constant %.4f from move ${settled.first()} on".format(final)
+        val detail = "below the walk at ${moves(better)}; constant %.4f from move ${settled.first()} on".format(Locale.ROOT, final)
         return Claim("$field: lawnmower with the bounded filter is good at first, then stays above zero", holds, detail)
     }
 
@@ -82,7 +84,7 @@ class ReportClaims(private val result: ExperimentResult) {
         return Claim(
             "averaging suffers more from the lag where cells are independent (random walk)",
             uniform > gaussian,
-            detail.format(uniform, gaussian),
+            detail.format(Locale.ROOT, uniform, gaussian),
         )
     }
 
