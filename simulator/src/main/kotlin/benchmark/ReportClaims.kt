@@ -62,7 +62,9 @@ class ReportClaims(private val result: ExperimentResult) {
         val final = lawnmower.at(last).mean
         val settled = lawnmower.checkpoints.takeLastWhile { lawnmower.at(it).mean == final }
         val holds = better.isNotEmpty() && settled.size > 1 && final > walk.at(last).mean
-        val detail = "below the walk at ${moves(better)}; constant %.4f from move ${settled.first()} on".format(Locale.ROOT, final)
+        val detail = "below the walk at ${moves(
+            better,
+        )}; constant %.4f from move ${settled.first()} on".format(Locale.ROOT, final)
         return Claim("$field: lawnmower with the bounded filter is good at first, then stays above zero", holds, detail)
     }
 
