@@ -34,13 +34,7 @@ class Curve(
         return ErrorSummary(
             mean = statistics.mean,
             // One environment shows no spread.
-            standardError = if (errors.size <
-                2
-            ) {
-                Double.NaN
-            } else {
-                statistics.standardDeviation / sqrt(errors.size.toDouble())
-            },
+            standardError = if (errors.size < 2) Double.NaN else statistics.standardDeviation / sqrt(errors.size.toDouble()),
             p10 = statistics.getPercentile(10.0),
             p90 = statistics.getPercentile(90.0),
             shareInExtremes = errors.sumOf { it.inExtremes[checkpoint] } / errors.sumOf { it.mean[checkpoint] },

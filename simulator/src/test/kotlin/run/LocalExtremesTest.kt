@@ -1,0 +1,64 @@
+package stillwater.run
+
+import stillwater.field.CellField
+import stillwater.model.Grid
+import kotlin.test.Test
+import kotlin.test.assertEquals
+
+class LocalExtremesTest {
+    private fun extremes(columns: Int, vararg truths: Double): List<Int> {
+        val found = LocalExtremes.of(CellField(Grid.unit(columns, truths.size / columns), truths))
+        return found.indices.filter { found[it] }
+    }
+
+    @Test
+    fun aCellAboveOrBelowAllItsNeighboursIsAnExtreme() {
+        val found = extremes(
+            3,
+            0.1, 0.5, 0.4,
+            0.6, 0.2, 0.3,
+            0.7, 0.8, 0.9,
+        )
+        // 0 is below 0.5 and 0.6; 1 above 0.1, 0.4 and 0.2; 4 below all four; 8 above 0.8 and 0.3. 3 has 0.7 above.
+        assertEquals(listOf(0, 1, 4, 8), found)
+    }
+
+    @Test
+    fun cornersCountAsNoNeighbours() {
+        val found = extremes(
+            3,
+            0.9, 0.4, 0.9,
+            0.4, 0.5, 0.4,
+            0.9, 0.4, 0.9,
+        )
+        assertEquals((0 until 9).toList(), found)
+    }
+
+    @Test
+    fun theEndOfARowIsNoNeighbourOfTheNextRowsStart() {
+        // Cell 2 is below cell 3 in the numbering only.
+        val found = extremes(
+            3,
+            0.1, 0.2, 0.3,
+            0.9, 0.8, 0.1,
+        )
+        assertEquals(listOf(0, 2, 3, 5), found)
+    }
+
+    @Test
+    fun equalNeighboursMakeNoExtreme() {
+        assertEquals(emptyList(), extremes(2, 0.5, 0.5, 0.5, 0.5))
+        assertEquals(listOf(2), extremes(3, 0.5, 0.5, 0.6))
+    }
+
+    @Test
+    fun inALineThereAreTwoNeighboursAtMost() {
+        assertEquals(listOf(0, 1, 2, 4), extremes(5, 0.1, 0.9, 0.2, 0.3, 0.4))
+        assertEquals(listOf(0, 1, 2, 4), extremes(1, 0.1, 0.9, 0.2, 0.3, 0.4))
+    }
+
+    @Test
+    fun aSingleCellIsNoExtreme() {
+        assertEquals(emptyList(), extremes(1, 0.5))
+    }
+}
