@@ -52,9 +52,9 @@ public data class BoundedFilterSettings(
  * least-squares slope over a window of running medians, and counts when it exceeds ε. A cell's value is the midpoint
  * of its bounds.
  *
- * Guaranteed to contain the truth, to the rounding of the sensor's numbers, for a noise-free first-order sensor in a
- * field that is constant within a cell and inside the prior, with windows cleared on entry and a reading, be it without
- * a value, from every cell passed. Noise, dead time, a second-order response or uncleared windows
+ * Guaranteed to contain the truth for a noise-free first-order or slew-limited sensor in a field that is constant
+ * within a cell and inside the prior, with windows cleared on entry and a reading, be it without a value, from every
+ * cell passed. Noise, dead time, a second-order response or uncleared windows
  * can make a bound wrong; what the caller then sees is conflicts.
  *
  * Source: the report, section 5, Algorithm 1. Differs: both branches there read "gradient < ε"; the first is taken as

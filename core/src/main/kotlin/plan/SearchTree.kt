@@ -100,7 +100,7 @@ internal class SearchTree(capacity: Int) {
     }
 
     private fun before(a: Int, b: Int): Boolean =
-        priorities[a] > priorities[b] || priorities[a] == priorities[b] && a > b
+        priorities[a] > priorities[b] || (priorities[a] == priorities[b] && a > b)
 
     private fun grow() {
         val capacity = 2 * size

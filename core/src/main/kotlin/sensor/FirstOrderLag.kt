@@ -36,7 +36,9 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
             gain = -expm1(-dt / timeConstant)
         }
         // s ← s + α (ψ − s), in halves because the difference of two huge numbers overflows.
-        state = 2 * (state / 2 + gain * (input / 2 - state / 2))
+        val next = 2 * (state / 2 + gain * (input / 2 - state / 2))
+        // Rounding must not carry it beyond the truth: bounds rest on the side from which it comes.
+        state = if (input > state) minOf(next, input) else maxOf(next, input)
         return state
     }
 

@@ -235,6 +235,6 @@ class BoundedPlannerTest {
             choice = PathChoice.entries.random(random),
         )
 
-        override fun toString() = "${map.grid.columns} x ${map.grid.rows} from $start, sensor $sensor, seed $seed, $settings"
+        override fun toString() = "${map.grid.columns} x ${map.grid.rows} from $start, sensor $sensor, $seed, $settings"
     }
 }

@@ -55,12 +55,11 @@ class FirstOrderLagTest {
         forEvery(
             Arb.numericDouble(-1e6, 1e6),
             Arb.numericDouble(-1e6, 1e6),
-            Arb.numericDouble(1e-3, 1e5),
+            Arb.numericDouble(1e-3, 1e3),
+            cases = 20_000,
         ) { initial, input, dt ->
             val output = FirstOrderLag(10.0, initial).step(input, dt)
-            // One rounding of the difference, one of the sum, at magnitude 1e6.
-            val slack = 1e-9
-            assertTrue(output in minOf(initial, input) - slack..maxOf(initial, input) + slack, "$output")
+            assertTrue(output in minOf(initial, input)..maxOf(initial, input), "$output")
         }
     }
 
