@@ -89,7 +89,10 @@ class BenchmarkFilesTest {
     @Test
     fun extremesTellTheShareOfCellsAndOfError() {
         write(result)
-        assertEquals("field,filter,planner,move,share_of_cells,share_of_error", out.resolve("extremes.csv").readLines()[0])
+        assertEquals(
+            "field,filter,planner,move,share_of_cells,share_of_error",
+            out.resolve("extremes.csv").readLines()[0],
+        )
         assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.4375", "0.5"), rows("extremes.csv").first())
     }
 
@@ -140,7 +143,8 @@ class BenchmarkFilesTest {
 
     @Test
     fun jsonHasNullWhereThereIsNoNumber() {
-        val one = HandMadeResult(environments = 1).curve(WALK, BOUNDED, 0.5, Double.NaN, Double.POSITIVE_INFINITY).build()
+        val made = HandMadeResult(environments = 1)
+        val one = made.curve(WALK, BOUNDED, 0.5, Double.NaN, Double.POSITIVE_INFINITY).build()
         val results: JsonArray = json(one).getValue("results").jsonArray
         assertEquals(JsonNull, results[0].jsonObject["standard_error"])
         for (item in results.drop(1)) {

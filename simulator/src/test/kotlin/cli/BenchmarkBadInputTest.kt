@@ -27,7 +27,7 @@ class BenchmarkBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badFlags", "badSensors")
+    @MethodSource("badFlags", "badModelFlags", "badSensors")
     fun isRefusedInOneLineAndWritesNothing(case: Case) {
         assertEquals(case.message, refusal(case))
         val left = Files.list(directory).use { files -> files.map { it.fileName.toString() }.toList() }
@@ -35,7 +35,7 @@ class BenchmarkBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badFlags", "badSensors")
+    @MethodSource("badFlags", "badModelFlags", "badSensors")
     fun leavesEarlierResultsAsTheyWere(case: Case) {
         val out = directory.out().createDirectory()
         val earlier = out.resolve("results.csv").apply { writeText("earlier") }
@@ -103,7 +103,11 @@ class BenchmarkBadInputTest {
         private fun flag(message: String, vararg flags: String) = Case(message, flags.toList())
 
         private fun sensor(found: String, json: String) =
-            Case("--sensor: expected a sensor spec in DIR/spec.json, found $found", listOf("--sensor", "SPEC"), json.toByteArray())
+            Case(
+                "--sensor: expected a sensor spec in DIR/spec.json, found $found",
+                listOf("--sensor", "SPEC"),
+                json.toByteArray(),
+            )
 
         private const val PRESETS = "--preset: expected one of report, noisy, original"
         private const val FIELDS = "--field: expected some of uniform, gaussian, separated by commas"
@@ -111,8 +115,9 @@ class BenchmarkBadInputTest {
         private const val PLANNERS = "--planner: expected some of random-walk, lawnmower, bounded, separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
         private const val GRID = "--grid: expected COLSxROWS such as 10x10, both whole numbers above 0"
-        private const val CYCLE = "--grid: expected an even number of rows or columns and two of each at least for the " +
-            "lawnmower's hamiltonian-cycle, or another --pattern"
+        private const val CYCLE =
+            "--grid: expected an even number of rows or columns and two of each at least for the " +
+                "lawnmower's hamiltonian-cycle, or another --pattern"
 
         @JvmStatic
         fun badFlags() = listOf(
@@ -152,6 +157,10 @@ class BenchmarkBadInputTest {
             flag("--epsilon: expected a number of at least 0, found '-1'", "--epsilon", "-1"),
             flag("--epsilon: expected a number of at least 0, found 'NaN'", "--epsilon", "NaN"),
             flag("--epsilon: expected a number of at least 0, found 'auto'", "--epsilon", "auto"),
+        )
+
+        @JvmStatic
+        fun badModelFlags() = listOf(
             flag("--alpha: expected a number above 1e-300 and below 1, found '1'", "--alpha", "1"),
             flag("--alpha: expected a number above 1e-300 and below 1, found '0'", "--alpha", "0"),
             flag("--alpha: expected a number above 1e-300 and below 1, found '5e-324'", "--alpha", "5e-324"),
@@ -199,7 +208,10 @@ class BenchmarkBadInputTest {
                 "Expected start of the object '{', but had 'EOF' instead at path: \$",
                 "",
             ),
-            sensor("Field 'stages' is required for type with serial name 'stillwater.sensor.SensorSpec', but it was missing at path: \$", """{"name": "x"}"""),
+            sensor(
+                "Field 'stages' is required for type with serial name 'stillwater.sensor.SensorSpec', but it was missing at path: \$",
+                """{"name": "x"}""",
+            ),
             sensor(
                 "a stage must have a type, one of first-order-lag, noise, quantisation, slew-limit at path: \$.stages[0]",
                 """{"name": "x", "stages": [{"type": "magic"}]}""",

@@ -77,7 +77,9 @@ class BenchmarkExtremesTest {
     fun aBoatInASingleCellStaysAndLearnsItWithAveraging() {
         run("--grid 1x1 --pattern raster --moves 3")
         // The sensor has settled at the truth before the first reading: the mean of equal readings, up to rounding.
-        val errors = results(out).filter { it["filter"] == "averaging" }.map { it.getValue("mean_abs_error").toDouble() }
+        val errors = results(out).filter {
+            it["filter"] == "averaging"
+        }.map { it.getValue("mean_abs_error").toDouble() }
         assertEquals(2 * 3 * 3, errors.size)
         assertTrue(errors.all { it < 1e-15 }, "$errors")
     }
@@ -97,6 +99,9 @@ class BenchmarkExtremesTest {
         val stages = """[{"type": "noise", "standard_deviation": 1e308}]"""
         val spec = directory.resolve("huge.json").apply { writeText("""{"name": "huge", "stages": $stages}""") }
         val result = run("--sensor $spec --json")
-        assertFalse(Regex("NaN|Infinity").containsMatchIn(result.stdout.substringBefore("\"claims\"")), "no JSON numbers")
+        assertFalse(
+            Regex("NaN|Infinity").containsMatchIn(result.stdout.substringBefore("\"claims\"")),
+            "no JSON numbers",
+        )
     }
 }

@@ -17,7 +17,8 @@ class CurveTest {
                 }
             }
         }
-        return Curve("uniform", FilterKind.BOUNDED, PlannerKind.LAWNMOWER, List(means.size) { 10 * (it + 1) }, environments)
+        val moves = List(means.size) { 10 * (it + 1) }
+        return Curve("uniform", FilterKind.BOUNDED, PlannerKind.LAWNMOWER, moves, environments)
     }
 
     @Test
@@ -57,7 +58,8 @@ class CurveTest {
     @Test
     fun theShareInExtremesIsOfAllError() {
         // 0.1 in each of two environments, of 0.2 + 0.6.
-        assertEquals(0.25, curve(listOf(0.2, 0.6), inExtremes = 0.1).summaries.single().shareInExtremes, 1e-15, "rounding")
+        val share = curve(listOf(0.2, 0.6), inExtremes = 0.1).summaries.single().shareInExtremes
+        assertEquals(0.25, share, 1e-15, "rounding of three sums")
         assertTrue(curve(listOf(0.0, 0.0)).summaries.single().shareInExtremes.isNaN(), "no error to share")
     }
 

@@ -2,6 +2,7 @@ package stillwater.run
 
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.CrossingPolicy
+import stillwater.model.Conditions
 import stillwater.model.Interval
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Execution
@@ -27,7 +28,7 @@ class PresetTest {
     @Test
     fun theReportsSensorClosesATenthOfItsDistanceWithEachReading() {
         val sensor = report.sensor.build(0.0, Random(1))
-        val first = sensor.step(1.0, report.period, stillwater.model.Conditions.NONE)
+        val first = sensor.step(1.0, report.period, Conditions.NONE)
         // Rounding of one exponential and one logarithm.
         assertEquals(0.1, first, 1e-16 * 4)
         val stage = report.sensor.stages.single() as SensorStage.Lag
@@ -67,7 +68,10 @@ class PresetTest {
             neighbours = Neighbours.EDGE,
             priority = Priority.VALUE_PER_MOVE,
         )
-        assertEquals(PlannerSettings(WalkSteps.EDGE, LawnmowerPattern.HAMILTONIAN_CYCLE, planner), report.plannerSettings)
+        assertEquals(
+            PlannerSettings(WalkSteps.EDGE, LawnmowerPattern.HAMILTONIAN_CYCLE, planner),
+            report.plannerSettings,
+        )
     }
 
     @Test
@@ -106,7 +110,10 @@ class PresetTest {
             neighbours = Neighbours.EDGE_OR_CORNER,
             priority = Priority.VALUE,
         )
-        assertEquals(PlannerSettings(WalkSteps.DIAGONAL_CLAMPED, LawnmowerPattern.RASTER, planner), original.plannerSettings)
+        assertEquals(
+            PlannerSettings(WalkSteps.DIAGONAL_CLAMPED, LawnmowerPattern.RASTER, planner),
+            original.plannerSettings,
+        )
     }
 
     @Test

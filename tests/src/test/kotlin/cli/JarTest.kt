@@ -84,13 +84,15 @@ class JarTest {
 
     @Test
     fun mapWritesItsFilesFromALog() {
-        val rows = (0 until 60).joinToString("") { "$it,${it % 12},${it / 12},${8 + it * 0.01}\n" }
-        directory.resolve("survey.csv").writeText("time_s,x_m,y_m,do_mg_l\n$rows")
-        val run = stillwater("map", "survey.csv", "--out", "lake", "--cell", "2")
+        val rows = (0 until 60).joinToString("") { i ->
+            "$i,${45.5 + i % 12 * 1e-5},${-73.1 + i / 12 * 1e-5},${8 + i * 0.01}\n"
+        }
+        directory.resolve("survey.csv").writeText("time_s,lat_deg,lon_deg,do_mg_l\n$rows")
+        val run = stillwater("map", "survey.csv", "--out", "lake", "--cell", "2", "--filter", "averaging")
         assertFine(run)
         assertContains(run.out, "Map of do_mg_l")
         val written = directory.resolve("lake").list().orEmpty().toSet()
-        val due = setOf("cells.csv", "track.svg", "track.png", "report.html")
+        val due = setOf("cells.csv", "cells.geojson", "track.svg", "track.png", "report.html")
         assertTrue(written.containsAll(due), "$due are not all in $written")
     }
 
