@@ -2,7 +2,6 @@ package stillwater.run
 
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.plan.BoundedPlannerSettings
-import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Neighbours
 import stillwater.plan.PathChoice
