@@ -85,8 +85,8 @@ class MapFigures(private val map: SurveyMap) {
         val title = "$quantity, ${kind.label} filter"
         val caption = when {
             isBounded ->
-                "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is that of " +
-                    "the range taken for the water."
+                "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is " +
+                    "that of the range taken for the water."
             kind == FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             else -> "Exponential average of the readings in each visited cell."
         }
