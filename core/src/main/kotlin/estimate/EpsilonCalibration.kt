@@ -99,7 +99,9 @@ public class EpsilonCalibration(medianWindow: Int = 3, slopeWindow: Int = 5) {
          * @throws IllegalArgumentException if a number is out of its range.
          */
         public fun stepSlope(resolution: Double, step: Double, slopeWindow: Int = 5): Double {
-            require(resolution >= 0 && resolution.isFinite()) { "resolution ($resolution) must be at least 0 and finite" }
+            require(resolution >= 0 && resolution.isFinite()) {
+                "resolution ($resolution) must be at least 0 and finite"
+            }
             require(step > 0 && step.isFinite()) { "step ($step s) must be above 0 s and finite" }
             require(slopeWindow >= 2) { "slopeWindow ($slopeWindow medians) must be at least 2" }
             val n = slopeWindow.toDouble()

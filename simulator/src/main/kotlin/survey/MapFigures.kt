@@ -70,8 +70,9 @@ class MapFigures(private val map: SurveyMap) {
         )
         val thinned = every * map.track.stride
         val which = if (thinned == 1L) "Every reading" else "One in $thinned readings"
-        val caption = "$which where the boat was when it was taken; no line is drawn over gaps. The colours end at the " +
-            "1 % and the 99 % quantile of the readings; values beyond have the colour of the nearer end."
+        val caption =
+            "$which where the boat was when it was taken; no line is drawn over gaps. The colours end at the " +
+                "1 % and the 99 % quantile of the readings; values beyond have the colour of the nearer end."
         return MapFigure("track", drawing.draw(), caption)
     }
 
@@ -130,9 +131,10 @@ class MapFigures(private val map: SurveyMap) {
         } else {
             CellMap(title, below, cells(field, width), unit).draw()
         }
-        val caption = "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
-            "is that of the range taken for the water, ${map.prior.lower} to ${map.prior.upper}. Cells without a " +
-            "bound and those whose bounds crossed have no width. Of ${counts(field)}."
+        val caption =
+            "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
+                "is that of the range taken for the water, ${map.prior.lower} to ${map.prior.upper}. Cells without a " +
+                "bound and those whose bounds crossed have no width. Of ${counts(field)}."
         return MapFigure("bounds-width", figure, caption)
     }
 

@@ -60,7 +60,9 @@ internal class MapReport(
             "A slow sensor drags old water along, so that passes in opposite directions disagree. " +
                 "${mismatch.scores.size} of ${map.legs.legs.size} legs have a neighbour in the opposite direction on " +
                 "either side; they differ from the mean of the two by ${wording.estimate(mismatch.opposite)} " +
-                "(mean absolute difference in bins of ${SignificantDigits(2).format(mismatch.binWidth)} ${wording.length}, and its " +
+                "(mean absolute difference in bins of ${SignificantDigits(
+                    2,
+                ).format(mismatch.binWidth)} ${wording.length}, and its " +
                 "standard error). The water's own change from leg to leg is in this number.",
         )
         val same = mismatch.same

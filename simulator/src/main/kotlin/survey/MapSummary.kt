@@ -56,7 +56,9 @@ class MapSummary(private val map: SurveyMap) {
     private fun gaps() = if (map.gaps.count == 0L) {
         "none longer than ${digits(statistics.gapLimit)} s"
     } else {
-        "${map.gaps.count} longer than ${digits(statistics.gapLimit)} s, the longest ${duration(statistics.longestStep)}"
+        "${map.gaps.count} longer than ${digits(
+            statistics.gapLimit,
+        )} s, the longest ${duration(statistics.longestStep)}"
     }
 
     private fun values() = buildString {
@@ -80,8 +82,9 @@ class MapSummary(private val map: SurveyMap) {
         val rounded = if (value == 0.0) "0" else digits(value)
         val calibration = map.calibration ?: return "$rounded$perSecond"
         val stretch = calibration.stretch
-        val where = "${calibration.slopes} slopes within ${digits(stretch.from)} to ${digits(stretch.to)} s after the " +
-            "first reading"
+        val where =
+            "${calibration.slopes} slopes within ${digits(stretch.from)} to ${digits(stretch.to)} s after the " +
+                "first reading"
         return if (calibration.found < value) {
             "$rounded$perSecond, the slope of one step of the resolution; $where gave ${digits(calibration.found)} only"
         } else {

@@ -38,13 +38,13 @@ class MapHonestyTest {
 
     private fun report() = directory.out().resolve("report.html").readText()
 
-    /** One cell of 10 m in which readings fall from 9 to 8 and later rise from 8.2 to 9.2: [first] first. */
+    /** A cell of 10 m in which readings rise from [first] by 0.95, and on the way back fall from [second] by as much. */
     private fun thereAndBack(first: Double, second: Double) = buildString {
         appendLine("time_s,x_m,y_m,v")
         for (i in 0 until 20) appendLine("$i,${0.4 * i},1,${first + 0.05 * i}")
-        for (i in 20 until 40) appendLine("$i,${0.4 * (39 - i)},1,${second - 0.05 * (i - 20)}")
-        // Another cell, too short for any bound.
-        for (i in 40 until 43) appendLine("$i,${15 + 0.1 * i},1,8.5")
+        // Another cell, too short for any bound; leaving the first one keeps the turn from being a slope there.
+        for (i in 20 until 23) appendLine("$i,15,1,8.5")
+        for (i in 23 until 43) appendLine("$i,${0.4 * (42 - i)},1,${second - 0.05 * (i - 23)}")
     }
 
     private val flags = arrayOf("--cell", "10", "--epsilon", "0.01", "--range", "0:20")
@@ -54,10 +54,16 @@ class MapHonestyTest {
         // Rising to 8.95, falling to 8.05: the lower bound ends above the upper one.
         val summary = json(thereAndBack(8.0, 9.0), *flags)
         val cells = summary.child("filters").child("bounded").child("visited_cells")
-        assertEquals(listOf(0L, 1L, 0L, 1L), listOf("both", "crossed", "one-sided", "none").map {
-            cells.getValue(it).jsonPrimitive.long
-        })
-        assertContains(summary.warnings().joinToString("\n"), "the bounds crossed (lower above upper) in 1 of 2 visited")
+        assertEquals(
+            listOf(0L, 1L, 0L, 1L),
+            listOf("both", "crossed", "one-sided", "none").map {
+                cells.getValue(it).jsonPrimitive.long
+            },
+        )
+        assertContains(
+            summary.warnings().joinToString("\n"),
+            "the bounds crossed (lower above upper) in 1 of 2 visited",
+        )
         val statuses = directory.out().resolve("cells.csv").readLines().map { it.split(',').last() }
         assertEquals(listOf("status", "measured", "measured", "crossed", "none"), statuses)
         assertContains(directory.out().resolve("bounds-width.svg").readText(), "crossed: 1, without width")
@@ -116,14 +122,20 @@ class MapHonestyTest {
 
     @Test
     fun namesALongGapAndDrawsNoLineOverIt() {
-        val text = "time_s,x_m,y_m,v\n" + (0 until 20).joinToString("") {
-            "${if (it < 10) it else it + 2940},${if (it < 10) it else it + 90},0,$it\n"
+        fun text(gap: Int) = "time_s,x_m,y_m,v\n" + (0 until 20).joinToString("") {
+            "${if (it < 10) it else it + gap},${if (it < 10) it else it + 90},0,$it\n"
         }
-        val result = runMap(log(text), "--out", directory.out().toString())
+
+        // The axes have lines of that colour, too; the two tracks have the same axes.
+        fun lines() = Regex("stroke=\"rgb\\(138,144,150\\)\"")
+            .findAll(directory.out().resolve("track.svg").readText()).count()
+        val result = runMap(log(text(gap = 2940)), "--out", directory.out().toString())
         assertContains(result.stderr, "no reading for 2941 s (49.02 min) from 9 s after the first on")
         assertContains(result.stderr, "the next lies 91 m away")
-        val track = directory.out().resolve("track.svg").readText()
-        assertEquals(2, Regex("stroke=\"rgb\\(138,144,150\\)\"").findAll(track).count(), "two parts")
+        val inTwoParts = lines()
+        val steady = runMap(log(text(gap = 0)), "--out", directory.out().toString())
+        assertFalse("no reading for" in steady.stderr)
+        assertEquals(lines() + 1, inTwoParts)
     }
 
     @Test
