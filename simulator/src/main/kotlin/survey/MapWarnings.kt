@@ -92,11 +92,16 @@ internal class MapWarnings(private val map: SurveyMap) {
                     "smaller --cell, or --crossing soft",
             )
         }
-        if (counts.both + counts.crossed < FEW_BOUNDED * counts.visited) {
+        val bothSides = counts.both + counts.crossed
+        if (bothSides < FEW_BOUNDED * counts.visited) {
+            val reason = if (counts.none > counts.oneSided) {
+                "few slopes in a cell exceed epsilon"
+            } else {
+                "few were crossed both ways"
+            }
             add(
-                "the bounded filter has both bounds in ${counts.both + counts.crossed} of ${counts.visited} visited " +
-                    "cells only, because few were crossed both ways; elsewhere its value leans on the range taken " +
-                    "for the water",
+                "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells only, " +
+                    "because $reason; elsewhere it has one, and its value leans on the range taken for the water, or none",
             )
         }
     }
