@@ -9,6 +9,9 @@ import kotlin.math.abs
  * noise, so ε is a high quantile of |slope − median slope|. Source: the report, section 5: "epsilon can be
  * determined by analysing a small data set obtained from a sample run". Differs: the report names no statistic.
  *
+ * A stretch shorter than the flicker of a coarse sensor between two of its values gives 0, and every such flicker would
+ * count as a slope: hold the result against [stepSlope].
+ *
  * A sensor that was not at rest gives a larger ε: fewer bounds, none of them wrong for that. Keeps one number for
  * each reading, at most [MAX_SLOPES]. Confined to one thread.
  *
@@ -82,6 +85,31 @@ public class EpsilonCalibration(medianWindow: Int = 3, slopeWindow: Int = 5) {
         /** The largest number of slopes kept. */
         public const val MAX_SLOPES: Int = 1 shl 17
 
+        /**
+         * The slope that a single step of the sensor's [resolution] makes, at the most, in the slope window: an ε below
+         * it takes every flicker between two neighbouring values for a slope. Sensor units/s.
+         *
+         * One step of height q between the k-th and the next of n medians, Δ apart, has the least-squares slope
+         * 6 k (n − k) q / (n (n² − 1) Δ), which is largest at k = n / 2: 0.3 q / Δ for n = 5. [MARGIN] is added, since a
+         * step of the readings is seldom exactly [step] long and a slope counts when it is above ε.
+         *
+         * @param resolution step q in which values are rounded, sensor units, at least 0.
+         * @param step usual time Δ between readings, s, above 0.
+         * @param slopeWindow medians n in the regression window, as in [BoundedFilterSettings].
+         * @throws IllegalArgumentException if a number is out of its range.
+         */
+        public fun stepSlope(resolution: Double, step: Double, slopeWindow: Int = 5): Double {
+            require(resolution >= 0 && resolution.isFinite()) {
+                "resolution ($resolution) must be at least 0 and finite"
+            }
+            require(step > 0 && step.isFinite()) { "step ($step s) must be above 0 s and finite" }
+            require(slopeWindow >= 2) { "slopeWindow ($slopeWindow medians) must be at least 2" }
+            val n = slopeWindow.toDouble()
+            val k = (slopeWindow / 2).toDouble()
+            return (1 + MARGIN) * 6 * k * (n - k) * resolution / (n * (n * n - 1) * step)
+        }
+
+        private const val MARGIN = 0.05
         private const val FIRST_SIZE = 256
     }
 }

@@ -55,6 +55,25 @@ class EpsilonCalibrationTest {
     }
 
     @Test
+    fun takesNoSingleStepOfTheResolutionForASlope() {
+        for (size in listOf(2, 5, 8)) {
+            val least = EpsilonCalibration.stepSlope(resolution = 0.01, step = 2.0, slopeWindow = size)
+            val window = SlopeWindow(size)
+            var steepest = 0.0
+            // A flat line, one step, a flat line: the step passes through every place of the window.
+            for (i in 0 until 4 * size) {
+                window.add(2.0 * i, if (i < 2 * size) 7.00 else 7.01)
+                if (window.full) steepest = maxOf(steepest, window.slope())
+            }
+            assertTrue(least > steepest, "$size medians: $least, steepest $steepest")
+            // No more than the margin of 5 % above it.
+            assertEquals(1.05 * steepest, least, 1e-9)
+        }
+        assertEquals(1.05 * 0.3 * 0.1, EpsilonCalibration.stepSlope(resolution = 0.1, step = 1.0), 1e-12)
+        assertFailsWith<IllegalArgumentException> { EpsilonCalibration.stepSlope(0.1, 0.0) }
+    }
+
+    @Test
     fun startsAgainAfterAGap() {
         val calibration = EpsilonCalibration()
         for (i in 0 until 10) calibration.add(i.toDouble(), 1.0)

@@ -7,7 +7,6 @@ fun commandLineText(command: String, argument: String?, flags: List<Pair<String,
         when (value) {
             null, false -> Unit
             true -> parts += flag
-            is Map<*, *> -> value.forEach { (key, name) -> parts += "$flag ${typed("$key=$name")}" }
             else -> parts += "$flag ${typed(value.toString())}"
         }
     }

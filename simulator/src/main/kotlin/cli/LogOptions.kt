@@ -1,10 +1,8 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
-import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
-import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.io.LogChoice
 
@@ -20,7 +18,7 @@ class LogOptions : OptionGroup(
     private val x by option(
         "--x",
         metavar = "COLUMN",
-        help = "column with metres east; without --y, metres along a transect or profile",
+        help = "column with metres east; without --y, the place along a transect or profile in any unit",
     )
     private val y by option("--y", metavar = "COLUMN", help = "column with metres north")
     private val value by option(
@@ -29,15 +27,6 @@ class LogOptions : OptionGroup(
         help = "column with the readings; in a Platypus log the sensor, TYPE[#CHANNEL][.FIELD], such as ATLAS_DO " +
             "or ES2.temp. Not needed where there is only one",
     )
-    private val conditions by option(
-        "--condition",
-        metavar = "NAME=COLUMN",
-        help = "column with a further quantity; may be given several times",
-    ).convert { text ->
-        val (conditionName, column) = text.split('=', limit = 2).takeIf { it.size == 2 && it.all(String::isNotBlank) }
-            ?: throw BadFlag(name, "NAME=COLUMN", "'$text'")
-        conditionName to column
-    }.multiple()
     private val skipBadRows by option(
         "--skip-bad-rows",
         help = "leave out rows that cannot be used and count them by reason; without it the first is an error",
@@ -56,7 +45,6 @@ class LogOptions : OptionGroup(
         "--x" to x,
         "--y" to y,
         "--value" to value,
-        "--condition" to conditions.toMap(),
         "--skip-bad-rows" to skipBadRows,
         "--max-pose-age" to maxPoseAge.takeIf { it != LogChoice().maxPoseAge },
     )
@@ -69,7 +57,6 @@ class LogOptions : OptionGroup(
         x = x,
         y = y,
         value = value,
-        conditions = conditions.toMap(),
         skipBadRows = skipBadRows,
         maxPoseAge = maxPoseAge,
     )

@@ -77,6 +77,8 @@ class MapCommand : CliktCommand("map") {
         metavar = "FROM:TO",
         help = "stretch for --epsilon auto, seconds after the first reading; without it the quietest",
     ).numberPair(':', "FROM:TO, two times in seconds, the first below the second") { from, to -> from < to }
+    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for legends and tables")
+        .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
     private val quiet by option("--quiet", help = "no progress bar and no table").flag()
     private val json by option("--json", help = "print a summary as JSON instead of a table").flag()
 
@@ -87,7 +89,7 @@ class MapCommand : CliktCommand("map") {
         "Writes cells.csv (every cell of every filter), cells.geojson (visited cells), figures as SVG and PNG, and " +
             "report.html into DIR; nothing at all when something is wrong with the log.",
         listOf(
-            "stillwater map survey.csv --value odo_percent_sat --out map",
+            "stillwater map survey.csv --value odo_percent_sat --unit %sat --out map",
             "stillwater map platypus_20160519.txt --value ATLAS_DO --cell 2",
             "stillwater map profiles.csv --x pres_dbar --value doxy_umol",
             "stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120 --json",
@@ -118,9 +120,9 @@ class MapCommand : CliktCommand("map") {
             val drawing = MapFiles(map, summary, commandLine()).write(directory)
             val written = directory.commit()
             when {
-                json -> echo(MapJson.text(map, written))
+                json -> echo(MapJson.text(map, summary.warnings + drawing, written))
                 !quiet -> {
-                    echo("Map of ${opened.quantity}")
+                    echo("Map of ${summary.quantity}")
                     echo(summary.text())
                     for (warning in summary.warnings + drawing) echo("warning: $warning", err = true)
                     echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}")
@@ -154,6 +156,7 @@ class MapCommand : CliktCommand("map") {
         epsilon = epsilon.takeIf { !it.isNaN() },
         calibrate = calibrate?.let { (from, to) -> Stretch(from, to) },
         boundedFilter = filterOptions.applied(MapSettings().boundedFilter),
+        unit = unit,
     )
 
     private fun commandLine(): String {
@@ -166,6 +169,7 @@ class MapCommand : CliktCommand("map") {
             "--range" to range?.let { (low, high) -> "$low:$high" },
             "--epsilon" to epsilon.takeIf { !it.isNaN() },
             "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
+            "--unit" to unit,
         )
         return commandLineText("stillwater map", log, logOptions.flags() + own + filterOptions.flags())
     }

@@ -57,7 +57,7 @@ public class MapCell(internal val east: DoubleArray, internal val north: DoubleA
  * @param cells the cells in any order; those with a NaN value are drawn grey and explained in the subtitle.
  * @param unit what the colours mean, such as `Oxygen (mg/L)`.
  * @param colours the values at the ends of the colour scale; by default those of the cells. Values beyond take the
- *   colour of the nearer end.
+ *   colour of the nearer end, and the subtitle says how many there are.
  */
 public class CellMap(
     private val title: String,
@@ -71,6 +71,7 @@ public class CellMap(
         val frame = MapFrame.around(cells.map { it.east }, cells.map { it.north }, MARGIN)
         val (known, unknown) = cells.partition { !it.value.isNaN() }
         val note = if (unknown.isEmpty()) "" else "grey: no value (${unknown.size} of ${cells.size} cells)"
+        var beyond = ""
         var plot = letsPlot() + frame.axes()
         // The library draws no scale for nothing but missing values, so the cells without one are a layer of their own.
         if (unknown.isNotEmpty()) {
@@ -84,6 +85,7 @@ public class CellMap(
         }
         if (known.isNotEmpty()) {
             val scale = ColourScale.of(known.map { it.value }, colours)
+            beyond = scale.note(known.map { it.value }, "cells")
             val values = known.flatMap { cell -> List(cell.east.size) { scale.place(cell.value) } }
             plot += geomPolygon(outlines(known) + ("value" to values), size = OUTLINE, sampling = samplingNone) {
                 outline()
@@ -92,7 +94,7 @@ public class CellMap(
             }
             plot += scale.fill(unit, frame.isFlat) + scale.colour(unit, flat = null)
         }
-        val below = listOf(subtitle, note).filter { it.isNotEmpty() }.joinToString("; ")
+        val below = listOf(subtitle, note, beyond).filter { it.isNotEmpty() }.joinToString("; ")
         return frame.sheet(title, below).figure(plot, frame.legend())
     }
 

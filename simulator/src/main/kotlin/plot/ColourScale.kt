@@ -11,6 +11,12 @@ internal class ColourScale private constructor(private val from: Double, private
     /** [value] on the scale: moved to the nearer end if beyond, null (drawn grey) if there is none. */
     fun place(value: Double): Double? = if (value.isNaN()) null else value.coerceIn(from, to)
 
+    /** A sentence on how many of the [things] with [values] lie beyond the ends; empty without any. */
+    fun note(values: List<Double>, things: String): String {
+        val beyond = values.count { it < from || it > to }
+        return if (beyond == 0) "" else "$beyond of ${values.size} $things lie beyond the colours' ends"
+    }
+
     /** The scale for areas; its bar lies flat if the legend stands below the figure. */
     fun fill(unit: String, flat: Boolean): Feature {
         val ticks = ticks()

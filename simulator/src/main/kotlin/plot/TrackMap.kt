@@ -18,7 +18,8 @@ import org.jetbrains.letsPlot.sampling.samplingNone
  * @param north y of each point, m, length n. Retained, not modified.
  * @param value reading at each point, length n, in the map's unit. Retained, not modified.
  * @param unit what the colours mean, such as `Oxygen (mg/L)`.
- * @param colours the values at the ends of the colour scale; by default those of the track.
+ * @param colours the values at the ends of the colour scale; by default those of the track. Values beyond take the
+ *   colour of the nearer end, and the subtitle says how many there are.
  */
 public class TrackMap(
     private val title: String,
@@ -56,7 +57,9 @@ public class TrackMap(
             geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
             points(placed, scale.colour(unit, frame.isFlat)) + frame.axes() +
             start(x, y, frame.size) + end(x, y, frame.size)
-        return frame.sheet(title, subtitle).figure(plot, frame.legend())
+        val beyond = scale.note(placed.map { value[it] }, "points")
+        val below = listOf(subtitle, beyond).filter { it.isNotEmpty() }.joinToString("; ")
+        return frame.sheet(title, below).figure(plot, frame.legend())
     }
 
     /** Coloured by value where there is any; the library draws no scale for nothing but missing values. */

@@ -30,9 +30,14 @@ import kotlinx.html.unsafe
  * What a report's footer says, so that the run can be repeated.
  *
  * @property version this program's version. @property command the command line as typed.
- * @property seed the run's seed, or null where nothing is random.
+ * @property seed the run's seed, or null where nothing is random. @property seedName what it is the seed of.
  */
-public class Provenance(public val version: String, public val command: String, public val seed: Long? = null)
+public class Provenance(
+    public val version: String,
+    public val command: String,
+    public val seed: Long? = null,
+    public val seedName: String = "Seed",
+)
 
 /**
  * One self-contained page about a run: no script, no outside file, light and dark, readable on a phone and on paper.
@@ -125,7 +130,7 @@ public class HtmlReport(private val title: String, private val subtitle: String,
         }
         provenance.seed?.let { seed ->
             p {
-                +"Seed: "
+                +"${provenance.seedName}: "
                 span("number") { +seed.toString() }
             }
         }

@@ -77,4 +77,13 @@ class LegMismatch(
     val same: Estimate?,
     val excess: Estimate?,
     val shift: LagShift,
-)
+) {
+    /** Number of legs in [excess]. */
+    val pairedLegs: Int get() = scores.count { it.same.isFinite() }
+
+    /** What [excess] says. */
+    val verdict: LegVerdict get() = LegVerdict.of(excess, pairedLegs)
+
+    /** Whether [shift] is clear although the paired comparison sees no lag: it may fit the water's own change. */
+    val hasReserve: Boolean get() = shift.isClear && verdict != LegVerdict.LAG_SEEN
+}

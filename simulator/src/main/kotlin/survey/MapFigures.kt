@@ -23,16 +23,22 @@ class MapFigure(val name: String, val figure: Figure, val caption: String)
 /**
  * Draws a [SurveyMap]: the track, each filter's estimate, the width of the bounds, and the legs' comparison.
  *
- * Maps of one quantity share one colour scale, from the 1 % to the 99 % quantile of the readings, so that they can be
- * held side by side and a few outliers do not wash them out.
+ * The filters' maps share one colour scale that holds every value shown, so that they can be held side by side. The
+ * track's goes from the 1 % to the 99 % quantile of the readings, so that a few outliers do not wash it out, and says
+ * how many points lie beyond.
  *
  * @param map what to draw.
  */
 class MapFigures(private val map: SurveyMap) {
+    private val wording = Wording(map)
     private val quantity = map.log.quantity
+    private val legend = wording.quantity
     private val where = map.log.file.fileName.toString()
-    private val colours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
+    private val trackColours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
         .takeIf { it.start < it.endInclusive }
+    private val cellColours = map.maps.flatMap { (kind, field) ->
+        field.visitedCells().map { field.measuredValue(kind, it) }.filter { it.isFinite() }
+    }.let { shown -> shown.minOrNull()?.rangeTo(shown.max())?.takeIf { it.start < it.endInclusive } }
 
     /** What draws each figure, in the order in which a reader wants them. */
     fun draw(): List<() -> MapFigure> = buildList {
@@ -46,17 +52,28 @@ class MapFigures(private val map: SurveyMap) {
     private fun track(): MapFigure {
         if (map.log.oneDimensional) return transect()
         val every = ceil(map.track.size / MOST_POINTS.toDouble()).toInt().coerceAtLeast(1)
-        val points = (0 until map.track.size step every).toList()
+        val points = ArrayList<Int>()
+        for (point in 0 until map.track.size step every) {
+            val before = points.lastOrNull()
+            // A point without position interrupts the line.
+            if (before != null && map.gaps.between(map.track.times[before], map.track.times[point])) points += NOWHERE
+            points += point
+        }
         val drawing = TrackMap(
             title = "$quantity along the track",
             subtitle = where,
-            east = points.doubles { map.track.xs[it] },
-            north = points.doubles { map.track.ys[it] },
-            value = points.doubles { map.track.values[it] },
-            unit = quantity,
-            colours = colours,
+            east = points.doubles { map.track.xs.getOrElse(it) { Double.NaN } },
+            north = points.doubles { map.track.ys.getOrElse(it) { Double.NaN } },
+            value = points.doubles { map.track.values.getOrElse(it) { Double.NaN } },
+            unit = legend,
+            colours = trackColours,
         )
-        return MapFigure("track", drawing.draw(), "Every reading where the boat was when it was taken.")
+        val thinned = every * map.track.stride
+        val which = if (thinned == 1L) "Every reading" else "One in $thinned readings"
+        val caption =
+            "$which where the boat was when it was taken; no line is drawn over gaps. The colours end at the " +
+                "1 % and the 99 % quantile of the readings; values beyond have the colour of the nearer end."
+        return MapFigure("track", drawing.draw(), caption)
     }
 
     /** Readings over the only coordinate there is, by the way the vehicle went: the gap between the two is the lag. */
@@ -75,7 +92,7 @@ class MapFigures(private val map: SurveyMap) {
             subtitle = where,
             series = listOf(series("${map.log.xName} rising", up), series("${map.log.xName} falling", down)),
             xLabel = map.log.xName,
-            yLabel = quantity,
+            yLabel = legend,
         )
         return MapFigure("track", drawing.draw(), "Every reading over ${map.log.xName}, by the way of travel.")
     }
@@ -86,33 +103,53 @@ class MapFigures(private val map: SurveyMap) {
         val caption = when {
             isBounded ->
                 "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is " +
-                    "that of the range taken for the water."
+                    "that of the range taken for the water. Of ${counts(field)}."
             kind == FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             else -> "Exponential average of the readings in each visited cell."
         }
-        val value: (Int) -> Double = { if (isBounded && !field.hasBound(it)) Double.NaN else field.value(it) }
+        val value: (Int) -> Double = { field.measuredValue(kind, it) }
         val figure = if (map.log.oneDimensional) {
-            profile(title, field, value, withBounds = isBounded)
+            profile(title, where, field, value, legend, withBounds = isBounded)
         } else {
-            CellMap(title, where, cells(field, value), quantity, colours).draw()
+            CellMap(title, where, cells(field, value), legend, cellColours).draw()
         }
         return MapFigure("estimate-${kind.label}", figure, caption)
     }
 
     private fun width(field: FieldMap): MapFigure {
         val title = "$quantity, width of the bounds"
-        val width: (Int) -> Double = { field.upper(it) - field.lower(it) }
-        val figure = if (map.log.oneDimensional) {
-            profile(title, field, width, withBounds = false)
-        } else {
-            CellMap(title, where, cells(field, width), quantity).draw()
+        val width: (Int) -> Double = {
+            val status = field.status(FilterKind.BOUNDED, it)
+            val isBounded = status == CellStatus.BOTH || status == CellStatus.ONE_SIDED
+            if (isBounded) field.upper(it) - field.lower(it) else Double.NaN
         }
-        val caption = "Upper minus lower bound in each visited cell; the range taken for the water is " +
-            "${map.prior.lower} to ${map.prior.upper}. Below 0 where bounds have crossed."
+        val crossed = BoundCounts.of(field).crossed
+        val below = if (crossed == 0) where else "$where; crossed: $crossed, without width"
+        val unit = "width of $legend"
+        val figure = if (map.log.oneDimensional) {
+            profile(title, below, field, width, unit, withBounds = false)
+        } else {
+            CellMap(title, below, cells(field, width), unit).draw()
+        }
+        val caption =
+            "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
+                "is that of the range taken for the water, ${map.prior.lower} to ${map.prior.upper}. Cells without a " +
+                "bound and those whose bounds crossed have no width. Of ${counts(field)}."
         return MapFigure("bounds-width", figure, caption)
     }
 
-    private fun profile(title: String, field: FieldMap, value: (Int) -> Double, withBounds: Boolean): Figure {
+    private fun counts(field: FieldMap) = BoundCounts.of(field).run {
+        "$visited visited cells $both have both bounds, in $crossed they crossed, $oneSided have one and $none none"
+    }
+
+    private fun profile(
+        title: String,
+        subtitle: String,
+        field: FieldMap,
+        value: (Int) -> Double,
+        label: String,
+        withBounds: Boolean,
+    ): Figure {
         val cells = field.visitedCells()
         val series = Series(
             "",
@@ -123,7 +160,7 @@ class MapFigures(private val map: SurveyMap) {
             cells.takeIf { withBounds }?.doubles { maxOf(field.lower(it), field.upper(it)) },
             Mark.LINE_AND_POINTS,
         )
-        return LinePlot(title, where, listOf(series), map.log.xName, quantity).draw()
+        return LinePlot(title, subtitle, listOf(series), map.log.xName, label).draw()
     }
 
     /** The visited cells, merged into blocks where there are too many to draw. */
@@ -158,7 +195,7 @@ class MapFigures(private val map: SurveyMap) {
             subtitle = where,
             series = listOf(Series("", mismatch.shift.shifts, mismatch.shift.curve)),
             xLabel = "Readings taken so much earlier (s)",
-            yLabel = "Mean difference ($quantity)",
+            yLabel = "Mean difference of $legend",
         )
         val caption = "Mean absolute difference between a leg and its two opposite neighbours, if every reading is " +
             "put where the boat was so many seconds before. A minimum to the right of 0 is a lag."
@@ -175,7 +212,7 @@ class MapFigures(private val map: SurveyMap) {
             subtitle = where,
             edges = edges,
             counts = speeds.counts(edges),
-            valueLabel = "Speed (m/s)",
+            valueLabel = "Speed (${wording.speed})",
             countLabel = "Stretches of 5 s, or one step",
         )
         return MapFigure("speed", drawing.draw(), "Speeds above the axis are in the last bar.")
@@ -185,6 +222,7 @@ class MapFigures(private val map: SurveyMap) {
 
     private companion object {
         const val RARE = 0.01
+        const val NOWHERE = -1
         const val MOST_POINTS = 4000
         const val MOST_CELLS = 20_000
         const val NEARLY_ALL = 0.999

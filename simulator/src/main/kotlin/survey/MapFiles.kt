@@ -15,8 +15,9 @@ import kotlin.math.abs
 /**
  * Writes what a [SurveyMap] gives: cells.csv, cells.geojson, the figures and report.html.
  *
- * cells.csv has every cell of every filter, visited or not; one that was never visited has the value and bounds of the
- * range taken for the water, and 0 visits. cells.geojson has the visited cells only, and is left out for logs without
+ * cells.csv has every cell of every filter, visited or not, with its status; where nothing was measured the value is
+ * empty, and so are the bounds, as they are for filters without bounds. The end of a one-sided cell that no evidence set is
+ * that of the range taken for the water. cells.geojson has the visited cells only, and is left out for logs without
  * latitudes, because RFC 7946 knows no other coordinates.
  *
  * @param map what to write. @param summary the same in words. @param command the command as typed, for the report.
@@ -57,6 +58,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
         for (cell in 0 until grid.size) {
             val center = grid.center(cell)
             val place = map.log.frame?.toLatLon(center)
+            val status = field.status(kind, cell)
             table.row(
                 kind.label,
                 cell % grid.columns,
@@ -65,12 +67,13 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
                 center.y,
                 place?.latitudeDeg,
                 place?.longitudeDeg,
-                field.value(cell),
-                field.lower(cell),
-                field.upper(cell),
+                field.measuredValue(kind, cell),
+                bound(status) { field.lower(cell) },
+                bound(status) { field.upper(cell) },
                 field.visits(cell),
                 field.readings(cell),
                 field.conflicts(cell),
+                status.label,
             )
         }
     }
@@ -81,23 +84,29 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
 
     private fun polygon(frame: LocalFrame, kind: FilterKind, field: FieldMap, cell: Int): GeoPolygon {
         val center = frame.toLatLon(field.grid.center(cell))
+        val status = field.status(kind, cell)
         val corners = field.grid.corners(cell).map { corner -> corner(frame.toLatLon(corner), center) }
         return GeoPolygon(
             corners,
             mapOf(
                 "filter" to kind.label,
                 "quantity" to map.log.quantity,
+                "unit" to map.unit,
                 "column" to cell % field.grid.columns,
                 "row" to cell / field.grid.columns,
-                "value" to field.value(cell),
-                "lower" to field.lower(cell),
-                "upper" to field.upper(cell),
+                "value" to field.measuredValue(kind, cell),
+                "lower" to bound(status) { field.lower(cell) },
+                "upper" to bound(status) { field.upper(cell) },
                 "visits" to field.visits(cell),
                 "readings" to field.readings(cell),
                 "conflicts" to field.conflicts(cell),
+                "status" to status.label,
             ),
         )
     }
+
+    private inline fun bound(status: CellStatus, of: () -> Double): Double? =
+        if (status.isMeasured && status != CellStatus.MEASURED) of() else null
 
     /** A cell on the date line is cut there, or its outline would go around the globe. */
     private fun corner(place: LatLon, center: LatLon): GeoCorner {
@@ -123,6 +132,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             "visits",
             "readings",
             "conflicts",
+            "status",
         )
     }
 }

@@ -16,13 +16,17 @@ import java.nio.file.Path
 object MapJson {
     private val format = Json { prettyPrint = true }
 
-    /** The JSON text about [map] and the [files] written. */
-    fun text(map: SurveyMap, files: List<Path>): String = format.encodeToString(JsonObject.serializer(), of(map, files))
+    /** The JSON text about [map], what is to be [warned][warnings] of, and the [files] written. */
+    fun text(map: SurveyMap, warnings: List<String>, files: List<Path>): String =
+        format.encodeToString(JsonObject.serializer(), of(map, warnings, files))
 
-    private fun of(map: SurveyMap, files: List<Path>) = buildJsonObject {
+    private fun of(map: SurveyMap, warnings: List<String>, files: List<Path>) = buildJsonObject {
         put("log", map.log.file.toString())
         put("format", map.log.format)
         put("quantity", map.log.quantity)
+        put("unit", map.unit)
+        put("position_unit", Wording(map).length)
+        put("warnings", buildJsonArray { warnings.forEach { add(JsonPrimitive(it)) } })
         put("readings", map.pass.readings)
         putJsonObject("skipped") { map.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
         statistics(map)
@@ -44,13 +48,17 @@ object MapJson {
         putJsonObject("prior") {
             put("lower", map.prior.lower)
             put("upper", map.prior.upper)
+            put("given", map.rangeGiven)
+            put("readings_outside", map.outsideRange)
         }
         map.bounded?.let { put("epsilon_per_s", it.epsilon) }
+        if (map.bounded != null) put("resolution_step_slope_per_s", map.stepSlope)
         map.calibration?.let { calibration ->
             putJsonObject("calibration") {
                 put("from_s", calibration.stretch.from)
                 put("to_s", calibration.stretch.to)
                 put("slopes", calibration.slopes)
+                put("found_per_s", number(calibration.found))
             }
         }
         putJsonObject("filters") {
@@ -59,6 +67,7 @@ object MapJson {
                     put("outside", field.outside)
                     put("rejected", field.rejected)
                     put("conflicts", (0 until field.grid.size).sumOf { field.conflicts(it).toLong() })
+                    if (kind.givesBounds) cells(BoundCounts.of(field))
                 }
             }
         }
@@ -72,11 +81,25 @@ object MapJson {
         put("files", buildJsonArray { files.forEach { add(JsonPrimitive(it.toString())) } })
     }
 
+    private fun JsonObjectBuilder.cells(counts: BoundCounts) = putJsonObject("visited_cells") {
+        put(CellStatus.BOTH.label, counts.both)
+        put(CellStatus.CROSSED.label, counts.crossed)
+        put(CellStatus.ONE_SIDED.label, counts.oneSided)
+        put(CellStatus.NONE.label, counts.none)
+    }
+
     private fun JsonObjectBuilder.statistics(map: SurveyMap) = putJsonObject("statistics") {
         val statistics = map.statistics
         put("duration_s", statistics.duration)
         quantiles("step_s", statistics.steps)
-        put("gaps", map.gaps)
+        put("gaps", map.gaps.count)
+        map.gaps.longest?.let { gap ->
+            putJsonObject("longest_gap") {
+                put("start_s", gap.start)
+                put("seconds", gap.seconds)
+                put("jump_m", gap.jump)
+            }
+        }
         put("gap_limit_s", number(statistics.gapLimit))
         put("longest_step_s", statistics.longestStep)
         put("repeated_fixes_share", statistics.repeatedFixes)
@@ -106,12 +129,15 @@ object MapJson {
         estimate("opposite_mismatch", mismatch.opposite)
         estimate("same_direction_mismatch", mismatch.same)
         estimate("opposite_minus_same", mismatch.excess)
+        put("compared_both_ways", mismatch.pairedLegs)
+        put("verdict", mismatch.verdict.label)
         putJsonObject("best_shift") {
             put("earlier_by_s", mismatch.shift.seconds)
             put("low_s", mismatch.shift.low)
             put("high_s", mismatch.shift.high)
             put("mismatch", mismatch.shift.mismatch)
             put("clear", mismatch.shift.isClear)
+            put("with_reserve", mismatch.hasReserve)
         }
     }
 

@@ -17,10 +17,17 @@ internal class MapReport(
     private val figures: List<MapFigure>,
     command: String,
 ) {
+    private val wording = Wording(map)
     private val page = HtmlReport(
-        title = "Map of ${map.log.quantity}",
+        title = "Map of ${wording.quantity}",
         subtitle = "${map.log.file.fileName}, ${map.log.format}",
-        provenance = Provenance(Program.VERSION, command, LegComparison.DEFAULT_SEED),
+        provenance = Provenance(
+            Program.VERSION,
+            command,
+            // Nothing else is random.
+            seed = LegComparison.DEFAULT_SEED.takeIf { map.mismatch != null },
+            seedName = "Bootstrap seed",
+        ),
     )
 
     /** The page's text. */
@@ -36,7 +43,7 @@ internal class MapReport(
             keyValues(summary.facts)
             figures.firstOrNull { it.name == "speed" }?.let { figure(it.figure, it.caption) }
         }
-        page.section("How it was made") { HOW.forEach(::paragraph) }
+        page.section("How it was made") { how().forEach(::paragraph) }
         return page.render()
     }
 
@@ -52,8 +59,10 @@ internal class MapReport(
         paragraph(
             "A slow sensor drags old water along, so that passes in opposite directions disagree. " +
                 "${mismatch.scores.size} of ${map.legs.legs.size} legs have a neighbour in the opposite direction on " +
-                "either side; they differ from the mean of the two by ${summary.estimate(mismatch.opposite)} " +
-                "(mean absolute difference in bins of ${SignificantDigits(2).format(mismatch.binWidth)} m, and its " +
+                "either side; they differ from the mean of the two by ${wording.estimate(mismatch.opposite)} " +
+                "(mean absolute difference in bins of ${SignificantDigits(
+                    2,
+                ).format(mismatch.binWidth)} ${wording.length}, and its " +
                 "standard error). The water's own change from leg to leg is in this number.",
         )
         val same = mismatch.same
@@ -62,14 +71,14 @@ internal class MapReport(
         if (same != null && paired != null && excess != null) {
             paragraph(
                 "To hold against: legs in the same direction, which share the lag but lie twice as far apart, differ " +
-                    "by ${summary.estimate(same)}; the same legs differ from their opposite neighbours by " +
-                    "${summary.estimate(paired)}. Opposite minus same, leg by leg: ${summary.estimate(excess)}. " +
-                    "Above 0 by more than two standard errors it speaks for a lag; else the water changes too much " +
-                    "from leg to leg to tell this way.",
+                    "by ${wording.estimate(same)}; the same legs differ from their opposite neighbours by " +
+                    "${wording.estimate(paired)}. Opposite minus same, leg by leg: ${wording.estimate(excess)} " +
+                    "over ${mismatch.pairedLegs} legs. Above 0 by more than two standard errors it speaks for a lag.",
             )
         }
+        paragraph("Verdict: ${mismatch.verdict.label}.")
         paragraph(
-            "Shift in time: ${summary.shift(mismatch.shift)}. This is a diagnostic, not a model: a dead time, " +
+            "Shift in time: ${summary.shift(mismatch)}. This is a diagnostic, not a model: a dead time, " +
                 "a time constant and a late clock or receiver all look alike here.",
         )
         figures.firstOrNull { it.name == "leg-mismatch" }?.let { figure(it.figure, it.caption) }
@@ -78,12 +87,23 @@ internal class MapReport(
                 Table.of(mismatch.scores) {
                     count("Leg") { it.number.toLong() }
                     text("Direction") { score -> direction(map.legs.legs[score.number - 1]) }
-                    number("Length (m)") { score -> map.legs.legs[score.number - 1].length }
+                    number("Length (${wording.length})") { score -> map.legs.legs[score.number - 1].length }
                     number("Opposite neighbours differ by") { it.opposite }
                     number("Same-direction ones by") { it.same }
                 },
             )
         }
+    }
+
+    private fun how(): List<String> {
+        val positions = when {
+            map.log.oneDimensional -> "Positions are those of the column ${map.log.xName}, in its own units."
+            map.log.frame == null -> "Positions are metres east and north, as the log has them."
+            else ->
+                "Positions are metres east and north of the first fix on the plane tangent to the WGS-84 ellipsoid " +
+                    "there."
+        }
+        return listOf(positions) + HOW
     }
 
     private fun direction(leg: Leg): String {
@@ -97,10 +117,9 @@ internal class MapReport(
         const val HALF_TURN = 180.0
         const val QUARTER_TURN = 90.0
         val LATER = setOf("leg-mismatch", "speed")
-        val HEADLINES = setOf("duration", "values", "grid", "opposite legs disagree by", "best shift")
+        val HEADLINES = setOf("duration", "values", "grid", "opposite legs disagree by", "lag", MapSummary.BEST_SHIFT)
         val HOW = listOf(
-            "Positions are metres east and north of the first fix on the plane tangent to the WGS-84 ellipsoid " +
-                "there. The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way " +
+            "The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way " +
                 "the boat makes in ten readings and the mean distance between tracks (area by length of track), with " +
                 "10 to 100 cells along the longer side.",
             "The range taken for the water is that of the readings and a tenth of it more either way, because a slow " +
@@ -110,7 +129,8 @@ internal class MapReport(
                 "medians exceeds epsilon; its value is the midpoint. Its bounds hold for a first-order sensor " +
                 "without noise in water that does not change within a cell; conflicts show where they do not.",
             "Epsilon is the 99 % quantile of how far slopes are from their median over the stretch of the log where " +
-                "that is smallest, unless a stretch or a number was given.",
+                "that is smallest, unless a stretch or a number was given; but not below the slope that one step of the " +
+                "sensor's resolution makes, unless a number was given.",
         )
     }
 }

@@ -1,9 +1,10 @@
 package stillwater.survey
 
-import stillwater.field.FieldMap
-import stillwater.report.SignificantDigits
 import stillwater.run.FilterKind
-import java.util.Locale
+import stillwater.survey.Wording.Companion.digits
+import stillwater.survey.Wording.Companion.duration
+import stillwater.survey.Wording.Companion.percent
+import kotlin.math.abs
 
 /**
  * What a [SurveyMap] comes to in words and rounded numbers, for the terminal and the report.
@@ -12,68 +13,36 @@ import java.util.Locale
  */
 class MapSummary(private val map: SurveyMap) {
     private val statistics = map.statistics
+    private val wording = Wording(map)
+
+    /** The quantity, with its unit where the user gave one. */
+    val quantity: String = wording.quantity
 
     /** Names and values, most important first. */
     val facts: List<Pair<String, String>> = buildList {
         add("log" to "${map.log.file.fileName} (${map.log.format})")
-        add("readings" to "${map.pass.readings} of ${map.log.quantity}")
+        add("readings" to "${map.pass.readings} of $quantity")
         map.pass.skipped.forEach { (reason, count) -> add(reason to "$count skipped") }
         add("duration" to duration(statistics.duration))
         add("time between readings" to "${spread(statistics.steps)} s")
         add("gaps" to gaps())
-        add("repeated fixes" to percent(statistics.repeatedFixes))
-        add("repeated values" to percent(statistics.repeatedValues))
-        add(
-            "speed" to if (statistics.speeds.count ==
-                0
-            ) {
-                "log too short to tell"
-            } else {
-                "${spread(statistics.speeds)} m/s"
-            },
-        )
-        add("way" to "${digits(statistics.distance)} m")
+        add("repeated fixes" to "${percent(statistics.repeatedFixes)} of readings")
+        add("repeated values" to "${percent(statistics.repeatedValues)} of readings")
+        val speeds = statistics.speeds
+        add("speed" to if (speeds.count == 0) "log too short to tell" else "${spread(speeds)} ${wording.speed}")
+        add("way" to "${digits(statistics.distance)} ${wording.length}")
         add("values" to values())
         add("grid" to grid())
         add("cells visited" to "${map.passes.visitedCells} of ${map.grid.size}")
         add("cells entered more than once" to "${map.passes.revisitedCells}")
-        add("range taken for the water" to "${digits(map.prior.lower)} to ${digits(map.prior.upper)}")
+        add("range taken for the water" to range())
         map.bounded?.let { add("epsilon" to epsilon(it.epsilon)) }
-        map.maps[FilterKind.BOUNDED]?.let { add("bounded filter" to bounds(it)) }
+        map.maps[FilterKind.BOUNDED]?.let { add("bounded filter" to bounds(BoundCounts.of(it))) }
         addAll(agreement())
     }
 
     /** What may spoil the map, one sentence each. */
-    val warnings: List<String> = buildList {
-        if (statistics.jumps > 0) {
-            add("${statistics.jumps} jumps in the positions are faster than 20 m/s: check the receiver's fixes")
-        }
-        outliers()?.let(::add)
-        // Before the first fix every log has some; that is no fault of its.
-        val skipped = map.pass.skipped.filterKeys { it !in HARMLESS }.values.sum()
-        if (skipped > MANY_SKIPPED * map.pass.readings) {
-            add("$skipped readings or lines were skipped, against ${map.pass.readings} readings used")
-        }
-        val calibration = map.calibration
-        if (map.bounded != null && map.bounded.epsilon == 0.0 && calibration == null) {
-            add("epsilon is 0: there are too few readings in a row to find one, so every slope counts as one")
-        } else if (calibration != null && calibration.slopes < FEW_SLOPES) {
-            add("epsilon rests on ${calibration.slopes} slopes only; give --epsilon or a longer log")
-        }
-        if (statistics.speeds.count > 0 && statistics.speeds.median < SLOW && statistics.east > statistics.west) {
-            add("the boat hardly moved (median speed ${digits(statistics.speeds.median)} m/s): the map shows little")
-        }
-        map.maps[FilterKind.BOUNDED]?.let { field ->
-            val both = field.visitedCells().count { field.isBoundedBothWays(it) }
-            if (both < FEW_BOUNDED * map.passes.visitedCells) {
-                add(
-                    "the bounded filter has both bounds in $both of ${map.passes.visitedCells} visited cells only, " +
-                        "because few were crossed both ways; elsewhere its value leans on the range taken for the water",
-                )
-            }
-        }
-        if (map.log.frame == null) add("the log has no latitudes, so no cells.geojson is written")
-    }
+    val warnings: List<String> = MapWarnings(map).list()
 
     /** The facts for the terminal, a line each. */
     fun text(): String {
@@ -81,52 +50,54 @@ class MapSummary(private val map: SurveyMap) {
         return facts.joinToString("\n") { (name, value) -> "  ${name.padEnd(width)}  $value" }
     }
 
-    private fun duration(seconds: Double): String {
-        val rounded = "${digits(seconds)} s"
-        return when {
-            seconds >= 2 * HOUR -> "$rounded (${digits(seconds / HOUR)} h)"
-            seconds >= 2 * MINUTE -> "$rounded (${digits(seconds / MINUTE)} min)"
-            else -> rounded
-        }
-    }
-
     private fun spread(quantiles: Quantiles) = "${digits(quantiles.median)} " +
         "(5 to 95 %: ${digits(quantiles[LOW])} to ${digits(quantiles[1 - LOW])}; most ${digits(quantiles[1.0])})"
 
-    private fun gaps() = if (map.gaps == 0L) {
+    private fun gaps() = if (map.gaps.count == 0L) {
         "none longer than ${digits(statistics.gapLimit)} s"
     } else {
-        "${map.gaps} longer than ${digits(statistics.gapLimit)} s, the longest ${duration(statistics.longestStep)}"
+        "${map.gaps.count} longer than ${digits(
+            statistics.gapLimit,
+        )} s, the longest ${duration(statistics.longestStep)}"
     }
 
     private fun values() = buildString {
-        append(
-            "${digits(statistics.lowest)} to ${digits(statistics.highest)}, median ${digits(statistics.values.median)}",
-        )
+        append("${digits(statistics.lowest)} to ${digits(statistics.highest)}, median ")
+        append(wording.value(statistics.values.median))
         if (!statistics.resolution.isNaN()) append(", in steps of ${digits(statistics.resolution)}")
     }
 
     private fun grid() = map.grid.run {
         val size = if (cellWidth == cellHeight) digits(cellWidth) else "${digits(cellWidth)} x ${digits(cellHeight)}"
         val turned = if (rotation == 0.0) "" else ", turned by ${digits(Math.toDegrees(rotation))} degrees"
-        "$columns x $rows cells of $size m$turned"
+        "$columns x $rows cells of $size ${wording.length}$turned"
+    }
+
+    private fun range(): String {
+        val outside = if (map.outsideRange == 0L) "" else "; ${map.outsideRange} readings lie outside"
+        return "${digits(map.prior.lower)} to ${wording.value(map.prior.upper)}$outside"
     }
 
     private fun epsilon(value: Double): String {
         val rounded = if (value == 0.0) "0" else digits(value)
-        val calibration = map.calibration ?: return "$rounded per s"
+        val calibration = map.calibration ?: return "$rounded$perSecond"
         val stretch = calibration.stretch
-        return "$rounded per s, from ${calibration.slopes} slopes within " +
-            "${digits(stretch.from)} to ${digits(stretch.to)} s after the first reading"
+        val where =
+            "${calibration.slopes} slopes within ${digits(stretch.from)} to ${digits(stretch.to)} s after the " +
+                "first reading"
+        return if (calibration.found < value) {
+            "$rounded$perSecond, the slope of one step of the resolution; $where gave ${digits(calibration.found)} only"
+        } else {
+            "$rounded$perSecond, from $where"
+        }
     }
 
-    private fun bounds(field: FieldMap): String {
-        val visited = field.visitedCells()
-        val bounded = visited.count { field.hasBound(it) }
-        val both = visited.count { field.isBoundedBothWays(it) }
-        val conflicts = visited.sumOf { field.conflicts(it).toLong() }
-        return "a bound in $bounded of ${visited.size} visited cells, both in $both, $conflicts conflicts"
-    }
+    private val perSecond get() = "${wording.after} per s"
+
+    /** What is known of the cells by the bounded filter. */
+    internal fun bounds(counts: BoundCounts): String =
+        "of ${counts.visited} visited cells ${counts.both} have both bounds, in ${counts.crossed} they crossed, " +
+            "${counts.oneSided} have one, ${counts.none} none; ${counts.conflicts} conflicts"
 
     private fun agreement(): List<Pair<String, String>> = buildList {
         val mismatch = map.mismatch
@@ -134,71 +105,60 @@ class MapSummary(private val map: SurveyMap) {
             add("opposite legs" to "${map.legs.legs.size} straight legs: too few with opposite neighbours to compare")
         } else {
             add("opposite legs" to "${mismatch.scores.size} of ${map.legs.legs.size} legs compared")
-            add("opposite legs disagree by" to estimate(mismatch.opposite))
-            mismatch.same?.let { add("same-direction legs, twice as far" to estimate(it)) }
-            add("best shift" to shift(mismatch.shift))
+            add("opposite legs disagree by" to wording.estimate(mismatch.opposite))
+            mismatch.same?.let { add("same-direction legs, twice as far" to wording.estimate(it)) }
+            mismatch.excess?.let { add("opposite minus same, leg by leg" to wording.estimate(it)) }
+            add("lag" to mismatch.verdict.label)
+            add(BEST_SHIFT to shortShift(mismatch.shift))
+            add("what the shift says" to shift(mismatch))
         }
         val opposite = map.passes.opposite
         val same = map.passes.same
-        if (opposite.pairs >
-            0
-        ) {
-            add("opposite passes of a cell" to "${digits(opposite.meanDifference)} (${opposite.pairs})")
+        if (opposite.pairs > 0) {
+            add("opposite passes of a cell" to "${wording.value(opposite.meanDifference)} (${opposite.pairs})")
         }
-        if (same.pairs > 0) add("same-way passes of a cell" to "${digits(same.meanDifference)} (${same.pairs})")
+        if (same.pairs > 0) {
+            add("same-way passes of a cell" to "${wording.value(same.meanDifference)} (${same.pairs})")
+        }
     }
 
-    /** The shift in words. */
-    fun shift(shift: LagShift): String {
-        val interval = "95 %: ${digits(shift.low, 3)} to ${digits(shift.high, 3)} s"
+    /** The best shift and its interval, no more. */
+    private fun shortShift(shift: LagShift) =
+        "${moved(shift)} (95 %: ${digits(shift.low, 3)} to ${digits(shift.high, 3)} s)"
+
+    private fun moved(shift: LagShift): String {
         val way = if (shift.seconds > 0) "earlier" else "later"
-        val best = "${digits(kotlin.math.abs(shift.seconds), 3)} s $way"
+        return if (shift.seconds == 0.0) "0 s" else "${digits(abs(shift.seconds), 3)} s $way"
+    }
+
+    /** What the best shift of [mismatch] says, in words. */
+    internal fun shift(mismatch: LegMismatch): String {
+        val shift = mismatch.shift
         return when {
             shift.legs < LagShift.FEWEST_LEGS ->
-                "none can be told from ${shift.legs} legs; ${LagShift.FEWEST_LEGS} are needed (best $best, $interval)"
-            !shift.isClear ->
-                "none can be told from this log (best $best, $interval, up to ${digits(shift.limit, 3)} s tried)"
-            else -> "opposite legs agree best, to ${digits(shift.mismatch)}, with readings taken $best ($interval)"
+                "none can be told from ${shift.legs} legs; ${LagShift.FEWEST_LEGS} are needed"
+            !shift.isClear -> "none can be told from this log; up to ${digits(shift.limit, 3)} s were tried either way"
+            else ->
+                "opposite legs agree best, to ${wording.value(shift.mismatch)}, with readings taken ${moved(shift)}" +
+                    reserve(mismatch)
         }
     }
 
-    /** Mean and standard error. */
-    fun estimate(estimate: Estimate): String = "${digits(estimate.mean)} ± ${digits(estimate.standardError, 2)}"
-
-    private fun outliers(): String? {
-        val usual = statistics.values[1 - RARE] - statistics.values[RARE]
-        val whole = statistics.highest - statistics.lowest
-        if (usual <= 0 || whole <= OUTLYING * usual) return null
-        return "values reach from ${digits(statistics.lowest)} to ${digits(statistics.highest)} but 98 % lie within " +
-            "${digits(statistics.values[RARE])} to ${digits(statistics.values[1 - RARE])}: " +
-            "outliers set the range of the bounded filter; give --range"
+    private fun reserve(mismatch: LegMismatch): String {
+        if (!mismatch.hasReserve) return ""
+        val excess = mismatch.excess
+        val reason = when {
+            excess == null || mismatch.verdict == LegVerdict.TOO_FEW_LEGS ->
+                "too few legs have same-direction neighbours to hold it against"
+            excess.mean <= 0 -> "opposite legs disagree no more than same-direction ones"
+            else -> "opposite legs disagree more than same-direction ones by less than two standard errors"
+        }
+        return "; with reserve: $reason, so that the shift may fit the water's own change instead of a lag"
     }
 
-    private fun percent(share: Double) = String.format(Locale.ROOT, "%.1f %% of readings", PERCENT * share)
-
-    private fun digits(value: Double, count: Int = 4) = SignificantDigits(count).format(value)
-        .let { if ('.' in it && 'e' !in it) it.trimEnd('0').trimEnd('.') else it }
-
-    private companion object {
-        val HARMLESS = setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines")
-        const val MINUTE = 60.0
-        const val HOUR = 3600.0
-        const val LOW = 0.05
-        const val RARE = 0.01
-        const val OUTLYING = 3
-        const val MANY_SKIPPED = 0.01
-        const val FEW_SLOPES = 20
-        const val FEW_BOUNDED = 0.5
-        const val SLOW = 0.05
-        const val PERCENT = 100.0
+    internal companion object {
+        /** Name of the fact that has the best shift as a number. */
+        const val BEST_SHIFT = "best shift"
+        private const val LOW = 0.05
     }
 }
-
-/** Whether evidence has narrowed the range of [cell] at all. */
-internal fun FieldMap.hasBound(cell: Int): Boolean = lower(cell) > prior.lower || upper(cell) < prior.upper
-
-/** Whether evidence has narrowed the range of [cell] from below and from above. */
-internal fun FieldMap.isBoundedBothWays(cell: Int): Boolean = lower(cell) > prior.lower && upper(cell) < prior.upper
-
-/** Indices of the cells the boat entered. */
-internal fun FieldMap.visitedCells(): List<Int> = (0 until grid.size).filter { visits(it) > 0 }

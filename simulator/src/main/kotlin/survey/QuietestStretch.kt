@@ -8,8 +8,22 @@ import stillwater.estimate.EpsilonCalibration
  * @property epsilon smallest slope that counts as one, sensor units/s.
  * @property stretch the stretch it was found on.
  * @property slopes number of slopes it rests on.
+ * @property found what the stretch itself gave, sensor units/s: below [epsilon] where that was raised.
  */
-data class Calibration(val epsilon: Double, val stretch: Stretch, val slopes: Int)
+data class Calibration(
+    val epsilon: Double,
+    val stretch: Stretch,
+    val slopes: Int,
+    val found: Double = epsilon,
+) {
+    /**
+     * This, with an ε of at least [stepSlope], sensor units/s.
+     *
+     * A sensor that rounds coarsely reads one and the same value over its quietest stretch, which gives an ε of 0; every
+     * flicker between two neighbouring values would then be a bound. See [EpsilonCalibration.stepSlope].
+     */
+    fun atLeast(stepSlope: Double): Calibration = if (epsilon < stepSlope) copy(epsilon = stepSlope) else this
+}
 
 /**
  * Finds the stretch of a log in which the sensor was quietest, and the ε it gives.

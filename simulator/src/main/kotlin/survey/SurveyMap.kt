@@ -20,6 +20,7 @@ import stillwater.run.FilterKind
  * @property epsilon smallest slope that counts as one, sensor units/s.
  * @property calibrate stretch to find epsilon on, where [epsilon] is null; null for the quietest.
  * @property boundedFilter settings of the bounded filter; its epsilon stands back behind [epsilon].
+ * @property unit unit of the quantity, as it is to be shown.
  */
 data class MapSettings(
     val filters: List<FilterKind> = FilterKind.entries,
@@ -28,6 +29,7 @@ data class MapSettings(
     val epsilon: Double? = null,
     val calibrate: Stretch? = null,
     val boundedFilter: BoundedFilterSettings = BoundedFilterSettings(epsilon = 0.0),
+    val unit: String? = null,
 )
 
 /**
@@ -40,6 +42,10 @@ data class MapSettings(
  * @property maps the filters' maps, in the order asked for.
  * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
  * @property legs the straight legs. @property mismatch their comparison, or null where there is too little.
+ * @property rangeGiven whether the user gave [prior]. @property outsideRange readings outside [prior].
+ * @property epsilonGiven whether the user gave the bounded filter's epsilon.
+ * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
+ * @property unit unit of the quantity as the user gave it, or null.
  */
 class SurveyMap internal constructor(
     val log: SurveyLog,
@@ -51,10 +57,15 @@ class SurveyMap internal constructor(
     val calibration: Calibration?,
     val bounded: BoundedFilterSettings?,
     val maps: Map<FilterKind, FieldMap>,
-    val gaps: Long,
+    val gaps: Gaps,
     val passes: CellPasses,
     val legs: Legs,
     val mismatch: LegMismatch?,
+    val rangeGiven: Boolean,
+    val outsideRange: Long,
+    val epsilonGiven: Boolean,
+    val stepSlope: Double,
+    val unit: String?,
 ) {
     companion object {
         private const val PRIOR_MARGIN = 0.1
@@ -80,7 +91,8 @@ class SurveyMap internal constructor(
             }
             val statistics = scan.statistics()
             val track = scan.track()
-            val calibration = epsilon.calibration(log)
+            val stepSlope = stepSlope(statistics, settings)
+            val calibration = epsilon.calibration(log)?.atLeast(stepSlope)
             val grid = GridChoice(statistics, track).grid(settings.grid)
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
@@ -89,11 +101,13 @@ class SurveyMap internal constructor(
             }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
-            val gaps = GapCount(statistics.gapLimit)
+            val gaps = Gaps(statistics.gapLimit)
+            var outsideRange = 0L
             val pass = log.read({ progress(bytes + it) }) { time, x, y, value, _ ->
                 for (estimator in running) estimator.update(time, x, y, value, Conditions.NONE)
                 passes.add(x, y, value)
-                gaps.add(time.seconds)
+                gaps.add(time.seconds, x, y)
+                if (value !in prior.lower..prior.upper) outsideRange++
             }
             passes.finish()
             val legs = LegFinder(statistics).find(track)
@@ -107,11 +121,22 @@ class SurveyMap internal constructor(
                 calibration,
                 bounded,
                 estimators.mapValues { it.value.map },
-                gaps.count,
+                gaps,
                 passes,
                 legs,
                 LegComparison(statistics, track).compare(legs),
+                rangeGiven = settings.prior != null,
+                outsideRange,
+                epsilonGiven = settings.epsilon != null,
+                stepSlope,
+                settings.unit,
             )
+        }
+
+        private fun stepSlope(statistics: SurveyStatistics, settings: MapSettings): Double {
+            val resolution = statistics.resolution.takeIf { it.isFinite() } ?: return 0.0
+            val step = statistics.steps.median.takeIf { it > 0 } ?: return 0.0
+            return EpsilonCalibration.stepSlope(resolution, step, settings.boundedFilter.slopeWindow)
         }
 
         private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = settings.boundedFilter
@@ -124,18 +149,6 @@ class SurveyMap internal constructor(
             val margin = if (span > 0) PRIOR_MARGIN * span else 0.5
             return Interval(statistics.lowest - margin, statistics.highest + margin)
         }
-    }
-}
-
-/** Counts silences longer than [limit] s. */
-private class GapCount(private val limit: Double) {
-    var count = 0L
-        private set
-    private var last = Double.NaN
-
-    fun add(seconds: Double) {
-        if (seconds - last > limit) count++
-        last = seconds
     }
 }
 

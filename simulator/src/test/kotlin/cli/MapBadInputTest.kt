@@ -279,8 +279,7 @@ class MapBadInputTest {
             flag("crossing", "--crossing: expected one of plain, soft, reset, found 'hard'", "--crossing", "hard"),
             flag("filter", "--filter: expected some of averaging, exponential, bounded", "--filter", "kalman"),
             flag("filter twice", "each once", "--filter", "bounded,bounded"),
-            flag("condition", "--condition: expected NAME=COLUMN, found 'speed'", "--condition", "speed"),
-            flag("condition column", "log.csv:1: column v: expected one of", "--condition", "speed=v"),
+            flag("unit", "--unit: expected a unit such as mg/L, found ' '", "--unit", " "),
             flag("pose age", "--max-pose-age: expected a number of seconds above 0", "--max-pose-age", "0"),
         )
     }

@@ -144,6 +144,6 @@ class MapCommandTest {
     fun showsExamplesInItsHelp() {
         val help = runMap("--help")
         assertEquals(0, help.statusCode)
-        assertContains(help.stdout, "stillwater map survey.csv --value odo_percent_sat --out map")
+        assertContains(help.stdout, "stillwater map survey.csv --value odo_percent_sat --unit %sat --out map")
     }
 }

@@ -40,6 +40,17 @@ class MapsTest {
     }
 
     @Test
+    fun valuesBeyondAGivenScaleAreCountedInTheSubtitle() {
+        val cells = CellMap("t", "lake", cells(4) { it * 10.0 }, "u", colours = 10.0..20.0).draw()
+        assertContains(SvgParts(cells).texts, "lake; 2 of 4 cells lie beyond the colours' ends")
+        val x = DoubleArray(5) { it.toDouble() }
+        val track = TrackMap("t", "", x, x, x, "u", colours = 1.0..4.0).draw()
+        assertContains(SvgParts(track).texts, "1 of 5 points lie beyond the colours' ends")
+        val whole = TrackMap("t", "", x, x, x, "u").draw()
+        assertTrue(SvgParts(whole).texts.none { "beyond" in it })
+    }
+
+    @Test
     fun aMetreIsAsLongOnEitherAxisAlsoForTurnedCells() {
         for (rotation in listOf(0.0, PI / 6)) {
             val d = shapes(CellMap("t", "", cells(7, rotation) { it.toDouble() }, "u").draw()).first().getAttribute("d")

@@ -51,6 +51,7 @@ class HtmlReportTest {
         assertContains(footer, "Stillwater 1 ")
         assertContains(footer, "<code>stillwater ")
         assertContains(footer, "7")
+        assertContains(HtmlReport("t", "", Provenance("1", "c", 7, "Bootstrap seed")).render(), "Bootstrap seed: ")
         val calm = HtmlReport("t", "", Provenance("1", "c")).render()
         assertFalse("Seed" in calm)
         assertFalse("class=\"warnings\"" in calm)

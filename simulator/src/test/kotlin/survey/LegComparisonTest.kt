@@ -58,6 +58,8 @@ class LegComparisonTest {
             assertEquals(delay, mismatch.shift.seconds, 0.5 + 0.15 * delay, "seed $SEED, lag $lag s")
             assertTrue(mismatch.shift.mismatch < mismatch.opposite.mean / 3)
             assertTrue(assertNotNull(mismatch.excess).mean > 0)
+            assertEquals(LegVerdict.LAG_SEEN, mismatch.verdict, "seed $SEED, lag $lag s")
+            assertFalse(mismatch.hasReserve)
         }
     }
 
@@ -75,12 +77,36 @@ class LegComparisonTest {
         assertEquals(0.0, mismatch.shift.seconds, 1.0, "seed $SEED")
         assertFalse(mismatch.shift.isClear)
         assertTrue(assertNotNull(mismatch.excess).run { mean < 2 * standardError })
+        assertEquals(LegVerdict.NOT_TOLD_APART, mismatch.verdict)
     }
 
     @Test
     fun doesNotTellALagFromFewLegs() {
         val mismatch = assertNotNull(compare(survey(legs = 8, lag = 10.0)))
         assertFalse(mismatch.shift.isClear, "6 legs with two neighbours each are too few")
+    }
+
+    @Test
+    fun seesALagOnlyAboveTwoStandardErrorsAndFromEnoughLegs() {
+        assertEquals(LegVerdict.LAG_SEEN, LegVerdict.of(Estimate(0.21, 0.1), legs = 8))
+        assertEquals(LegVerdict.NOT_TOLD_APART, LegVerdict.of(Estimate(0.19, 0.1), legs = 8))
+        assertEquals(LegVerdict.NOT_TOLD_APART, LegVerdict.of(Estimate(-0.5, 0.1), legs = 8))
+        // From three legs in blocks of three every resample is the same three legs: a standard error of 0.
+        assertEquals(LegVerdict.TOO_FEW_LEGS, LegVerdict.of(Estimate(0.21, 0.0), legs = 3))
+        assertEquals(LegVerdict.TOO_FEW_LEGS, LegVerdict.of(null, legs = 0))
+    }
+
+    @Test
+    fun aClearShiftWithoutAnExcessHasAReserve() {
+        fun mismatch(excess: Estimate): LegMismatch {
+            val scores = List(10) { LegScore(it + 1, opposite = 1.0, same = 1.0) }
+            val shifts = doubleArrayOf(-10.0, -5.0, 0.0, 5.0, 10.0)
+            val shift = LagShift(3.0, 2.0, 4.0, 0.5, Estimate(0.5, 0.1), 10, 10.0, shifts, DoubleArray(5))
+            return LegMismatch(Legs(0.0, emptyList()), scores, 1.0, excess, excess, excess, excess, shift)
+        }
+        assertTrue(mismatch(Estimate(-0.1, 0.1)).hasReserve)
+        assertTrue(mismatch(Estimate(0.1, 0.1)).hasReserve)
+        assertFalse(mismatch(Estimate(0.3, 0.1)).hasReserve)
     }
 
     @Test

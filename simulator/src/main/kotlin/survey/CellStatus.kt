@@ -1,0 +1,86 @@
+package stillwater.survey
+
+import stillwater.field.FieldMap
+import stillwater.run.FilterKind
+
+/**
+ * What a filter knows about a cell.
+ *
+ * @property label word in files.
+ */
+enum class CellStatus(val label: String) {
+    /** The boat was never here. */
+    UNVISITED("unvisited"),
+
+    /** A filter without bounds has an average of readings. */
+    MEASURED("measured"),
+
+    /** Both bounds are set, the lower not above the upper. */
+    BOTH("both"),
+
+    /** The lower bound lies above the upper one: the evidence contradicts itself. */
+    CROSSED("crossed"),
+
+    /** One bound is set; the other end is that of the range taken for the water. */
+    ONE_SIDED("one-sided"),
+
+    /** Visited, but no slope here counted. */
+    NONE("none"),
+    ;
+
+    /** Whether anything in the cell rests on readings; where not, there is no value to show. */
+    val isMeasured: Boolean get() = this != UNVISITED && this != NONE
+}
+
+/** What the filter [kind] knows about [cell]. */
+internal fun FieldMap.status(kind: FilterKind, cell: Int): CellStatus {
+    if (visits(cell) == 0) return CellStatus.UNVISITED
+    if (!kind.givesBounds) return CellStatus.MEASURED
+    val below = lower(cell) > prior.lower
+    val above = upper(cell) < prior.upper
+    return when {
+        lower(cell) > upper(cell) -> CellStatus.CROSSED
+        below && above -> CellStatus.BOTH
+        below || above -> CellStatus.ONE_SIDED
+        else -> CellStatus.NONE
+    }
+}
+
+/** Value of [cell] by the filter [kind], sensor units; NaN where nothing was measured. */
+internal fun FieldMap.measuredValue(kind: FilterKind, cell: Int): Double =
+    if (status(kind, cell).isMeasured) value(cell) else Double.NaN
+
+/** Indices of the cells the boat entered. */
+internal fun FieldMap.visitedCells(): List<Int> = (0 until grid.size).filter { visits(it) > 0 }
+
+/**
+ * Visited cells of the bounded filter by what is known of them.
+ *
+ * @property visited all of them. @property both bounded both ways, in order. @property crossed lower above upper.
+ * @property oneSided one bound. @property none no bound. @property conflicts times evidence contradicted a bound.
+ */
+data class BoundCounts(
+    val visited: Int,
+    val both: Int,
+    val crossed: Int,
+    val oneSided: Int,
+    val none: Int,
+    val conflicts: Long,
+) {
+    companion object {
+        /** The counts of [field], a bounded filter's map. */
+        fun of(field: FieldMap): BoundCounts {
+            val visited = field.visitedCells()
+            val counts = visited.groupingBy { field.status(FilterKind.BOUNDED, it) }.eachCount()
+            fun count(status: CellStatus) = counts[status] ?: 0
+            return BoundCounts(
+                visited.size,
+                count(CellStatus.BOTH),
+                count(CellStatus.CROSSED),
+                count(CellStatus.ONE_SIDED),
+                count(CellStatus.NONE),
+                visited.sumOf { field.conflicts(it).toLong() },
+            )
+        }
+    }
+}

@@ -1,0 +1,119 @@
+package stillwater.survey
+
+import stillwater.run.FilterKind
+import stillwater.survey.Wording.Companion.digits
+import stillwater.survey.Wording.Companion.duration
+import stillwater.survey.Wording.Companion.percent
+
+/**
+ * What may spoil a [SurveyMap], one sentence each.
+ *
+ * @param map the map.
+ */
+internal class MapWarnings(private val map: SurveyMap) {
+    private val statistics = map.statistics
+    private val wording = Wording(map)
+
+    /** The sentences, most important first. */
+    fun list(): List<String> = listOfNotNull(jumps(), gap(), outliers(), outsideRange(), skipped()) +
+        epsilon() + listOfNotNull(standing()) + bounds() +
+        listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
+
+    private fun jumps(): String? {
+        if (statistics.jumps == 0L) return null
+        return "${statistics.jumps} jumps in the positions are faster than 20 ${wording.speed}: check the receiver's fixes"
+    }
+
+    private fun gap(): String? {
+        val longest = map.gaps.longest?.takeIf { it.seconds >= LONG_GAP } ?: return null
+        val more = if (map.gaps.count > 1) "; ${map.gaps.count - 1} more gaps are shorter" else ""
+        return "no reading for ${duration(longest.seconds)} from ${digits(longest.start)} s after the first on, and " +
+            "the next lies ${digits(longest.jump)} ${wording.length} away$more: nothing is known about the way between"
+    }
+
+    private fun outliers(): String? {
+        val usual = statistics.values[1 - RARE] - statistics.values[RARE]
+        val whole = statistics.highest - statistics.lowest
+        if (usual <= 0 || whole <= OUTLYING * usual) return null
+        val remedy = if (map.rangeGiven) "" else ": outliers set the range of the bounded filter; give --range"
+        return "values reach from ${digits(statistics.lowest)} to ${digits(statistics.highest)} but 98 % lie within " +
+            "${digits(statistics.values[RARE])} to ${digits(statistics.values[1 - RARE])}$remedy"
+    }
+
+    private fun outsideRange(): String? {
+        if (!map.rangeGiven || map.outsideRange == 0L) return null
+        return "${map.outsideRange} of ${map.pass.readings} readings " +
+            "(${percent(map.outsideRange.toDouble() / map.pass.readings)}) lie outside --range " +
+            "${map.prior.lower}:${map.prior.upper}: as bounds they contradict it; give a wider range"
+    }
+
+    private fun skipped(): String? {
+        // Before the first fix every log has some; that is no fault of its.
+        val skipped = map.pass.skipped.filterKeys { it !in HARMLESS }.values.sum()
+        if (skipped <= MANY_SKIPPED * map.pass.readings) return null
+        return "$skipped readings or lines were skipped, against ${map.pass.readings} readings used"
+    }
+
+    private fun epsilon(): List<String> = buildList {
+        val epsilon = map.bounded?.epsilon ?: return@buildList
+        val calibration = map.calibration
+        if (calibration != null && calibration.slopes < FEW_SLOPES) {
+            add("epsilon rests on ${calibration.slopes} slopes only; give --epsilon or a longer log")
+        }
+        if (map.stepSlope > epsilon) {
+            add(
+                "epsilon (${digits(epsilon)} per s) is below the slope that one step of the sensor's resolution " +
+                    "makes, so that every step counts as one; try --epsilon ${digits(map.stepSlope)}",
+            )
+        } else if (epsilon == 0.0) {
+            val reason = when {
+                calibration != null -> "the sensor did not change on the stretch it was found on"
+                map.epsilonGiven -> "as asked for"
+                else -> "there are too few readings in a row to find one"
+            }
+            add("epsilon is 0: $reason, so every slope counts as one")
+        }
+    }
+
+    private fun standing(): String? {
+        val isStanding = statistics.speeds.count > 0 && statistics.speeds.median < SLOW
+        if (!isStanding || statistics.east <= statistics.west) return null
+        return "the boat hardly moved (median speed ${digits(statistics.speeds.median)} ${wording.speed}): " +
+            "the map shows little"
+    }
+
+    private fun bounds(): List<String> = buildList {
+        val counts = map.maps[FilterKind.BOUNDED]?.let(BoundCounts::of) ?: return@buildList
+        if (counts.crossed > 0) {
+            add(
+                "the bounds crossed (lower above upper) in ${counts.crossed} of ${counts.visited} visited cells: the " +
+                    "readings there contradict each other, by noise taken for a slope or by water that differs " +
+                    "within the cell or in time, and the truth need not lie between; try a larger --epsilon, a " +
+                    "smaller --cell, or --crossing soft",
+            )
+        }
+        val bothSides = counts.both + counts.crossed
+        if (bothSides < FEW_BOUNDED * counts.visited) {
+            val reason = if (counts.none > counts.oneSided) {
+                "few slopes in a cell exceed epsilon"
+            } else {
+                "few were crossed both ways"
+            }
+            add(
+                "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells only, " +
+                    "because $reason; elsewhere it has one, and its value leans on the range taken for the water, or none",
+            )
+        }
+    }
+
+    private companion object {
+        val HARMLESS = setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines")
+        const val LONG_GAP = 60.0
+        const val RARE = 0.01
+        const val OUTLYING = 3
+        const val MANY_SKIPPED = 0.01
+        const val FEW_SLOPES = 20
+        const val FEW_BOUNDED = 0.5
+        const val SLOW = 0.05
+    }
+}

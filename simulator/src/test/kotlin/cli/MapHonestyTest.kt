@@ -1,0 +1,169 @@
+package stillwater.cli
+
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonNull
+import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.jsonArray
+import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
+import kotlinx.serialization.json.long
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import java.nio.file.Path
+import kotlin.io.path.readLines
+import kotlin.io.path.readText
+import kotlin.io.path.writeText
+import kotlin.math.sin
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** What was not measured is not shown as measured, and what may mislead is said. */
+class MapHonestyTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private fun log(text: String): String = directory.resolve("survey.csv").apply { writeText(text) }.toString()
+
+    private fun json(text: String, vararg flags: String): JsonObject {
+        val result = runMap(log(text), "--out", directory.out().toString(), "--json", *flags)
+        assertEquals(0, result.statusCode, result.output)
+        return Json.parseToJsonElement(result.stdout).jsonObject
+    }
+
+    private fun JsonObject.child(name: String) = getValue(name).jsonObject
+
+    private fun JsonObject.warnings() = getValue("warnings").jsonArray.map { it.jsonPrimitive.content }
+
+    private fun report() = directory.out().resolve("report.html").readText()
+
+    /** A cell of 10 m in which readings rise from [first] by 0.95, and on the way back fall from [second] by as much. */
+    private fun thereAndBack(first: Double, second: Double) = buildString {
+        appendLine("time_s,x_m,y_m,v")
+        for (i in 0 until 20) appendLine("$i,${0.4 * i},1,${first + 0.05 * i}")
+        // Another cell, too short for any bound; leaving the first one keeps the turn from being a slope there.
+        for (i in 20 until 23) appendLine("$i,15,1,8.5")
+        for (i in 23 until 43) appendLine("$i,${0.4 * (42 - i)},1,${second - 0.05 * (i - 23)}")
+    }
+
+    private val flags = arrayOf("--cell", "10", "--epsilon", "0.01", "--range", "0:20")
+
+    @Test
+    fun countsCrossedBoundsApartAndWarns() {
+        // Rising to 8.95, falling to 8.05: the lower bound ends above the upper one.
+        val summary = json(thereAndBack(8.0, 9.0), *flags)
+        val cells = summary.child("filters").child("bounded").child("visited_cells")
+        assertEquals(
+            listOf(0L, 1L, 0L, 1L),
+            listOf("both", "crossed", "one-sided", "none").map {
+                cells.getValue(it).jsonPrimitive.long
+            },
+        )
+        assertContains(
+            summary.warnings().joinToString("\n"),
+            "the bounds crossed (lower above upper) in 1 of 2 visited",
+        )
+        val statuses = directory.out().resolve("cells.csv").readLines().map { it.split(',').last() }
+        assertEquals(listOf("status", "measured", "measured", "crossed", "none"), statuses)
+        assertContains(directory.out().resolve("bounds-width.svg").readText(), "crossed: 1, without width")
+    }
+
+    @Test
+    fun boundsInOrderAreNoCauseToWarn() {
+        val summary = json(thereAndBack(7.0, 9.5), *flags)
+        val cells = summary.child("filters").child("bounded").child("visited_cells")
+        assertEquals(1, cells.getValue("both").jsonPrimitive.long)
+        assertFalse(summary.warnings().any { "crossed (lower" in it })
+        assertContains(directory.out().resolve("bounds-width.svg").readText(), "width of v")
+        assertContains(report(), "of 2 visited cells 1 have both bounds")
+    }
+
+    @Test
+    fun inventsNoValuesForWhatWasNotMeasured() {
+        json(smallSurvey(), "--grid", "9x9", "--epsilon", "10")
+        val rows = directory.out().resolve("cells.csv").readLines().drop(1).map { it.split(',') }
+        for (row in rows) {
+            val (value, lower, upper) = row.subList(7, 10)
+            when (row.last()) {
+                "unvisited", "none" -> assertEquals(listOf("", "", ""), listOf(value, lower, upper))
+                else -> assertTrue(row[0] == "averaging" && value.isNotEmpty() && lower.isEmpty() && upper.isEmpty())
+            }
+        }
+        assertEquals(setOf("measured", "unvisited", "none"), rows.map { it.last() }.toSet())
+        val features = Json.parseToJsonElement(directory.out().resolve("cells.geojson").readText())
+            .jsonObject.getValue("features").jsonArray.map { it.jsonObject.child("properties") }
+        val bounded = features.first { it.getValue("filter").jsonPrimitive.content == "bounded" }
+        assertEquals("none", bounded.getValue("status").jsonPrimitive.content)
+        assertEquals(listOf(JsonNull, JsonNull, JsonNull), listOf("value", "lower", "upper").map(bounded::getValue))
+    }
+
+    @Test
+    fun saysHowManyReadingsLieOutsideTheRange() {
+        val text = "time_s,x_m,y_m,v\n" + (0 until 20).joinToString("") { "$it,$it,0,${it / 10.0}\n" }
+        val summary = json(text, "--range", "0:1.45")
+        assertEquals(5, summary.child("prior").getValue("readings_outside").jsonPrimitive.long)
+        assertContains(summary.warnings().joinToString("\n"), "5 of 20 readings (25.0 %) lie outside --range")
+        assertFalse(json(text).warnings().any { "--range" in it })
+    }
+
+    @Test
+    fun takesNoStepOfACoarseSensorForASlope() {
+        // 0.1 steps, each value for 20 s or more: the quietest minute has no slope but those of single steps.
+        val text = "time_s,x_m,y_m,v\n" +
+            (0 until 600).joinToString("") { "$it,$it,0,${Math.round(10 * (8 + sin(it / 100.0))) / 10.0}\n" }
+        val summary = json(text)
+        // 0.3 steps a second in a window of 5 medians, and 5 % more.
+        assertEquals(0.0315, summary.getValue("epsilon_per_s").jsonPrimitive.content.toDouble(), 1e-9)
+        assertFalse(summary.warnings().any { "epsilon" in it }, summary.warnings().toString())
+        val own = json(text, "--epsilon", "0")
+        assertContains(own.warnings().joinToString("\n"), "try --epsilon 0.0315")
+    }
+
+    @Test
+    fun namesALongGapAndDrawsNoLineOverIt() {
+        fun text(gap: Int) = "time_s,x_m,y_m,v\n" + (0 until 20).joinToString("") {
+            "${if (it < 10) it else it + gap},${if (it < 10) it else it + 90},0,$it\n"
+        }
+
+        // The axes have lines of that colour, too; the two tracks have the same axes.
+        fun lines() = Regex("stroke=\"rgb\\(138,144,150\\)\"")
+            .findAll(directory.out().resolve("track.svg").readText()).count()
+        val result = runMap(log(text(gap = 2940)), "--out", directory.out().toString())
+        assertContains(result.stderr, "no reading for 2941 s (49.02 min) from 9 s after the first on")
+        assertContains(result.stderr, "the next lies 91 m away")
+        val inTwoParts = lines()
+        val steady = runMap(log(text(gap = 0)), "--out", directory.out().toString())
+        assertFalse("no reading for" in steady.stderr)
+        assertEquals(lines() + 1, inTwoParts)
+    }
+
+    @Test
+    fun showsTheUnitThatTheUserGaveAndNoOther() {
+        val result = runMap(log(smallSurvey()), "--out", directory.out().toString(), "--unit", "mg/L")
+        assertContains(result.stdout, "Map of do_mg_l (mg/L)")
+        assertContains(report(), "do_mg_l (mg/L)")
+        assertContains(directory.out().resolve("estimate-averaging.svg").readText(), "do_mg_l (mg/L)")
+        assertEquals("mg/L", json(smallSurvey(), "--unit", "mg/L").getValue("unit").jsonPrimitive.content)
+        assertEquals(JsonNull, json(smallSurvey()).getValue("unit"))
+        assertFalse("mg/L" in report())
+    }
+
+    @Test
+    fun countsATransectInItsOwnUnits() {
+        val text = "time_s,pres_dbar,v\n" + (0 until 300).joinToString("") {
+            "$it,${if (it / 30 % 2 == 0) it % 30 else 30 - it % 30},${it % 7}\n"
+        }
+        val result = runMap(log(text), "--out", directory.out().toString(), "--x", "pres_dbar", "--value", "v")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "units of pres_dbar per s")
+        val words = report().replace(Regex("<svg.*?</svg>", RegexOption.DOT_MATCHES_ALL), "")
+        assertFalse(Regex("""\d m\b|\(m\)|m/s|metres""").containsMatchIn(words.substringAfter("<body")))
+    }
+
+    @Test
+    fun tellsTheBootstrapsSeedOnlyWhereThereIsABootstrap() {
+        json("time_s,x_m,y_m,v\n0,0,0,1\n1,1,0,2\n2,2,0,3\n")
+        assertFalse("seed" in report().lowercase())
+    }
+}
