@@ -81,6 +81,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     ).number("a number of at least 0") { it >= 0 }
     private val sensorOptions by SensorOptions()
     private val filterOptions by BoundedFilterOptions()
+    private val lagOptions by LagFilterOptions()
     private val plannerOptions by PlannerOptions()
     private val seed by option(
         "--seed",
@@ -171,6 +172,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 boundedFilter = filterOptions.applied(
                     base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
                 ),
+                lagFilters = lagOptions.applied(base.lagFilters),
                 plannerSettings = plannerOptions.applied(base.plannerSettings),
                 grid = grid?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) } ?: base.grid,
                 environments = environments ?: base.environments,
@@ -199,7 +201,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             "--epsilon" to epsilon,
             "--seed" to seed,
         )
-        val grouped = sensorOptions.flags() + filterOptions.flags() + plannerOptions.flags()
+        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags()
         return commandLineText("stillwater benchmark", null, own + grouped)
     }
 

@@ -10,6 +10,7 @@ import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.run.FilterKind
+import stillwater.run.LagFilterSettings
 
 /**
  * How to make maps out of a log; what is null is chosen from the log.
@@ -20,6 +21,7 @@ import stillwater.run.FilterKind
  * @property epsilon smallest slope that counts as one, sensor units/s.
  * @property calibrate stretch to find epsilon on, where [epsilon] is null; null for the quietest.
  * @property boundedFilter settings of the bounded filter; its epsilon stands back behind [epsilon].
+ * @property lagFilters what the filters that reckon with a lag may assume.
  */
 data class MapSettings(
     val filters: List<FilterKind> = FilterKind.entries,
@@ -28,6 +30,7 @@ data class MapSettings(
     val epsilon: Double? = null,
     val calibrate: Stretch? = null,
     val boundedFilter: BoundedFilterSettings = BoundedFilterSettings(epsilon = 0.0),
+    val lagFilters: LagFilterSettings = LagFilterSettings(),
 )
 
 /**
@@ -85,7 +88,7 @@ class SurveyMap internal constructor(
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
             val estimators = settings.filters.associateWith {
-                it.estimator(grid, prior, bounded ?: BoundedFilterSettings(epsilon = 0.0))
+                it.estimator(grid, prior, bounded ?: BoundedFilterSettings(epsilon = 0.0), settings.lagFilters)
             }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
