@@ -42,13 +42,16 @@ def table(title, variants, moves, field, seed):
 
 def original(seed):
     base = ["--preset", "original"]
-    variants = [("random walk (diagonal)", "random-walk", base), ("random walk (edge)", "random-walk", [*base, "--walk", "edge"])]
+    variants = [
+        ("random walk (diagonal)", "random-walk", base),
+        ("random walk (edge)", "random-walk", [*base, "--walk", "edge"]),
+    ]
     for choice in ("last-polled", "best"):
         for execution in ("whole-path", "single-step"):
             arguments = [*base, "--choice", choice, "--execution", execution]
             variants.append((f"bounded, {choice}, {execution}", "bounded", arguments))
     for field in ("uniform", "gaussian"):
-        table(f"Original settings, {field} field, error after each number of moves", variants, [100, 200, 500], field, seed)
+        table(f"Original settings, {field} field, error after each number of moves", variants, [20, 50, 100, 200, 500], field, seed)
 
 
 def choice(seed):

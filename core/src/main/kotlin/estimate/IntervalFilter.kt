@@ -71,9 +71,10 @@ public class IntervalFilter(
         var lower = Double.NEGATIVE_INFINITY
         var upper = Double.POSITIVE_INFINITY
         for (i in 0 until anchors) {
-            val reach = 1 / expm1((seconds - anchorTimes[i]) / settings.longestTimeConstant)
-            // No time between them: nothing is said.
-            if (reach == Double.POSITIVE_INFINITY) continue
+            // At least so much time has passed: stamps are rounded. No time between them says nothing.
+            val elapsed = seconds - anchorTimes[i] - seconds.ulp
+            if (!(elapsed > 0)) continue
+            val reach = 1 / expm1(elapsed / settings.longestTimeConstant)
             val rise = value - anchorValues[i]
             upper = minOf(upper, value + error + reach * maxOf(0.0, rise + 2 * error))
             lower = maxOf(lower, value - error - reach * maxOf(0.0, 2 * error - rise))

@@ -79,14 +79,15 @@ class MedianWindowTest {
         }
     }
 
-    /** Samples with many repeated values, zeros of both signs, large stamps, and now and then a clear (NaN). */
+    /** Repeated values, neighbouring numbers, zeros of both signs, large stamps, and now and then a clear (NaN). */
     private class History(random: Random) {
         val size = 1 + 2 * random.nextInt(8)
         val samples = List(random.nextInt(1, 120)) {
             val value = when (random.nextInt(10)) {
                 in 0..4 -> random.nextInt(-2, 3) * 0.5
                 5 -> -0.0
-                6 -> if (random.nextInt(6) == 0) Double.NaN else 1e300
+                6 -> 0.5 + random.nextInt(4) * 1e-15
+                7 -> if (random.nextInt(6) == 0) Double.NaN else 1e300
                 else -> random.nextDouble(-1.0, 1.0)
             }
             1.6e9 + it * 0.1 to value

@@ -179,7 +179,8 @@ class BoundedPlannerOracleTest {
         )
 
         override fun toString() = "horizon $horizon, expansions $expansions, maxChange $maxChange, " +
-            "discount $discount, $reach, $priority, sensor $sensor, start $start, ${map.grid.columns} x ${map.grid.rows}: " +
+            "discount $discount, $reach, $priority, sensor $sensor, start $start, " +
+            "${map.grid.columns} x ${map.grid.rows}: " +
             List(map.grid.size) { "${map.lower(it)}..${map.upper(it)}" }
     }
 

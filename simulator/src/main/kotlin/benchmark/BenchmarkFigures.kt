@@ -4,6 +4,7 @@ import stillwater.plot.Drawing
 import stillwater.plot.ErrorCurve
 import stillwater.plot.ErrorCurves
 import stillwater.run.Curve
+import stillwater.run.ErrorSummary
 import stillwater.run.ExperimentResult
 import stillwater.run.Preset
 
@@ -48,6 +49,6 @@ object BenchmarkFigures {
         upper = curve.doubles { mean + if (standardError.isNaN()) 0.0 else standardError },
     )
 
-    private fun Curve.doubles(value: stillwater.run.ErrorSummary.() -> Double) =
+    private fun Curve.doubles(value: ErrorSummary.() -> Double) =
         DoubleArray(summaries.size) { summaries[it].value() }
 }

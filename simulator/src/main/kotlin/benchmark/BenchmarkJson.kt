@@ -33,10 +33,10 @@ object BenchmarkJson {
                         put("filter", curve.filter.label)
                         put("planner", curve.planner.label)
                         put("move", move)
-                        put("mean_abs_error", summary.mean)
+                        put("mean_abs_error", number(summary.mean))
                         put("standard_error", number(summary.standardError))
-                        put("p10", summary.p10)
-                        put("p90", summary.p90)
+                        put("p10", number(summary.p10))
+                        put("p90", number(summary.p90))
                     }
                 }
             }

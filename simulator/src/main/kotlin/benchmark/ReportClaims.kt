@@ -5,6 +5,7 @@ import stillwater.run.ExperimentResult
 import stillwater.run.FilterKind
 import stillwater.run.PlannerKind
 import stillwater.run.Preset
+import java.util.Locale
 
 /**
  * One of the report's claims, held against an experiment.
@@ -39,15 +40,14 @@ class ReportClaims(private val result: ExperimentResult) {
         if (others.isEmpty()) return null
         val since = walk.checkpoints.takeLastWhile { move -> others.all { walk.at(move).mean < it.at(move).mean } }
         val best = others.minBy { it.at(last).mean }
-        val detail = if (since.isNotEmpty()) {
-            "lowest from move ${since.first()} on"
-        } else {
-            "at move $last %s with %s is lower: %.4f against %.4f".format(
-                best.planner.label,
-                best.filter.label,
-                best.at(last).mean,
-                walk.at(last).mean,
-            )
+        val own = walk.at(last).mean
+        val other = best.at(last).mean
+        val rival = "at move $last ${best.planner.label} with ${best.filter.label}"
+        val detail = when {
+            since.isNotEmpty() -> "lowest from move ${since.first()} on"
+            other < own -> "$rival is lower: ${error(other)} against ${error(own)}"
+            other == own -> "$rival is as low: ${error(other)}"
+            else -> "not comparable: $rival has ${error(other)}, the walk ${error(own)}"
         }
         return Claim("$field: random walk with the bounded filter is eventually lowest", since.isNotEmpty(), detail)
     }
@@ -60,7 +60,12 @@ class ReportClaims(private val result: ExperimentResult) {
         val final = lawnmower.at(last).mean
         val settled = lawnmower.checkpoints.takeLastWhile { lawnmower.at(it).mean == final }
         val holds = better.isNotEmpty() && settled.size > 1 && final > walk.at(last).mean
-        val detail = "below the walk at ${moves(better)}; constant %.4f from move ${settled.first()} on".format(final)
+        val end = if (settled.size > 1) {
+            "constant ${error(final)} from move ${settled.first()} on"
+        } else {
+            "${error(final)} and not constant at move $last"
+        }
+        val detail = "below the walk at ${moves(better)}; $end"
         return Claim("$field: lawnmower with the bounded filter is good at first, then stays above zero", holds, detail)
     }
 
@@ -82,17 +87,19 @@ class ReportClaims(private val result: ExperimentResult) {
         return Claim(
             "averaging suffers more from the lag where cells are independent (random walk)",
             uniform > gaussian,
-            detail.format(uniform, gaussian),
+            detail.format(Locale.ROOT, uniform, gaussian),
         )
     }
 
     private fun averagingRatio(field: String): Double? {
         val averaging = result.curve(field, PlannerKind.RANDOM_WALK, FilterKind.AVERAGING) ?: return null
         val bounded = bounded(field, PlannerKind.RANDOM_WALK) ?: return null
-        return averaging.at(last).mean / bounded.at(last).mean
+        return (averaging.at(last).mean / bounded.at(last).mean).takeIf { it.isFinite() }
     }
 
     private fun bounded(field: String, planner: PlannerKind): Curve? = result.curve(field, planner, FilterKind.BOUNDED)
+
+    private fun error(value: Double) = "%.4f".format(Locale.ROOT, value)
 
     private fun moves(moves: List<Int>) = when (moves.size) {
         0 -> "no checkpoint"

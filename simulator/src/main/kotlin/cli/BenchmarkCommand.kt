@@ -16,6 +16,7 @@ import stillwater.benchmark.BenchmarkJson
 import stillwater.benchmark.BenchmarkTable
 import stillwater.benchmark.ReportClaims
 import stillwater.model.Grid
+import stillwater.plan.Lawnmower
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
 import stillwater.report.toTerminal
@@ -66,7 +67,12 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         metavar = "MOVES",
         help = "moves at which errors are taken, such as 50,100,200; without it about a dozen in every decade",
     ).convert { text ->
-        text.split(',').map { it.trim().toIntOrNull() ?: throw BadFlag(name, "moves such as 50,100,200", "'$text'") }
+        val moves = text.split(',').map { it.trim().toIntOrNull() ?: 0 }
+        val ascend = moves.zipWithNext().all { (before, after) -> before < after }
+        if (moves.first() < 1 || moves.last() > MOST_MOVES || !ascend) {
+            throw BadFlag(name, "ascending moves above 0 such as 50,100,200", "'$text'")
+        }
+        moves
     }
     private val grid by option("--grid", metavar = "COLSxROWS", help = "size of the fields in cells")
         .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
@@ -162,7 +168,20 @@ class BenchmarkCommand : CliktCommand("benchmark") {
 
     private fun settings(): ExperimentSettings {
         val base = preset.settings()
-        val trialMoves = moves ?: checkpoints?.maxOrNull() ?: base.moves
+        val trialMoves = moves ?: checkpoints?.last() ?: base.moves
+        checkpoints?.last()?.let {
+            if (it > trialMoves) throw BadFlag("--checkpoints", "moves within 1..$trialMoves", "$it")
+        }
+        val cells = grid?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) } ?: base.grid
+        val chosenPlanners = plannerOptions.applied(base.plannerSettings)
+        if (PlannerKind.LAWNMOWER in (planners ?: base.planners) && !Lawnmower.fits(cells, chosenPlanners.pattern)) {
+            throw BadFlag(
+                "--grid",
+                "an even number of rows or columns and two of each at least for the lawnmower's hamiltonian-cycle, " +
+                    "or another --pattern",
+                "${cells.columns}x${cells.rows}",
+            )
+        }
         return try {
             base.copy(
                 fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
@@ -173,8 +192,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                     base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
                 ),
                 lagFilters = lagOptions.applied(base.lagFilters),
-                plannerSettings = plannerOptions.applied(base.plannerSettings),
-                grid = grid?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) } ?: base.grid,
+                plannerSettings = chosenPlanners,
+                grid = cells,
                 environments = environments ?: base.environments,
                 moves = trialMoves,
                 checkpoints = checkpoints ?: Checkpoints.upTo(trialMoves),

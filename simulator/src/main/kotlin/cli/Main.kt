@@ -21,8 +21,11 @@ fun main(args: Array<String>) {
     val command = Stillwater().subcommands(BenchmarkCommand(), MapCommand())
     try {
         command.parse(args)
+    } catch (wrong: UsageError) {
+        command.echoFormattedHelp(wrong)
+        exitProcess(BAD_INPUT)
     } catch (error: CliktError) {
         command.echoFormattedHelp(error)
-        exitProcess(if (error is UsageError) BAD_INPUT else error.statusCode)
+        exitProcess(error.statusCode)
     }
 }

@@ -170,7 +170,11 @@ class MapCommand : CliktCommand("map") {
             "--epsilon" to epsilon.takeIf { !it.isNaN() },
             "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
         )
-        return commandLineText("stillwater map", log, logOptions.flags() + own + filterOptions.flags() + lagOptions.flags())
+        return commandLineText(
+            "stillwater map",
+            log,
+            logOptions.flags() + own + filterOptions.flags() + lagOptions.flags(),
+        )
     }
 
     private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)

@@ -2,12 +2,14 @@ package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.option
-import stillwater.io.LogProblem
 import stillwater.sensor.FirstOrderLag
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import java.io.IOException
+import java.nio.charset.CharacterCodingException
+import java.nio.file.AccessDeniedException
 import java.nio.file.Files
+import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 
 /** The options that change the simulated sensor. */
@@ -22,9 +24,9 @@ class SensorOptions : OptionGroup(name = "Sensor") {
         metavar = "A",
         help = "first-order lag that closes the share A of its distance with each reading, instead of the preset's " +
             "response",
-    ).number("a number above 0 and below 1") { it > 0 && it < 1 }
+    ).number("a number above 1e-300 and below 1") { it > SMALLEST_ALPHA && it < 1 }
     private val noise by option("--noise", metavar = "SD", help = "standard deviation of the sensor's noise")
-        .number("a number of at least 0") { it >= 0 }
+        .number("a number within 0..1000000") { it in 0.0..MOST_NOISE }
     private val quantum by option("--quantum", metavar = "STEP", help = "resolution of the sensor, 0 for none")
         .number("a number of at least 0") { it >= 0 }
 
@@ -62,15 +64,37 @@ class SensorOptions : OptionGroup(name = "Sensor") {
         listOf("--sensor" to sensor, "--alpha" to alpha, "--noise" to noise, "--quantum" to quantum)
 
     private fun read(file: String): SensorSpec {
-        val json = try {
-            Files.readString(Path.of(file))
-        } catch (problem: IOException) {
-            throw BadFlag("--sensor", "a readable sensor spec", "$file (${problem.javaClass.simpleName})")
-        }
+        val expected = "a sensor spec in $file"
         return try {
-            SensorSpec.fromJson(json)
+            SensorSpec.fromJson(text(Path.of(file)))
+        } catch (problem: NoSuchFileException) {
+            throw BadFlag("--sensor", expected, "no such file (${problem.file})")
+        } catch (problem: AccessDeniedException) {
+            throw BadFlag("--sensor", expected, "no permission to read it (${problem.file})")
+        } catch (_: CharacterCodingException) {
+            throw BadFlag("--sensor", expected, "bytes that are no UTF-8 text")
+        } catch (problem: IOException) {
+            throw BadFlag("--sensor", expected, problem.message ?: problem.javaClass.simpleName)
         } catch (problem: IllegalArgumentException) {
-            throw BadFlag("--sensor", "a sensor spec in $file", problem.message.orEmpty())
+            throw BadFlag("--sensor", expected, problem.message.orEmpty().removePrefix("not a sensor spec: "))
         }
+    }
+
+    /** The text of [file], unless it is longer than any sensor spec. */
+    private fun text(file: Path): String {
+        if (Files.isDirectory(file)) throw IOException("a directory")
+        val bytes = Files.newInputStream(file).use { it.readNBytes(LONGEST_SPEC + 1) }
+        if (bytes.size > LONGEST_SPEC) throw IOException("a file of more than $LONGEST_SPEC bytes")
+        return bytes.decodeToString(throwOnInvalidSequence = true)
+    }
+
+    private companion object {
+        /** Smaller ones have no finite time constant. */
+        const val SMALLEST_ALPHA = 1e-300
+
+        /** A million times the range of the fields; squares of errors stay numbers. */
+        const val MOST_NOISE = 1e6
+
+        const val LONGEST_SPEC = 1_000_000
     }
 }

@@ -31,16 +31,11 @@ class Curve(
 
     private fun summary(checkpoint: Int): ErrorSummary {
         val statistics = DescriptiveStatistics(DoubleArray(errors.size) { errors[it].mean[checkpoint] })
+        val spread = statistics.standardDeviation / sqrt(errors.size.toDouble())
         return ErrorSummary(
             mean = statistics.mean,
             // One environment shows no spread.
-            standardError = if (errors.size <
-                2
-            ) {
-                Double.NaN
-            } else {
-                statistics.standardDeviation / sqrt(errors.size.toDouble())
-            },
+            standardError = if (errors.size < 2) Double.NaN else spread,
             p10 = statistics.getPercentile(10.0),
             p90 = statistics.getPercentile(90.0),
             shareInExtremes = errors.sumOf { it.inExtremes[checkpoint] } / errors.sumOf { it.mean[checkpoint] },

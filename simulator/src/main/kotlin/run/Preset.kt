@@ -3,7 +3,6 @@ package stillwater.run
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.IntervalFilterSettings
 import stillwater.plan.BoundedPlannerSettings
-import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Neighbours
 import stillwater.plan.PathChoice

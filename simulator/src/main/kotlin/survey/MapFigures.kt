@@ -85,8 +85,8 @@ class MapFigures(private val map: SurveyMap) {
         val title = "$quantity, ${kind.label} filter"
         val caption = when (kind) {
             FilterKind.BOUNDED ->
-                "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is that of " +
-                    "the range taken for the water."
+                "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is " +
+                    "that of the range taken for the water."
             FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             FilterKind.EXPONENTIAL -> "Exponential average of the readings in each visited cell."
             FilterKind.INTERVAL ->

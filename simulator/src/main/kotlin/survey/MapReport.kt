@@ -64,8 +64,8 @@ internal class MapReport(
                 "To hold against: legs in the same direction, which share the lag but lie twice as far apart, differ " +
                     "by ${summary.estimate(same)}; the same legs differ from their opposite neighbours by " +
                     "${summary.estimate(paired)}. Opposite minus same, leg by leg: ${summary.estimate(excess)}. " +
-                    "Above 0 by more than two standard errors it speaks for a lag; else the water changes too much from leg " +
-                    "to leg to tell this way.",
+                    "Above 0 by more than two standard errors it speaks for a lag; else the water changes too much " +
+                    "from leg to leg to tell this way.",
             )
         }
         paragraph(
@@ -99,16 +99,16 @@ internal class MapReport(
         val LATER = setOf("leg-mismatch", "speed")
         val HEADLINES = setOf("duration", "values", "grid", "opposite legs disagree by", "best shift")
         val HOW = listOf(
-            "Positions are metres east and north of the first fix on the plane tangent to the WGS-84 ellipsoid there. " +
-                "The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way the boat makes in " +
-                "ten readings and the mean distance between tracks (area by length of track), with 10 to 100 cells " +
-                "along the longer side.",
+            "Positions are metres east and north of the first fix on the plane tangent to the WGS-84 ellipsoid " +
+                "there. The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way " +
+                "the boat makes in ten readings and the mean distance between tracks (area by length of track), with " +
+                "10 to 100 cells along the longer side.",
             "The range taken for the water is that of the readings and a tenth of it more either way, because a slow " +
                 "sensor falls short of the water's extremes.",
             "The averaging filter gives the mean of a cell's readings. The bounded filter takes a rising sensor's " +
                 "reading as a lower bound and a falling one's as an upper bound, if the slope over a window of " +
-                "medians exceeds epsilon; its value is the midpoint. Its bounds hold for a first-order sensor without " +
-                "noise in water that does not change within a cell; conflicts show where they do not.",
+                "medians exceeds epsilon; its value is the midpoint. Its bounds hold for a first-order sensor " +
+                "without noise in water that does not change within a cell; conflicts show where they do not.",
             "Epsilon is the 99 % quantile of how far slopes are from their median over the stretch of the log where " +
                 "that is smallest, unless a stretch or a number was given.",
         )

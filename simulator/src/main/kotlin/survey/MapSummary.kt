@@ -1,5 +1,6 @@
 package stillwater.survey
 
+import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.report.SignificantDigits
 import stillwater.run.FilterKind
@@ -40,7 +41,14 @@ class MapSummary(private val map: SurveyMap) {
         add("range taken for the water" to "${digits(map.prior.lower)} to ${digits(map.prior.upper)}")
         map.bounded?.let { add("epsilon" to epsilon(it.epsilon)) }
         map.maps[FilterKind.BOUNDED]?.let { add("bounded filter" to bounds(it)) }
+        map.learned?.let { add("time constant learned" to timeConstant(it)) }
         addAll(agreement())
+    }
+
+    private fun timeConstant(learned: SelfCalibratingEstimator): String {
+        val (low, high) = learned.timeConstantInterval()
+        return "${digits(learned.timeConstant)} s (${digits(low)} to ${digits(high)} s at 95 % if the response is of " +
+            "first order)"
     }
 
     /** What may spoil the map, one sentence each. */

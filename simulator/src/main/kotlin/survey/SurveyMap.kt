@@ -2,6 +2,7 @@ package stillwater.survey
 
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.EpsilonCalibration
+import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
@@ -42,6 +43,7 @@ data class MapSettings(
  * @property bounded settings of the bounded filter, or null where it did not run.
  * @property maps the filters' maps, in the order asked for.
  * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
+ * @property learned the estimator that learned the time constant, or null where it did not run.
  * @property legs the straight legs. @property mismatch their comparison, or null where there is too little.
  */
 class SurveyMap internal constructor(
@@ -58,6 +60,7 @@ class SurveyMap internal constructor(
     val passes: CellPasses,
     val legs: Legs,
     val mismatch: LegMismatch?,
+    val learned: SelfCalibratingEstimator?,
 ) {
     companion object {
         private const val PRIOR_MARGIN = 0.1
@@ -88,7 +91,12 @@ class SurveyMap internal constructor(
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
             val estimators = settings.filters.associateWith {
-                it.estimator(grid, prior, bounded ?: BoundedFilterSettings(epsilon = 0.0), settings.lagFilters)
+                it.estimator(
+                    grid,
+                    prior,
+                    bounded ?: BoundedFilterSettings(epsilon = 0.0),
+                    lagFilters(settings, statistics),
+                )
             }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
@@ -114,7 +122,15 @@ class SurveyMap internal constructor(
                 passes,
                 legs,
                 LegComparison(statistics, track).compare(legs),
+                estimators.values.firstNotNullOfOrNull { it as? SelfCalibratingEstimator },
             )
+        }
+
+        /** Where no reading error was given, the step in which the log's values are rounded. */
+        private fun lagFilters(settings: MapSettings, statistics: SurveyStatistics): LagFilterSettings {
+            val interval = settings.lagFilters.interval
+            if (interval.readingError > 0 || statistics.resolution.isNaN()) return settings.lagFilters
+            return settings.lagFilters.copy(interval = interval.copy(readingError = statistics.resolution))
         }
 
         private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = settings.boundedFilter

@@ -190,7 +190,13 @@ class MapBadInputTest {
         private val PLATYPUS = "0\tI\t{\"date\":\"Thu May 19\",\"time\":1463679383361}\n" +
             (1..9).joinToString("") { pose(100 * it) + reading(100 * it + 50) }
 
-        private fun platypus(name: String, more: String, message: String, skipped: String? = null, vararg flags: String) =
+        private fun platypus(
+            name: String,
+            more: String,
+            message: String,
+            skipped: String? = null,
+            vararg flags: String,
+        ) =
             Case(name, (PLATYPUS + more).toByteArray(), message, skipped, flags.toList(), "platypus_log.txt")
 
         @JvmStatic

@@ -1,0 +1,241 @@
+package stillwater.cli
+
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import org.junit.jupiter.params.ParameterizedTest
+import org.junit.jupiter.params.provider.MethodSource
+import java.nio.file.Files
+import java.nio.file.Path
+import kotlin.io.path.createDirectory
+import kotlin.io.path.exists
+import kotlin.io.path.readBytes
+import kotlin.io.path.readText
+import kotlin.io.path.writeBytes
+import kotlin.io.path.writeText
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** Whatever is wrong with a flag or a sensor: one line that names it, what was expected and found; nothing written. */
+class BenchmarkBadInputTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    /** @property message what the line must hold. @property flags `SPEC` stands for a file with the bytes [spec]. */
+    class Case(val message: String, val flags: List<String>, val spec: ByteArray? = null) {
+        override fun toString() = flags.joinToString(" ") + if (spec == null) "" else " ($message)"
+    }
+
+    @ParameterizedTest
+    @MethodSource("badFlags", "badModelFlags", "badSensors")
+    fun isRefusedInOneLineAndWritesNothing(case: Case) {
+        assertEquals(case.message, refusal(case))
+        val left = Files.list(directory).use { files -> files.map { it.fileName.toString() }.toList() }
+        assertEquals(listOfNotNull(case.spec?.let { "spec.json" }), left)
+    }
+
+    @ParameterizedTest
+    @MethodSource("badFlags", "badModelFlags", "badSensors")
+    fun leavesEarlierResultsAsTheyWere(case: Case) {
+        val out = directory.out().createDirectory()
+        val earlier = out.resolve("results.csv").apply { writeText("earlier") }
+        refusal(case)
+        assertEquals("earlier", earlier.readText())
+        assertEquals(listOf(earlier), Files.list(out).use { it.toList() })
+    }
+
+    /** What is wrong with the flags of [case], without the program's name before and the way to help after it. */
+    private fun refusal(case: Case): String {
+        val spec = directory.resolve("spec.json")
+        case.spec?.let { spec.writeBytes(it) }
+        val flags = case.flags.map { it.replace("SPEC", spec.toString()).replace("DIR", directory.toString()) }
+        // Should one be let through by mistake, it ends soon.
+        val small = listOf("--out", directory.out().toString(), "--environments", "1", "--moves", "12")
+        val result = runBenchmark(*(small + flags).toTypedArray())
+        assertEquals(BAD_INPUT, result.statusCode, result.output)
+        assertEquals("", result.stdout)
+        assertEquals(1, result.stderr.trimEnd().lines().size, result.stderr)
+        val start = "stillwater benchmark: "
+        val end = " (see stillwater benchmark --help)"
+        assertTrue(result.stderr.startsWith(start) && result.stderr.trimEnd().endsWith(end), result.stderr)
+        return result.stderr.trimEnd().removePrefix(start).removeSuffix(end).replace(directory.toString(), "DIR")
+    }
+
+    @Test
+    fun anOutputThatIsAFileIsRefusedBeforeTheWork() {
+        val file = directory.resolve("results").apply { writeText("mine") }
+        val result = runBenchmark("--out", file.toString(), "--moves", "100000000", "--environments", "1000000")
+        assertEquals(BAD_INPUT, result.statusCode)
+        assertEquals("stillwater benchmark: output $file is a file; name a directory\n", result.stderr)
+        assertEquals("mine", file.readText())
+    }
+
+    @Test
+    fun anOutputUnderAFileIsRefused() {
+        val file = directory.resolve("mine").apply { writeText("mine") }
+        val result = runBenchmark("--out", file.resolve("results").toString(), "--moves", "1", "--environments", "1")
+        assertEquals(BAD_INPUT, result.statusCode)
+        assertEquals(1, result.stderr.trimEnd().lines().size, result.stderr)
+        assertEquals("mine", file.readText())
+    }
+
+    @Test
+    fun aSensorFileThatNeverEndsIsGivenUpOn() {
+        val endless = Path.of("/dev/zero")
+        if (!endless.exists()) return
+        val result = runBenchmark("--out", directory.out().toString(), "--sensor", endless.toString())
+        assertEquals(BAD_INPUT, result.statusCode)
+        assertTrue("found a file of more than 1000000 bytes" in result.stderr, result.stderr)
+        assertFalse(directory.out().exists())
+    }
+
+    @Test
+    fun earlierFilesOfTheSameRunAreReplacedByAGoodOneOnly() {
+        val out = directory.out()
+        runSmallBenchmark(out, "--planner", "lawnmower")
+        val before = Files.list(out).use { it.toList() }.associateWith { it.readBytes().toList() }
+        val result = runBenchmark("--out", out.toString(), "--grid", "3x3")
+        assertEquals(BAD_INPUT, result.statusCode)
+        assertEquals(before, Files.list(out).use { it.toList() }.associateWith { it.readBytes().toList() })
+    }
+
+    private companion object {
+        private fun flag(message: String, vararg flags: String) = Case(message, flags.toList())
+
+        private fun sensor(found: String, json: String) =
+            Case(
+                "--sensor: expected a sensor spec in DIR/spec.json, found $found",
+                listOf("--sensor", "SPEC"),
+                json.toByteArray(),
+            )
+
+        private const val PRESETS = "--preset: expected one of report, noisy, original"
+        private const val FIELDS = "--field: expected some of uniform, gaussian, separated by commas"
+        private const val FILTERS = "--filter: expected some of averaging, exponential, bounded, separated by commas"
+        private const val PLANNERS = "--planner: expected some of random-walk, lawnmower, bounded, separated by commas"
+        private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
+        private const val GRID = "--grid: expected COLSxROWS such as 10x10, both whole numbers above 0"
+        private const val CYCLE =
+            "--grid: expected an even number of rows or columns and two of each at least for the " +
+                "lawnmower's hamiltonian-cycle, or another --pattern"
+
+        @JvmStatic
+        fun badFlags() = listOf(
+            flag("$PRESETS, found 'loud'", "--preset", "loud"),
+            flag("$FIELDS, found 'lake'", "--field", "lake"),
+            flag("$FIELDS, found ''", "--field", ""),
+            flag("$FIELDS, each once, found 'uniform,uniform'", "--field", "uniform,uniform"),
+            flag("$FILTERS, found 'kalman'", "--filter", "kalman"),
+            flag("$FILTERS, each once, found 'bounded, bounded'", "--filter", "bounded, bounded"),
+            flag("$PLANNERS, found 'lawnmower,'", "--planner", "lawnmower,"),
+            flag("$PLANNERS, each once, found 'bounded,bounded'", "--planner", "bounded,bounded"),
+            flag("--environments: expected a whole number within 1..1000000, found '0'", "--environments", "0"),
+            flag("--environments: expected a whole number within 1..1000000, found '1.5'", "--environments", "1.5"),
+            flag("--moves: expected a whole number within 1..100000000, found '0'", "--moves", "0"),
+            flag("--moves: expected a whole number within 1..100000000, found '1e9'", "--moves", "1e9"),
+            flag("$MOVES, found '50;100'", "--checkpoints", "50;100"),
+            flag("$MOVES, found ''", "--checkpoints", ""),
+            flag("$MOVES, found '1,,3'", "--checkpoints", "1,,3"),
+            flag("$MOVES, found '0,5'", "--checkpoints", "0,5"),
+            flag("$MOVES, found '-1'", "--checkpoints", "-1"),
+            flag("$MOVES, found '5,5'", "--checkpoints", "5,5"),
+            flag("$MOVES, found '7,5'", "--checkpoints", "7,5"),
+            flag("$MOVES, found '100000001'", "--checkpoints", "100000001"),
+            flag("$MOVES, found '99999999999'", "--checkpoints", "99999999999"),
+            flag("--checkpoints: expected moves within 1..12, found 13", "--checkpoints", "5,13"),
+            flag("$GRID, found '10'", "--grid", "10"),
+            flag("$GRID, found '0x5'", "--grid", "0x5"),
+            flag("$GRID, found '1.5x2'", "--grid", "1.5x2"),
+            flag("$GRID, found '-2x-2'", "--grid", "-2x-2"),
+            flag("$GRID, found '2x2x2'", "--grid", "2x2x2"),
+            flag("$GRID, found '1000000x2'", "--grid", "1000000x2"),
+            flag("$CYCLE, found 3x3", "--grid", "3x3"),
+            flag("$CYCLE, found 1x1", "--grid", "1x1"),
+            flag("$CYCLE, found 1x8", "--grid", "1x8", "--planner", "bounded,lawnmower"),
+            flag("$CYCLE, found 5x5", "--grid", "5x5", "--preset", "original", "--pattern", "hamiltonian-cycle"),
+            flag("--samples: expected a whole number within 1..1000000, found '0'", "--samples", "0"),
+            flag("--epsilon: expected a number of at least 0, found '-1'", "--epsilon", "-1"),
+            flag("--epsilon: expected a number of at least 0, found 'NaN'", "--epsilon", "NaN"),
+            flag("--epsilon: expected a number of at least 0, found 'auto'", "--epsilon", "auto"),
+        )
+
+        @JvmStatic
+        fun badModelFlags() = listOf(
+            flag("--alpha: expected a number above 1e-300 and below 1, found '1'", "--alpha", "1"),
+            flag("--alpha: expected a number above 1e-300 and below 1, found '0'", "--alpha", "0"),
+            flag("--alpha: expected a number above 1e-300 and below 1, found '5e-324'", "--alpha", "5e-324"),
+            flag("--noise: expected a number within 0..1000000, found '-0.1'", "--noise", "-0.1"),
+            flag("--noise: expected a number within 0..1000000, found '1e308'", "--noise", "1e308"),
+            flag("--quantum: expected a number of at least 0, found '-1'", "--quantum", "-1"),
+            flag("--quantum: expected a number of at least 0, found '1e999'", "--quantum", "1e999"),
+            flag("--median: expected an odd number within 1..999, found '4'", "--median", "4"),
+            flag("--slope: expected a whole number within 2..999, found '1'", "--slope", "1"),
+            flag("--crossing: expected one of plain, soft, reset, found 'hard'", "--crossing", "hard"),
+            flag("--walk: expected one of edge, diagonal, found 'king'", "--walk", "king"),
+            flag(
+                "--pattern: expected one of hamiltonian-cycle, back-and-forth, rows-then-columns, raster, found 'spiral'",
+                "--pattern",
+                "spiral",
+            ),
+            flag("--horizon: expected a whole number within 1..1000, found '0'", "--horizon", "0"),
+            flag("--expansions: expected a whole number within 1..1000000, found '0'", "--expansions", "0"),
+            flag("--max-change: expected a number above 0, found '0'", "--max-change", "0"),
+            flag("--execution: expected one of whole-path, single-step, found 'half'", "--execution", "half"),
+            flag("--choice: expected one of best, last-polled, found 'worst'", "--choice", "worst"),
+            flag("--neighbours: expected one of edge, edge-or-corner, found 'all'", "--neighbours", "all"),
+            flag("--priority: expected one of value-per-move, value, found 'depth'", "--priority", "depth"),
+            flag("--seed: expected a whole number, found '0x10'", "--seed", "0x10"),
+            flag("--seed: expected a whole number, found '9223372036854775808'", "--seed", "9223372036854775808"),
+            flag("--threads: expected a whole number within 1..1024, found '0'", "--threads", "0"),
+            flag(
+                "--sensor: expected either --sensor or --alpha, --noise and --quantum, found both",
+                "--sensor",
+                "SPEC",
+                "--noise",
+                "1",
+            ),
+            flag(
+                "--sensor: expected a sensor spec in DIR/none.json, found no such file (DIR/none.json)",
+                "--sensor",
+                "DIR/none.json",
+            ),
+            flag("--sensor: expected a sensor spec in DIR, found a directory", "--sensor", "DIR"),
+        )
+
+        @JvmStatic
+        fun badSensors() = listOf(
+            sensor(
+                "Expected start of the object '{', but had 'EOF' instead at path: \$",
+                "",
+            ),
+            sensor(
+                "Field 'stages' is required for type with serial name 'stillwater.sensor.SensorSpec', but it was missing at path: \$",
+                """{"name": "x"}""",
+            ),
+            sensor(
+                "a stage must have a type, one of first-order-lag, noise, quantisation, slew-limit at path: \$.stages[0]",
+                """{"name": "x", "stages": [{"type": "magic"}]}""",
+            ),
+            sensor(
+                "timeConstant (-1.0 s) must be above 0 and finite at path: \$.stages[0]",
+                """{"name": "x", "stages": [{"type": "first-order-lag", "time_constant_s": -1}]}""",
+            ),
+            sensor(
+                "rate (0.0 sensor units/s) must be above 0 and finite at path: \$.stages[0]",
+                """{"name": "x", "stages": [{"type": "slew-limit", "rate_per_s": 0}]}""",
+            ),
+            sensor(
+                "Unexpected JSON token at offset 77: Unexpected special floating-point value Infinity. By default, " +
+                    "non-finite floating point values are prohibited because they do not conform JSON specification. " +
+                    "at path: \$.stages[0].time_constant_s",
+                """{"name": "x", "stages": [{"type": "first-order-lag", "time_constant_s": 1e999}]}""",
+            ),
+            sensor("a file of more than 1000000 bytes", " ".repeat(1_000_001)),
+            Case(
+                "--sensor: expected a sensor spec in DIR/spec.json, found bytes that are no UTF-8 text",
+                listOf("--sensor", "SPEC"),
+                byteArrayOf(0x7b, 0xff.toByte(), 0x7d),
+            ),
+        )
+    }
+}
