@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import kotlin.math.exp
+import kotlin.math.sqrt
 
 /**
  * Three Kalman filters that differ in nothing but the sensor's time constant: at θ − h, θ and θ + h with θ = ln τ.
@@ -45,6 +46,11 @@ internal class LagBank {
     var freedom: Double = 0.0
         private set
 
+    /** Sum of the products of successive scaled innovations at the middle node: near 0 where the model holds. */
+    var succession: Double = 0.0
+        private set
+    private var lastInnovation = 0.0
+
     /** Forgets all and starts at [node] and [step]; [noise] is the variance of the readings' noise, scaled. */
     fun reset(node: Double, step: Double, noise: Double) {
         this.node = node
@@ -56,6 +62,8 @@ internal class LagBank {
         current = NONE
         previous = NONE
         freedom = 0.0
+        succession = 0.0
+        lastInnovation = 0.0
     }
 
     /** The boat left without a reading of where it went: the next one finds the sensor in an unknown state. */
@@ -84,7 +92,13 @@ internal class LagBank {
             for (i in 0 until NODES) keeps[i] = exp(-elapsed * exp(-(node + (i - 1) * step)))
             keepsFor = elapsed
         }
-        for (i in 0 until NODES) predictAndCorrect(i * STRIDE, keeps[i], value)
+        for (i in 0 until NODES) {
+            val innovation = predictAndCorrect(i * STRIDE, keeps[i], value)
+            if (i == 1) {
+                succession += innovation * lastInnovation
+                lastInnovation = innovation
+            }
+        }
         freedom++
     }
 
@@ -147,6 +161,7 @@ internal class LagBank {
         }
         // Two numbers to fit: the sensor's state and the cell's truth.
         freedom -= 2
+        lastInnovation = 0.0
     }
 
     private fun enter() {
@@ -162,8 +177,12 @@ internal class LagBank {
         freedom--
     }
 
-    /** Eqs. (3) to (5) at one node, whose state starts at [at] and of which [keep] is left after the elapsed time. */
-    private fun predictAndCorrect(at: Int, keep: Double, value: Double) {
+    /**
+     * Eqs. (3) to (5) at one node, whose state starts at [at] and of which [keep] is left after the elapsed time.
+     *
+     * @return the innovation over its standard deviation.
+     */
+    private fun predictAndCorrect(at: Int, keep: Double, value: Double): Double {
         val f = states
         val gain = 1 - keep
         // s ← s + g (ψ − s)
@@ -187,6 +206,7 @@ internal class LagBank {
         f[at + SP] -= forTruth * f[at + SS]
         f[at + SQ] -= forPrevious * f[at + SS]
         f[at + SS] -= forState * f[at + SS]
+        return innovation / sqrt(variance)
     }
 
     /** Pools a visit, whose truth and variance are at [mean] and [variance] in the state, with the slot's others. */

@@ -20,8 +20,8 @@ import kotlin.math.sqrt
  * Assumes the field constant within a cell and in time, and that the interval between two readings in different cells is
  * spent in the second: sample often on a border. Between cells that do not touch, or after leaving the grid or a reading
  * without a value in another cell, the sensor's state is taken as unknown. A reading farther than [FARTHEST] widths of
- * the prior from its middle is not used and counts as a conflict. With a dead time, a second-order or a slew-limited
- * response values are biased and the intervals too short.
+ * the prior from its middle is not used and counts as a conflict. With an asymmetric or second-order response or a dead
+ * time values are biased; once the readings show that, [isExplained] says so and bounds go back to the prior's.
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
@@ -68,6 +68,14 @@ public class SelfCalibratingEstimator(
 
     /** The most likely time constant τ, s. */
     public val timeConstant: Double get() = exp(bank.node + offset)
+
+    /**
+     * Whether a first-order sensor explains the readings: successive innovations are not clearly alike. Where it does
+     * not, values are the best that such a sensor gives and the map's bounds are the prior's. True until there is
+     * evidence against it.
+     */
+    public var isExplained: Boolean = true
+        private set
 
     /** Standard deviation of ln τ: the relative uncertainty of [timeConstant], dimensionless. */
     public val relativeUncertainty: Double get() = 1 / sqrt(information)
@@ -176,7 +184,11 @@ public class SelfCalibratingEstimator(
         val place = offset / bank.step
         val misfit = LagBank.interpolate(bank.misfit(0), bank.misfit(1), bank.misfit(2), place)
         val sum = maxOf(0.0, misfit) + FIRST_FREEDOM * FIRST_NOISE * FIRST_NOISE
-        noiseVariance = sum / (FIRST_FREEDOM + maxOf(0.0, bank.freedom))
+        val freedom = FIRST_FREEDOM + maxOf(0.0, bank.freedom)
+        noiseVariance = sum / freedom
+        // The correlation of white noise has the standard deviation 1/√freedom, eq. (13).
+        val correlation = bank.succession / sum
+        isExplained = freedom < FEWEST_TO_JUDGE || correlation <= LEAST_CORRELATION + DEVIATIONS / sqrt(freedom)
     }
 
     /** Writes what is believed of the cell with [slot] into the map, eq. (12). */
@@ -194,7 +206,10 @@ public class SelfCalibratingEstimator(
         if (!(value - reach).isFinite() || !(value + reach).isFinite()) return
         val cell = visited[slot]
         val prior = map.prior
-        if (value + reach < prior.lower || value - reach > prior.upper) {
+        if (!isExplained) {
+            map.setValue(cell, value.coerceIn(prior.lower, prior.upper))
+            map.setBounds(cell, prior.lower, prior.upper)
+        } else if (value + reach < prior.lower || value - reach > prior.upper) {
             map.setValue(cell, value)
             map.setBounds(cell, value - reach, value + reach)
         } else {
@@ -228,6 +243,11 @@ public class SelfCalibratingEstimator(
         private const val NARROWEST_STEP = 1e-3
         private const val FARTHEST_OFFSET = 2.0
         private const val MOST_ROUNDS = 8
+
+        /** Correlation of successive innovations that speaks against the model: this much and so many deviations. */
+        private const val LEAST_CORRELATION = 0.02
+        private const val DEVIATIONS = 4.5
+        private const val FEWEST_TO_JUDGE = 64
 
         /** 97.5 % quantile of the normal distribution. */
         private const val NORMAL = 1.959963984540054

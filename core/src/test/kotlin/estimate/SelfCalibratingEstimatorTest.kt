@@ -14,6 +14,7 @@ import kotlin.math.ln
 import kotlin.math.pow
 import kotlin.random.Random
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 class SelfCalibratingEstimatorTest {
@@ -53,6 +54,7 @@ class SelfCalibratingEstimatorTest {
                 survey(estimator, FirstOrderLag(constant, 0.5), Random(1), rounds = 4)
                 // The parabola's third order over nodes 0.001 apart, and the floor of the noise.
                 assertEquals(constant, estimator.timeConstant, 1e-3 * constant, "guess $guess")
+                assertTrue(estimator.isExplained)
                 for (cell in truths.indices) assertEquals(truths[cell], estimator.map.value(cell), 1e-4)
             }
         }
@@ -72,11 +74,13 @@ class SelfCalibratingEstimatorTest {
     fun uncertaintyAndNoiseAreWhatTheyAreInManySurveys() {
         var inside = 0
         var insideCells = 0
+        var flagged = 0
         val surveys = 200
         repeat(surveys) { seed ->
             val random = Random(seed + 7_000)
             val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
             survey(estimator, FirstOrderLag(12.0, 0.5), random, rounds = 6, noise = 0.004)
+            if (!estimator.isExplained) flagged++
             if (12.0 in estimator.timeConstantInterval()) inside++
             insideCells += truths.indices.count {
                 truths[it] in estimator.map.lower(it)..estimator.map.upper(it)
@@ -85,10 +89,52 @@ class SelfCalibratingEstimatorTest {
             assertEquals(0.004, estimator.noise, 0.004 * 0.16)
             assertTrue(estimator.relativeUncertainty in 1e-4..0.1, "${estimator.relativeUncertainty}")
         }
+        // Beyond four standard deviations.
+        assertEquals(0, flagged)
         // 95 % of 200, three standard deviations of the count (3.1) either way.
         assertTrue(inside in 181..199, "$inside of $surveys")
         // Cells of one survey share the time constant's error: 1200 of them count as 400 or more.
         assertTrue(insideCells / (6.0 * surveys) in 0.92..0.98, "$insideCells")
+    }
+
+    @Test
+    fun saysSoWhenTheSensorIsAnotherAndGivesNoBoundsThen() {
+        val others = listOf<SensorModel>(
+            // An asymmetric response, a dead time of three samples before a lag, two lags in a row.
+            object : SensorModel {
+                private var state = 0.5
+
+                override fun step(input: Double, dt: Double, conditions: Conditions): Double {
+                    state += (if (input > state) 0.13 else 0.07) * (input - state)
+                    return state
+                }
+            },
+            object : SensorModel {
+                private val lag = FirstOrderLag(10.0, 0.5)
+                private val waiting = ArrayDeque(listOf(0.5, 0.5, 0.5))
+
+                override fun step(input: Double, dt: Double, conditions: Conditions): Double {
+                    waiting.addLast(input)
+                    return lag.step(waiting.removeFirst(), dt, conditions)
+                }
+            },
+            object : SensorModel {
+                private val first = FirstOrderLag(5.0, 0.5)
+                private val second = FirstOrderLag(5.0, 0.5)
+
+                override fun step(input: Double, dt: Double, conditions: Conditions): Double =
+                    second.step(first.step(input, dt, conditions), dt, conditions)
+            },
+        )
+        for ((index, sensor) in others.withIndex()) {
+            val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
+            survey(estimator, sensor, Random(3), rounds = 10, noise = 0.002)
+            assertFalse(estimator.isExplained, "sensor $index")
+            for (cell in truths.indices) {
+                assertEquals(0.0, estimator.map.lower(cell))
+                assertEquals(1.0, estimator.map.upper(cell))
+            }
+        }
     }
 
     @Test

@@ -47,8 +47,12 @@ class MapSummary(private val map: SurveyMap) {
 
     private fun timeConstant(learned: SelfCalibratingEstimator): String {
         val (low, high) = learned.timeConstantInterval()
-        return "${digits(learned.timeConstant)} s (${digits(low)} to ${digits(high)} s at 95 % if the response is of " +
-            "first order)"
+        val constant = "${digits(learned.timeConstant)} s"
+        return if (learned.isExplained) {
+            "$constant (${digits(low)} to ${digits(high)} s at 95 % if the response is of first order)"
+        } else {
+            "$constant, but no sensor of first order explains the readings: its map has no bounds"
+        }
     }
 
     /** What may spoil the map, one sentence each. */
