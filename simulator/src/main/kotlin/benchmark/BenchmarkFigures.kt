@@ -19,21 +19,25 @@ class BenchmarkFigure(val field: String, val name: String, val drawing: Drawing)
 
 /** Draws an experiment as the report draws its Figures 6 and 7. */
 object BenchmarkFigures {
-    private val names = mapOf(Preset.UNIFORM to "figure-6", Preset.GAUSSIAN to "figure-7")
+    private val byField = mapOf(Preset.UNIFORM to "figure-6", Preset.GAUSSIAN to "figure-7")
     private val titles = mapOf(
-        Preset.UNIFORM to "Every cell drawn by itself (the report's Figure 6)",
-        Preset.GAUSSIAN to "Mixture of Gaussians (the report's Figure 7)",
+        Preset.UNIFORM to "Mean error, every cell drawn by itself",
+        Preset.GAUSSIAN to "Mean error, mixture of Gaussians",
     )
+
+    /** Names of the figures' files, without ending, that any run may write. */
+    val names: Collection<String> get() = byField.values
 
     /** One figure for each field of [result]. */
     fun of(result: ExperimentResult): List<BenchmarkFigure> = result.settings.fields.keys.map { field ->
         BenchmarkFigure(
             field = field,
-            name = names[field] ?: "errors-$field",
+            name = byField[field] ?: "errors-$field",
             drawing = ErrorCurves(
                 title = titles[field] ?: field,
-                subtitle = "Mean over ${result.settings.environments} environments and its standard error, " +
-                    "sensor ${result.settings.sensor.name}",
+                subtitle = "Mean over ${result.settings.environments} environments" +
+                    (if (result.settings.environments > 1) ", bands of one standard error" else "") +
+                    ", sensor ${result.settings.sensor.name}",
                 curves = result.curves.filter { it.field == field }.map(::curve),
             ),
         )

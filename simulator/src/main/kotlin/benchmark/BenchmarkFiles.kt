@@ -23,6 +23,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
         directory.stream("results.csv") { out -> CsvTable(out, COLUMNS).use(::rows) }
         directory.stream("extremes.csv") { out -> CsvTable(out, EXTREMES_COLUMNS).use(::extremes) }
         directory.write("sensor.json", result.settings.sensor.toJson() + "\n")
+        directory.retire(BenchmarkFigures.names.flatMap { listOf("$it.svg", "$it.png") })
         val figures = BenchmarkFigures.of(result)
         val drawn: List<Figure> = figures.map { it.drawing }.drawAll()
         val warnings = directory.writeFigures(figures.map { it.name }.zip(drawn))

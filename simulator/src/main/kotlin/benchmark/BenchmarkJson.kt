@@ -45,7 +45,7 @@ object BenchmarkJson {
             for (claim in ReportClaims(result).all()) {
                 addJsonObject {
                     put("claim", claim.text)
-                    put("holds", claim.holds)
+                    put("verdict", claim.verdict.label)
                     put("detail", claim.detail)
                 }
             }

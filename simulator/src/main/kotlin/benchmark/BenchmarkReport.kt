@@ -33,16 +33,26 @@ internal class BenchmarkReport(
         page.summary("Moves", "${settings.moves}, ${settings.samplesPerMove} readings each")
         for ((field, figure) in figures) {
             page.section(figure.title) {
-                figure(figure, "Planners by colour, filters by line. Bands: one standard error of the mean either way.")
+                figure(figure, CAPTION)
                 table(BenchmarkTable.of(result, field), "Mean absolute error at some of the moves")
             }
         }
         val claims = ReportClaims(result).all()
         if (claims.isNotEmpty()) {
             page.section("The report's claims") {
-                paragraph("Held against the mean curves above, at the moves in results.csv.")
+                paragraph(
+                    "Held against the curves above at the moves in results.csv. \"Below\" means by more than two " +
+                        "standard errors of the difference over the environments, which all combinations share.",
+                )
                 table(claimsTable(claims))
             }
+        }
+        page.section("Where the error is left") {
+            paragraph(
+                "A local extreme of the field is above, or below, every cell it shares an edge with. A boat always " +
+                    "enters it from one side of its value, so that a slow sensor tightens one of its bounds only.",
+            )
+            table(extremesTable(), "At move ${settings.checkpoints.last()}; all moves are in extremes.csv")
         }
         page.section("Settings") {
             keyValues(settingsList())
@@ -52,9 +62,17 @@ internal class BenchmarkReport(
     }
 
     private fun claimsTable(claims: List<Claim>) = Table.of(claims) {
+        text("Verdict") { it.verdict.label }
         text("Claim") { it.text }
-        text("Holds") { if (it.holds) "yes" else "no" }
         text("Where") { it.detail }
+    }
+
+    private fun extremesTable() = Table.of(result.curves) {
+        text("Field") { it.field }
+        text("Planner") { it.planner.label }
+        text("Filter") { it.filter.label }
+        number("Local extremes, share of cells", digits = 2) { result.extremeCells.getValue(it.field) }
+        number("Share of the error", digits = 2) { it.summaries.last().shareInExtremes }
     }
 
     private fun settingsList(): List<Pair<String, String>> {
@@ -77,4 +95,10 @@ internal class BenchmarkReport(
     }
 
     private fun String.words() = lowercase().replace('_', ' ')
+
+    private companion object {
+        const val CAPTION =
+            "The report draws this comparison as its Figure 6 (uniform field) and Figure 7 (Gaussian). " +
+                "Planners by colour, filters by line, bands of one standard error of the mean either way."
+    }
 }

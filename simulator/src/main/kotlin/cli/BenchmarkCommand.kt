@@ -58,14 +58,23 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         metavar = "NAMES",
         help = "planners to compare: ${PlannerKind.entries.joinToString(", ") { it.label }}",
     ).someOf(PlannerKind.entries.associateBy { it.label })
-    private val environments by option("--environments", metavar = "N", help = "random fields of each kind")
+    private val environments by option(
+        "--environments",
+        metavar = "N",
+        help = "random fields of each kind; 100 unless given",
+    )
         .wholeNumber("a whole number within 1..1000000") { it in 1..MILLION }
-    private val moves by option("--moves", metavar = "N", help = "moves in a trial; the first is the start cell")
+    private val moves by option(
+        "--moves",
+        metavar = "N",
+        help = "moves in a trial, the first is the start cell; 2000 unless given, original 500",
+    )
         .wholeNumber("a whole number within 1..100000000") { it in 1..MOST_MOVES }
     private val checkpoints by option(
         "--checkpoints",
         metavar = "MOVES",
-        help = "moves at which errors are taken, such as 50,100,200; without it about a dozen in every decade",
+        help = "moves at which errors are taken, such as 50,100,200, the last of which sets --moves unless that is " +
+            "given; without it about a dozen in every decade",
     ).convert { text ->
         val moves = text.split(',').map { it.trim().toIntOrNull() ?: 0 }
         val ascend = moves.zipWithNext().all { (before, after) -> before < after }
@@ -74,17 +83,27 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         }
         moves
     }
-    private val grid by option("--grid", metavar = "COLSxROWS", help = "size of the fields in cells")
+    private val grid by option(
+        "--grid",
+        metavar = "COLSxROWS",
+        help = "size of the fields in cells; 10x10 unless given",
+    )
         .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
             columns >= 1 && rows >= 1 && columns % 1 == 0.0 && rows % 1 == 0.0 && columns * rows <= MILLION
         }
-    private val samples by option("--samples", metavar = "N", help = "readings in a cell before the boat moves on")
+    private val samples by option(
+        "--samples",
+        metavar = "N",
+        help = "readings in a cell before the boat moves on; 10 unless given",
+    )
         .wholeNumber("a whole number within 1..1000000") { it in 1..MILLION }
     private val epsilon by option(
         "--epsilon",
         metavar = "NUMBER",
-        help = "slope per reading that the bounded filter takes for noise",
+        help = "slope per second that the bounded filter takes for noise; 0.0005 unless given, noisy 0.002, original 0",
     ).number("a number of at least 0") { it >= 0 }
+    private val period by option("--period", metavar = "SECONDS", help = "time between readings; 1 unless given")
+        .number("a number of seconds above 0") { it > 0 }
     private val sensorOptions by SensorOptions()
     private val filterOptions by BoundedFilterOptions()
     private val lagOptions by LagFilterOptions()
@@ -162,7 +181,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             terminal.println()
         }
         for (claim in ReportClaims(result).all()) {
-            echo("${if (claim.holds) "holds" else "fails"}: ${claim.text} (${claim.detail})")
+            echo("${claim.verdict.label}: ${claim.text} (${claim.detail})")
         }
     }
 
@@ -187,7 +206,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
                 filters = filters ?: base.filters,
                 planners = planners ?: base.planners,
-                sensor = sensorOptions.applied(base.sensor, base.period),
+                sensor = sensorOptions.applied(base.sensor, period ?: base.period),
                 boundedFilter = filterOptions.applied(
                     base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
                 ),
@@ -198,6 +217,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 moves = trialMoves,
                 checkpoints = checkpoints ?: Checkpoints.upTo(trialMoves),
                 samplesPerMove = samples ?: base.samplesPerMove,
+                period = period ?: base.period,
                 seed = seed,
             )
         } catch (unfit: IllegalArgumentException) {
@@ -218,6 +238,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             "--grid" to grid?.let { (columns, rows) -> "${columns.toInt()}x${rows.toInt()}" },
             "--samples" to samples,
             "--epsilon" to epsilon,
+            "--period" to period,
             "--seed" to seed,
         )
         val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags()

@@ -28,7 +28,8 @@ internal object HtmlStyle {
         .caption { margin: 0 0 .4rem; }
         .scroll { overflow-x: auto; }
         table { border-collapse: collapse; min-width: 100%; font-size: .93rem; }
-        th, td { padding: .35rem .8rem; text-align: left; border-bottom: 1px solid var(--line); white-space: nowrap; }
+        th, td { padding: .35rem .8rem; text-align: left; border-bottom: 1px solid var(--line); vertical-align: top; }
+        th, .number { white-space: nowrap; }
         th { color: var(--muted); font-weight: 600; border-bottom-width: 2px; }
         tbody tr:last-child td { border-bottom: 0; }
         .number { text-align: right; font-variant-numeric: tabular-nums; }

@@ -35,6 +35,7 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
     private val createdParents = ArrayList<Path>()
     private val staging: Path
     private val names = ArrayList<String>()
+    private val retired = LinkedHashSet<String>()
     private val removal = Thread({ discard() }, "remove unfinished output")
     private val lock = Any()
     private var isOpen = true
@@ -77,6 +78,14 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
     }
 
     /**
+     * Names files of an earlier run that must not stand beside this run's results: those of [names] that were not written
+     * are removed on [commit].
+     */
+    public fun retire(names: Collection<String>) {
+        retired += names
+    }
+
+    /**
      * Moves everything written into place, in the order of writing.
      *
      * @return the files' paths, [directory] first in each, in that order.
@@ -95,6 +104,7 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
                     move(staging.resolve(name), place)
                 }
                 Files.createDirectories(target)
+                for (name in retired - names.toSet()) Files.deleteIfExists(target.resolve(name))
             }
             createdParents.clear()
         } finally {

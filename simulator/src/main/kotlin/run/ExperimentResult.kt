@@ -29,6 +29,19 @@ class Curve(
         return summaries[index]
     }
 
+    /**
+     * How much larger this curve's error is than [other]'s at [move], environment by environment; both met the same
+     * fields, so that what the fields have in common cancels.
+     */
+    fun excessOver(other: Curve, move: Int): ErrorDifference {
+        val index = checkpoints.indexOf(move)
+        require(index >= 0 && other.checkpoints == checkpoints) { "move ($move) must be a checkpoint of both curves" }
+        val differences = DoubleArray(errors.size) { errors[it].mean[index] - other.errors[it].mean[index] }
+        val statistics = DescriptiveStatistics(differences)
+        val spread = statistics.standardDeviation / sqrt(errors.size.toDouble())
+        return ErrorDifference(statistics.mean, if (errors.size < 2) Double.NaN else spread)
+    }
+
     private fun summary(checkpoint: Int): ErrorSummary {
         val statistics = DescriptiveStatistics(DoubleArray(errors.size) { errors[it].mean[checkpoint] })
         val spread = statistics.standardDeviation / sqrt(errors.size.toDouble())
@@ -60,6 +73,24 @@ data class ErrorSummary(
     val p90: Double,
     val shareInExtremes: Double,
 )
+
+/**
+ * How far apart two combinations are at one checkpoint.
+ *
+ * @property mean mean over the environments of the difference of their mean absolute errors, sensor units.
+ * @property standardError standard error of [mean], sensor units; NaN for one environment.
+ */
+data class ErrorDifference(val mean: Double, val standardError: Double) {
+    /** Whether the difference is positive by more than two standard errors. */
+    val clearlyPositive: Boolean get() = mean > CLEAR * standardError
+
+    /** Whether the difference is negative by more than two standard errors. */
+    val clearlyNegative: Boolean get() = mean < -CLEAR * standardError
+
+    private companion object {
+        const val CLEAR = 2.0
+    }
+}
 
 /**
  * What an [Experiment] found.

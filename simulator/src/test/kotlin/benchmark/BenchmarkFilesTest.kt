@@ -4,7 +4,6 @@ import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonObject
-import kotlinx.serialization.json.boolean
 import kotlinx.serialization.json.double
 import kotlinx.serialization.json.int
 import kotlinx.serialization.json.jsonArray
@@ -135,7 +134,7 @@ class BenchmarkFilesTest {
         val claims = json.getValue("claims").jsonArray.map { it.jsonObject }
         val expected = ReportClaims(result).all()
         assertEquals(expected.map { it.text }, claims.map { it.getValue("claim").jsonPrimitive.content })
-        assertEquals(expected.map { it.holds }, claims.map { it.getValue("holds").jsonPrimitive.boolean })
+        assertEquals(expected.map { it.verdict.label }, claims.map { it.getValue("verdict").jsonPrimitive.content })
         assertEquals(expected.map { it.detail }, claims.map { it.getValue("detail").jsonPrimitive.content })
         val file = json.getValue("files").jsonArray.single().jsonPrimitive.content
         assertEquals(Path.of("a b", "results.csv"), Path.of(file))

@@ -25,15 +25,15 @@ class ReportClaimsTest {
             listOf(
                 "uniform: random walk with the bounded filter is eventually lowest",
                 "gaussian: random walk with the bounded filter is eventually lowest",
-                "uniform: lawnmower with the bounded filter is good at first, then stays above zero",
-                "gaussian: lawnmower with the bounded filter is good at first, then stays above zero",
-                "uniform: bounded planner beats the random walk only for a while (bounded filter)",
-                "gaussian: bounded planner beats the random walk only for a while (bounded filter)",
+                "uniform: lawnmower is good at first, then stays above zero with the bounded filter",
+                "gaussian: lawnmower is good at first, then stays above zero with the bounded filter",
+                "uniform: bounded planner beats the random walk for a while, not in the long run (bounded filter)",
+                "gaussian: bounded planner beats the random walk for a while, not in the long run (bounded filter)",
                 "averaging suffers more from the lag where cells are independent (random walk)",
             ),
             all.map { it.text },
         )
-        assertTrue(all.all { it.holds }, "$all")
+        assertTrue(all.all { it.verdict == Verdict.HOLDS }, "$all")
     }
 
     @Test
@@ -43,7 +43,7 @@ class ReportClaimsTest {
             curve(PLANNER, BOUNDED, 0.3, 0.15, 0.06)
             curve(LAWNMOWER, AVERAGING, 0.1, 0.12, 0.2)
         }
-        assertTrue(claim.holds)
+        assertEquals(Verdict.HOLDS, claim.verdict)
         assertEquals("lowest from move 100 on", claim.detail)
     }
 
@@ -54,8 +54,11 @@ class ReportClaimsTest {
             curve(PLANNER, BOUNDED, 0.3, 0.15, 0.06)
             curve(LAWNMOWER, AVERAGING, 0.4, 0.2, 0.04)
         }
-        assertFalse(claim.holds)
-        assertEquals("at move 200 lawnmower with averaging is lower: 0.0400 against 0.0500", claim.detail)
+        assertEquals(Verdict.UNDECIDED, claim.verdict, "2 moves a cell are not the long run")
+        assertEquals(
+            "still lower is lawnmower with averaging at move 200: 0.0400 against 0.0500; run more --moves",
+            claim.detail,
+        )
     }
 
     @Test
@@ -64,8 +67,11 @@ class ReportClaimsTest {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.0625)
             curve(PLANNER, BOUNDED, 0.3, 0.15, 0.0625)
         }
-        assertFalse(claim.holds)
-        assertEquals("at move 200 bounded with bounded is as low: 0.0625", claim.detail)
+        assertEquals(Verdict.UNDECIDED, claim.verdict)
+        assertEquals(
+            "too close to bounded with bounded at move 200: 0.0625 against 0.0625; run more --moves or --environments",
+            claim.detail,
+        )
     }
 
     @Test
@@ -74,8 +80,11 @@ class ReportClaimsTest {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
             curve(LAWNMOWER, BOUNDED, 0.15, 0.125, 0.125)
         }
-        assertTrue(claim.holds)
-        assertEquals("below the walk at move 50; constant 0.1250 from move 100 on", claim.detail)
+        assertEquals(Verdict.HOLDS, claim.verdict)
+        assertEquals(
+            "bounded: below the walk at moves 50; bounded: 0.1250 at move 200, the same within 1 % since move 100",
+            claim.detail,
+        )
     }
 
     @Test
@@ -83,7 +92,7 @@ class ReportClaimsTest {
         fun holds(vararg lawnmower: Double) = claim("lawnmower") {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
             curve(LAWNMOWER, BOUNDED, *lawnmower)
-        }.holds
+        }.verdict == Verdict.HOLDS
         assertFalse(holds(0.25, 0.125, 0.125), "never better")
         assertFalse(holds(0.15, 0.13, 0.12), "still falling")
         assertFalse(holds(0.15, 0.04, 0.04), "better to the end")
@@ -95,8 +104,8 @@ class ReportClaimsTest {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
             curve(PLANNER, BOUNDED, 0.1, 0.09, 0.06)
         }
-        assertTrue(claim.holds)
-        assertEquals("below the walk at moves 50 to 100", claim.detail)
+        assertEquals(Verdict.HOLDS, claim.verdict)
+        assertEquals("below the walk at moves 50 to 100; at move 200 0.0600 against 0.0500", claim.detail)
     }
 
     @Test
@@ -105,14 +114,14 @@ class ReportClaimsTest {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
             curve(PLANNER, BOUNDED, 0.3, 0.2, 0.1)
         }
-        assertFalse(never.holds)
-        assertEquals("below the walk at no checkpoint", never.detail)
+        assertEquals(Verdict.UNDECIDED, never.verdict)
+        assertEquals("below the walk at no checkpoint; at move 200 0.1000 against 0.0500", never.detail)
         val always = claim("bounded planner") {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
             curve(PLANNER, BOUNDED, 0.1, 0.05, 0.04)
         }
-        assertFalse(always.holds)
-        assertEquals("below the walk at moves 50 to 200", always.detail)
+        assertEquals(Verdict.UNDECIDED, always.verdict)
+        assertEquals("below the walk at moves 50 to 200; at move 200 0.0400 against 0.0500", always.detail)
     }
 
     private fun averaging(uniform: Double, gaussian: Double, bounded: Double = 0.05) = claim("averaging suffers") {
@@ -125,12 +134,13 @@ class ReportClaimsTest {
     @Test
     fun averagingSuffersMoreWhereItsShareOfTheBoundedFiltersErrorIsLarger() {
         val holds = averaging(uniform = 0.2, gaussian = 0.1)
-        assertTrue(holds.holds)
+        assertEquals(Verdict.HOLDS, holds.verdict)
         assertEquals(
-            "averaging is 4.0 times worse in the uniform field, 2.0 times in the Gaussian, at move 200",
+            "averaging has 4.0 times the bounded filter's error in the uniform field, 2.0 times in the Gaussian, " +
+                "at move 200",
             holds.detail,
         )
-        assertFalse(averaging(uniform = 0.1, gaussian = 0.2).holds)
+        assertEquals(Verdict.FAILS, averaging(uniform = 0.1, gaussian = 0.2).verdict)
     }
 
     @Test
@@ -151,12 +161,15 @@ class ReportClaimsTest {
 
     @Test
     fun numbersHaveAPointInEveryLanguage() {
+        fun details() = ReportClaims(HandMadeResult.likeTheReport()).all().map { it.detail }
+        val english = details()
+        assertContains(english, "below the walk at moves 50 to 100; constant 0.0938 from move 100 on")
         val before = Locale.getDefault()
         try {
-            Locale.setDefault(Locale.GERMANY)
-            assertContains(averaging(0.2, 0.1).detail, "4.0 times")
-            Locale.setDefault(Locale.forLanguageTag("ar-EG"))
-            assertContains(averaging(0.2, 0.1).detail, "4.0 times")
+            for (language in listOf("de-DE", "ar-EG")) {
+                Locale.setDefault(Locale.forLanguageTag(language))
+                assertEquals(english, details(), language)
+            }
         } finally {
             Locale.setDefault(before)
         }
@@ -169,7 +182,7 @@ class ReportClaimsTest {
                 for (planner in listOf(WALK, LAWNMOWER, PLANNER)) curve(planner, BOUNDED, odd, odd, odd)
             }
             assertEquals(3, claims.size)
-            assertTrue(claims.none { it.holds }, "$claims")
+            assertTrue(claims.none { it.verdict == Verdict.HOLDS }, "$claims")
         }
     }
 
@@ -184,5 +197,21 @@ class ReportClaimsTest {
             build()
         }
         assertEquals(emptyList(), ReportClaims(result).all().filter { "averaging suffers" in it.text })
+    }
+
+    @Test
+    fun runsOfMovesShowTheirGaps() {
+        val claim = claim("bounded planner") {
+            curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
+            curve(PLANNER, BOUNDED, 0.1, 0.2, 0.04)
+        }
+        assertContains(claim.detail, "below the walk at moves 50, 200;")
+    }
+
+    @Test
+    fun oneEnvironmentDecidesNothingAboutCurves() {
+        val result = HandMadeResult.likeTheReport(environments = 1)
+        val verdicts = ReportClaims(result).all().filter { "averaging suffers" !in it.text }.map { it.verdict }
+        assertEquals(List(6) { Verdict.UNDECIDED }, verdicts)
     }
 }

@@ -27,7 +27,7 @@ class PlannerSurpriseTest {
 
     @Test
     fun planningAgainInEveryCellStallsWhereWholePathsDoNot() {
-        val report = Preset.REPORT.settings().copy(moves = 500)
+        val report = Preset.REPORT.settings().copy(moves = 500, checkpoints = listOf(500))
         val whole = run(report, PlannerKind.BOUNDED, PathChoice.BEST, Execution.WHOLE_PATH)
         val single = run(report, PlannerKind.BOUNDED, PathChoice.BEST, Execution.SINGLE_STEP)
         assertClearlyBelow(whole, single)

@@ -3,6 +3,7 @@ package stillwater.reproduction
 import kotlinx.coroutines.runBlocking
 import org.junit.jupiter.api.TestInstance
 import stillwater.benchmark.ReportClaims
+import stillwater.benchmark.Verdict
 import stillwater.run.Curve
 import stillwater.run.Experiment
 import stillwater.run.ExperimentResult
@@ -86,7 +87,7 @@ class ReportClaimsTest {
     fun theReportOnTheClaimsSaysThatAllHold() {
         val claims = ReportClaims(result).all()
         assertEquals(7, claims.size, "three for each field and one for both: $claims")
-        assertTrue(claims.all { it.holds }, "seed $SEED: $claims")
+        assertTrue(claims.all { it.verdict == Verdict.HOLDS }, "seed $SEED: $claims")
     }
 
     private fun curve(field: String, planner: PlannerKind, filter: FilterKind): Curve =
