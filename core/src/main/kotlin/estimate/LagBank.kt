@@ -153,7 +153,8 @@ internal class LagBank {
     private fun recall(at: Int, place: Double) = interpolate(memory, at, 1, place)
 
     private fun begin() {
-        for (at in 0 until NODES * STRIDE step STRIDE) {
+        for (i in 0 until NODES) {
+            val at = i * STRIDE
             states.fill(0.0, at, at + MISFIT)
             states[at + SS] = priorVariance
             states[at + PP] = priorVariance
@@ -165,7 +166,8 @@ internal class LagBank {
     }
 
     private fun enter() {
-        for (at in 0 until NODES * STRIDE step STRIDE) {
+        for (i in 0 until NODES) {
+            val at = i * STRIDE
             states[at + Q] = states[at + P]
             states[at + QQ] = states[at + PP]
             states[at + SQ] = states[at + SP]
@@ -238,10 +240,13 @@ internal class LagBank {
     /** Rewrites the slot at [at] for the present nodes. */
     private fun rewrite(at: Int) {
         if (memory[at + NODE] == node && memory[at + STEP] == step) return
-        for (start in MEAN..INFORMATION step NODES) {
-            for (i in 0 until NODES) remapped[i] = recall(at + start, nodeOf(at, i))
-            for (i in 0 until NODES) memory[at + start + i] = remapped[i]
-        }
+        rewrite(at, MEAN)
+        rewrite(at, INFORMATION)
+    }
+
+    private fun rewrite(at: Int, start: Int) {
+        for (i in 0 until NODES) remapped[i] = recall(at + start, nodeOf(at, i))
+        for (i in 0 until NODES) memory[at + start + i] = remapped[i]
     }
 
     companion object {
