@@ -8,6 +8,7 @@ import com.github.ajalt.clikt.core.parse
 import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.parameters.options.versionOption
 import stillwater.report.Program
+import java.nio.file.InvalidPathException
 import kotlin.system.exitProcess
 
 /** The `stillwater` command; its work is in its subcommands. */
@@ -30,5 +31,16 @@ fun main(args: Array<String>) {
     } catch (error: CliktError) {
         command.echoFormattedHelp(error)
         exitProcess(error.statusCode)
+    } catch (path: InvalidPathException) {
+        fail("'${path.input}' cannot be a path in this locale (${path.reason}); set LC_ALL=C.UTF-8")
+    } catch (_: OutOfMemoryError) {
+        val megabytes = Runtime.getRuntime().maxMemory() / (1L shl 20)
+        fail("$megabytes MB of memory are not enough; give Java more (java -Xmx2g -jar ...) or ask for fewer cells")
     }
+    if (System.out.checkError()) fail("standard output could not be written")
+}
+
+private fun fail(message: String): Nothing {
+    System.err.println("stillwater: $message")
+    exitProcess(BAD_INPUT)
 }

@@ -61,7 +61,7 @@ class BenchmarkFilesTest {
             ),
             write(result),
         )
-        assertContains(out.resolve("figure-7.svg").readText(), "Figure 7")
+        assertContains(out.resolve("figure-7.svg").readText(), "mixture of Gaussians")
         assertEquals("PNG", String(out.resolve("figure-6.png").readBytes(), 1, 3, Charsets.US_ASCII))
         assertEquals(result.settings.sensor, SensorSpec.fromJson(out.resolve("sensor.json").readText()))
     }

@@ -64,7 +64,7 @@ class BenchmarkTableTest {
         val figure = BenchmarkFigures.of(result).first()
         assertIs<ErrorCurves>(figure.drawing)
         val svg = figure.drawing.draw().svg
-        assertContains(svg, "Figure 6")
+        assertContains(svg, "every cell drawn by itself")
         assertContains(svg, "2 environments")
         assertContains(svg, "first-order-lag")
     }

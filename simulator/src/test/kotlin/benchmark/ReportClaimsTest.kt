@@ -163,7 +163,9 @@ class ReportClaimsTest {
     fun numbersHaveAPointInEveryLanguage() {
         fun details() = ReportClaims(HandMadeResult.likeTheReport()).all().map { it.detail }
         val english = details()
-        assertContains(english, "below the walk at moves 50 to 100; constant 0.0938 from move 100 on")
+        val lawnmower = "bounded: below the walk at moves 50 to 100; " +
+            "bounded: 0.0938 at move 200, the same within 1 % since move 100"
+        assertContains(english, lawnmower)
         val before = Locale.getDefault()
         try {
             for (language in listOf("de-DE", "ar-EG")) {

@@ -4,8 +4,10 @@ import kotlinx.coroutines.runBlocking
 import stillwater.benchmark.BenchmarkTable
 import stillwater.run.Experiment
 import stillwater.run.Preset
+import stillwater.sensor.SensorSpec
 import java.io.File
 import kotlin.test.Test
+import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
 /** What the README says the program prints is what it prints. */
@@ -30,5 +32,11 @@ class ReadmeTest {
     fun itNamesTheTwoCommandsAndTheLicence() {
         val run = "mvn -q -pl simulator -am -DskipTests package && java -jar simulator/target/stillwater.jar benchmark"
         for (text in listOf(run, "mvn verify", "Apache-2.0")) assertTrue(text in readme, text)
+    }
+
+    @Test
+    fun theSensorSpecIsOne() {
+        val json = readme.substringAfter("```json\n").substringBefore("```")
+        assertEquals(4, SensorSpec.fromJson(json).stages.size)
     }
 }
