@@ -41,6 +41,7 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         lastSeconds = time.seconds
         val cell = grid.cellAt(x, y)
         if (cell == Grid.OUTSIDE) {
+            if (lastCell != Grid.OUTSIDE) leave()
             lastCell = Grid.OUTSIDE
             map.countOutside()
             return ReadingUse.OUTSIDE
@@ -56,8 +57,16 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     /** Notices that the boat left the last cell from a reading that has no value but a time and a place. */
     private fun noticeMove(time: BoatTime, x: Double, y: Double) {
         if (!time.seconds.isFinite() || time.seconds < lastSeconds || !x.isFinite() || !y.isFinite()) return
-        if (grid.cellAt(x, y) != lastCell) lastCell = Grid.OUTSIDE
+        if (lastCell == Grid.OUTSIDE || grid.cellAt(x, y) == lastCell) return
+        lastCell = Grid.OUTSIDE
+        leave()
     }
+
+    /**
+     * Notices that the boat left the last cell without a reading of where it went: what the sensor saw between the last
+     * reading taken and the next is not known.
+     */
+    protected open fun leave() {}
 
     /**
      * Takes a reading that is finite, in order and in the grid.

@@ -10,6 +10,9 @@ import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.CrossingPolicy
 import stillwater.estimate.ExponentialFilter
 import stillwater.estimate.FieldEstimator
+import stillwater.estimate.IntervalFilter
+import stillwater.estimate.IntervalFilterSettings
+import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
@@ -80,6 +83,8 @@ class AllocationTest {
         val filters = listOf<Pair<String, FieldEstimator>>(
             "averaging" to AveragingFilter(grid, Interval.UNIT),
             "exponential" to ExponentialFilter(grid, Interval.UNIT),
+            "interval" to IntervalFilter(grid, Interval.UNIT, IntervalFilterSettings(30.0, 0.01)),
+            "self-calibrating" to SelfCalibratingEstimator(grid, Interval.UNIT),
             "bounded, uncleared" to BoundedFilter(grid, Interval.UNIT, settings.copy(clearOnEntry = false)),
         ) + CrossingPolicy.entries.map {
             "bounded, $it" to BoundedFilter(grid, Interval.UNIT, settings.copy(crossing = it))

@@ -106,6 +106,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         .number("a number of seconds above 0") { it > 0 }
     private val sensorOptions by SensorOptions()
     private val filterOptions by BoundedFilterOptions()
+    private val lagOptions by LagFilterOptions()
     private val plannerOptions by PlannerOptions()
     private val seed by option(
         "--seed",
@@ -209,6 +210,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 boundedFilter = filterOptions.applied(
                     base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
                 ),
+                lagFilters = lagOptions.applied(base.lagFilters),
                 plannerSettings = chosenPlanners,
                 grid = cells,
                 environments = environments ?: base.environments,
@@ -239,7 +241,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             "--period" to period,
             "--seed" to seed,
         )
-        val grouped = sensorOptions.flags() + filterOptions.flags() + plannerOptions.flags()
+        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags()
         return commandLineText("stillwater benchmark", null, own + grouped)
     }
 

@@ -19,6 +19,7 @@ import stillwater.model.Interval
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
 import stillwater.run.FilterKind
+import stillwater.run.LagFilterSettings
 import stillwater.survey.GridWish
 import stillwater.survey.MapFiles
 import stillwater.survey.MapJson
@@ -40,10 +41,11 @@ class MapCommand : CliktCommand("map") {
         .default("stillwater-map")
     private val logOptions by LogOptions()
     private val filterOptions by BoundedFilterOptions()
+    private val lagOptions by LagFilterOptions()
     private val filters by option(
         "--filter",
         metavar = "NAMES",
-        help = "filters to run: averaging, exponential, bounded",
+        help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}",
     ).someOf(FilterKind.entries.associateBy { it.label })
         .default(listOf(FilterKind.AVERAGING, FilterKind.BOUNDED), defaultForHelp = "averaging,bounded")
     private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
@@ -157,6 +159,7 @@ class MapCommand : CliktCommand("map") {
         calibrate = calibrate?.let { (from, to) -> Stretch(from, to) },
         boundedFilter = filterOptions.applied(MapSettings().boundedFilter),
         unit = unit,
+        lagFilters = lagOptions.applied(LagFilterSettings()),
     )
 
     private fun commandLine(): String {
@@ -171,7 +174,11 @@ class MapCommand : CliktCommand("map") {
             "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
             "--unit" to unit,
         )
-        return commandLineText("stillwater map", log, logOptions.flags() + own + filterOptions.flags())
+        return commandLineText(
+            "stillwater map",
+            log,
+            logOptions.flags() + own + filterOptions.flags() + lagOptions.flags(),
+        )
     }
 
     private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)

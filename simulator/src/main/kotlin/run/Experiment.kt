@@ -60,7 +60,9 @@ class Experiment(val settings: ExperimentSettings) {
                     field = field,
                     sensor = settings.sensor.build(field.truth(start), seeds.random("noise $stream", environment)),
                     planner = planner.planner(seeds.random("planner $stream", environment), settings.plannerSettings),
-                    estimators = group.map { it.estimator(settings.grid, settings.prior, settings.boundedFilter) },
+                    estimators = group.map {
+                        it.estimator(settings.grid, settings.prior, settings.boundedFilter, settings.lagFilters)
+                    },
                     samplesPerMove = settings.samplesPerMove,
                     period = settings.period,
                 )

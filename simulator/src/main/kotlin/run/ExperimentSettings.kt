@@ -15,6 +15,7 @@ import stillwater.world.RandomField
  * @property planners planners under comparison.
  * @property sensor the boat's sensor.
  * @property boundedFilter settings of every bounded filter.
+ * @property lagFilters what the filters that reckon with a lag may assume.
  * @property plannerSettings settings of the planners.
  * @property grid cells of every field.
  * @property prior range of a cell before it is measured, sensor units.
@@ -32,6 +33,7 @@ data class ExperimentSettings(
     val planners: List<PlannerKind>,
     val sensor: SensorSpec,
     val boundedFilter: BoundedFilterSettings,
+    val lagFilters: LagFilterSettings = LagFilterSettings(),
     val plannerSettings: PlannerSettings = PlannerSettings(),
     val grid: Grid = Grid.unit(10, 10),
     val prior: Interval = Interval.UNIT,

@@ -5,6 +5,8 @@ import stillwater.estimate.BoundedFilter
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.ExponentialFilter
 import stillwater.estimate.FieldEstimator
+import stillwater.estimate.IntervalFilter
+import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.model.Grid
 import stillwater.model.Interval
 
@@ -23,12 +25,25 @@ enum class FilterKind(val label: String, val givesBounds: Boolean) {
 
     /** The report's bounded filter. */
     BOUNDED("bounded", givesBounds = true),
+
+    /** Bounds from a limit of the response's slowness. */
+    INTERVAL("interval", givesBounds = true),
+
+    /** Learns the time constant on the way; its bounds are credible at 95 %. */
+    SELF_CALIBRATING("self-calibrating", givesBounds = true),
     ;
 
-    /** A filter of this kind over [grid]; [settings] count for the bounded one only. */
-    fun estimator(grid: Grid, prior: Interval, settings: BoundedFilterSettings): FieldEstimator = when (this) {
+    /** A filter of this kind over [grid]; [settings] count for the bounded one, [lag] for those after it. */
+    fun estimator(
+        grid: Grid,
+        prior: Interval,
+        settings: BoundedFilterSettings,
+        lag: LagFilterSettings = LagFilterSettings(),
+    ): FieldEstimator = when (this) {
         AVERAGING -> AveragingFilter(grid, prior)
         EXPONENTIAL -> ExponentialFilter(grid, prior)
         BOUNDED -> BoundedFilter(grid, prior, settings)
+        INTERVAL -> IntervalFilter(grid, prior, lag.interval)
+        SELF_CALIBRATING -> SelfCalibratingEstimator(grid, prior, lag.selfCalibrating)
     }
 }

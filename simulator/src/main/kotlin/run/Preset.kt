@@ -1,6 +1,7 @@
 package stillwater.run
 
 import stillwater.estimate.BoundedFilterSettings
+import stillwater.estimate.IntervalFilterSettings
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Neighbours
@@ -33,17 +34,20 @@ enum class Preset(val label: String, val describes: String) {
 
     /** The comparison itself. */
     fun settings(): ExperimentSettings = when (this) {
-        REPORT -> report(SensorSpec("first-order-lag", listOf(LAG)), epsilon = 5e-4)
-        NOISY -> report(SensorSpec("noisy-lag", listOf(LAG, NOISE, QUANTUM)), epsilon = 2e-3)
+        REPORT -> report(SensorSpec("first-order-lag", listOf(LAG)), epsilon = 5e-4, readingError = 0.0)
+        // Half a quantum, and four standard deviations of the noise: one reading in 16 000 is farther off.
+        NOISY -> report(SensorSpec("noisy-lag", listOf(LAG, NOISE, QUANTUM)), epsilon = 2e-3, readingError = 0.0105)
         ORIGINAL -> original()
     }
 
-    private fun report(sensor: SensorSpec, epsilon: Double) = ExperimentSettings(
+    private fun report(sensor: SensorSpec, epsilon: Double, readingError: Double) = ExperimentSettings(
         fields = mapOf(UNIFORM to UniformField, GAUSSIAN to GaussianMixtureField),
         filters = listOf(FilterKind.BOUNDED, FilterKind.AVERAGING),
         planners = PlannerKind.entries,
         sensor = sensor,
         boundedFilter = BoundedFilterSettings(epsilon),
+        // Three times the sensor's time constant, about.
+        lagFilters = LagFilterSettings(IntervalFilterSettings(longestTimeConstant = 30.0, readingError)),
     )
 
     /** The gradient is the sensor's last change, whatever cell it comes from; the average is exponential. */
@@ -53,6 +57,8 @@ enum class Preset(val label: String, val describes: String) {
         planners = PlannerKind.entries,
         sensor = SensorSpec("slew-limit", listOf(SensorStage.Slew(rate = 0.01))),
         boundedFilter = BoundedFilterSettings(epsilon = 0.0, medianWindow = 1, slopeWindow = 2, clearOnEntry = false),
+        // 0.01 a second and at most 1 to go: never slower than a lag of 100 s.
+        lagFilters = LagFilterSettings(IntervalFilterSettings(longestTimeConstant = 100.0)),
         plannerSettings = PlannerSettings(
             walk = WalkSteps.DIAGONAL_CLAMPED,
             pattern = LawnmowerPattern.RASTER,

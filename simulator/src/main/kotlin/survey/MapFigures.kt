@@ -100,12 +100,16 @@ class MapFigures(private val map: SurveyMap) {
     private fun estimate(kind: FilterKind, field: FieldMap): MapFigure {
         val isBounded = kind == FilterKind.BOUNDED
         val title = "$quantity, ${kind.label} filter"
-        val caption = when {
-            isBounded ->
+        val caption = when (kind) {
+            FilterKind.BOUNDED ->
                 "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is " +
                     "that of the range taken for the water. Of ${counts(field)}."
-            kind == FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
-            else -> "Exponential average of the readings in each visited cell."
+            FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
+            FilterKind.EXPONENTIAL -> "Exponential average of the readings in each visited cell."
+            FilterKind.INTERVAL ->
+                "Midpoint of the bounds that hold for every sensor no slower than was said, in each visited cell."
+            FilterKind.SELF_CALIBRATING ->
+                "The water's value in each visited cell at the time constant that explains all readings best."
         }
         val value: (Int) -> Double = { field.measuredValue(kind, it) }
         val figure = if (map.log.oneDimensional) {

@@ -2,6 +2,7 @@ package stillwater.survey
 
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.EpsilonCalibration
+import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
@@ -10,6 +11,7 @@ import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.run.FilterKind
+import stillwater.run.LagFilterSettings
 
 /**
  * How to make maps out of a log; what is null is chosen from the log.
@@ -21,6 +23,7 @@ import stillwater.run.FilterKind
  * @property calibrate stretch to find epsilon on, where [epsilon] is null; null for the quietest.
  * @property boundedFilter settings of the bounded filter; its epsilon stands back behind [epsilon].
  * @property unit unit of the quantity, as it is to be shown.
+ * @property lagFilters what the filters that reckon with a lag may assume.
  */
 data class MapSettings(
     val filters: List<FilterKind> = FilterKind.entries,
@@ -30,6 +33,7 @@ data class MapSettings(
     val calibrate: Stretch? = null,
     val boundedFilter: BoundedFilterSettings = BoundedFilterSettings(epsilon = 0.0),
     val unit: String? = null,
+    val lagFilters: LagFilterSettings = LagFilterSettings(),
 )
 
 /**
@@ -41,6 +45,7 @@ data class MapSettings(
  * @property bounded settings of the bounded filter, or null where it did not run.
  * @property maps the filters' maps, in the order asked for.
  * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
+ * @property learned the estimator that learned the time constant, or null where it did not run.
  * @property legs the straight legs. @property mismatch their comparison, or null where there is too little.
  * @property rangeGiven whether the user gave [prior]. @property outsideRange readings outside [prior].
  * @property epsilonGiven whether the user gave the bounded filter's epsilon.
@@ -66,6 +71,7 @@ class SurveyMap internal constructor(
     val epsilonGiven: Boolean,
     val stepSlope: Double,
     val unit: String?,
+    val learned: SelfCalibratingEstimator?,
 ) {
     companion object {
         private const val PRIOR_MARGIN = 0.1
@@ -97,7 +103,12 @@ class SurveyMap internal constructor(
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
             val estimators = settings.filters.associateWith {
-                it.estimator(grid, prior, bounded ?: BoundedFilterSettings(epsilon = 0.0))
+                it.estimator(
+                    grid,
+                    prior,
+                    bounded ?: BoundedFilterSettings(epsilon = 0.0),
+                    lagFilters(settings, statistics),
+                )
             }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
@@ -130,6 +141,7 @@ class SurveyMap internal constructor(
                 epsilonGiven = settings.epsilon != null,
                 stepSlope,
                 settings.unit,
+                estimators.values.firstNotNullOfOrNull { it as? SelfCalibratingEstimator },
             )
         }
 
@@ -137,6 +149,13 @@ class SurveyMap internal constructor(
             val resolution = statistics.resolution.takeIf { it.isFinite() } ?: return 0.0
             val step = statistics.steps.median.takeIf { it > 0 } ?: return 0.0
             return EpsilonCalibration.stepSlope(resolution, step, settings.boundedFilter.slopeWindow)
+        }
+
+        /** Where no reading error was given, the step in which the log's values are rounded. */
+        private fun lagFilters(settings: MapSettings, statistics: SurveyStatistics): LagFilterSettings {
+            val interval = settings.lagFilters.interval
+            if (interval.readingError > 0 || statistics.resolution.isNaN()) return settings.lagFilters
+            return settings.lagFilters.copy(interval = interval.copy(readingError = statistics.resolution))
         }
 
         private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = settings.boundedFilter

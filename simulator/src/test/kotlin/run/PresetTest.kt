@@ -75,14 +75,19 @@ class PresetTest {
     }
 
     @Test
-    fun noisyDiffersInNoiseResolutionAndEpsilonOnly() {
+    fun noisyDiffersInNoiseResolutionAndWhatFollowsFromThem() {
         val noisy = Preset.NOISY.settings()
         assertEquals(
             report.sensor.stages + SensorStage.Noise(0.002) + SensorStage.Quantum(0.005),
             noisy.sensor.stages,
         )
         assertEquals(2e-3, noisy.boundedFilter.epsilon)
-        val same = noisy.copy(sensor = report.sensor, boundedFilter = noisy.boundedFilter.copy(epsilon = 5e-4))
+        assertEquals(0.0105, noisy.lagFilters.interval.readingError)
+        val same = noisy.copy(
+            sensor = report.sensor,
+            boundedFilter = noisy.boundedFilter.copy(epsilon = 5e-4),
+            lagFilters = report.lagFilters,
+        )
         assertEquals(report, same)
     }
 
@@ -119,7 +124,10 @@ class PresetTest {
     @Test
     fun namesAreThoseOfTheCommandLine() {
         assertEquals(listOf("report", "noisy", "original"), Preset.entries.map { it.label })
-        assertEquals(listOf("averaging", "exponential", "bounded"), FilterKind.entries.map { it.label })
+        assertEquals(
+            listOf("averaging", "exponential", "bounded", "interval", "self-calibrating"),
+            FilterKind.entries.map { it.label },
+        )
         assertEquals(listOf("random-walk", "lawnmower", "bounded"), PlannerKind.entries.map { it.label })
     }
 }

@@ -1,0 +1,193 @@
+package stillwater.estimate
+
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.assertThrows
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.property.between
+import stillwater.sensor.FirstOrderLag
+import stillwater.sensor.SensorModel
+import kotlin.math.abs
+import kotlin.math.ln
+import kotlin.math.pow
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class SelfCalibratingEstimatorTest {
+    private val grid = Grid.unit(6, 1)
+    private val truths = doubleArrayOf(0.2, 0.9, 0.4, 0.7, 0.1, 0.8)
+
+    /** Walks to and fro over the row, [stay] readings a cell, and gives [noise] to each. */
+    private fun survey(
+        estimator: SelfCalibratingEstimator,
+        sensor: SensorModel,
+        random: Random,
+        rounds: Int,
+        noise: Double = 0.0,
+        step: () -> Double = { 1.0 },
+    ) {
+        var time = 0.0
+        repeat(rounds) { round ->
+            for (i in truths.indices) {
+                val cell = if (round % 2 == 0) i else truths.size - 1 - i
+                repeat(10) {
+                    val elapsed = step()
+                    time += elapsed
+                    val state = sensor.step(truths[cell], elapsed, Conditions.NONE)
+                    // A rectangular distribution of standard deviation 1.
+                    val reading = state + noise * random.between(-1.0, 1.0) * 3.0.pow(0.5)
+                    estimator.update(BoatTime(time), cell + 0.5, 0.5, reading)
+                }
+            }
+        }
+    }
+
+    @Test
+    fun findsTimeConstantAndTruthsWithoutNoiseWhateverThePrior() {
+        for (constant in listOf(3.0, 9.5, 40.0)) {
+            for (guess in listOf(constant / 3, constant, 3 * constant)) {
+                val estimator = SelfCalibratingEstimator(grid, Interval.UNIT, SelfCalibratingSettings(guess, 3.0))
+                survey(estimator, FirstOrderLag(constant, 0.5), Random(1), rounds = 4)
+                // The parabola's third order over nodes 0.001 apart, and the floor of the noise.
+                assertEquals(constant, estimator.timeConstant, 1e-3 * constant, "guess $guess")
+                assertTrue(estimator.isExplained)
+                for (cell in truths.indices) assertEquals(truths[cell], estimator.map.value(cell), 1e-4)
+            }
+        }
+    }
+
+    @Test
+    fun irregularSamplingIsNoHindrance() {
+        val random = Random(2)
+        val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
+        // From a hundredth of the time constant to the whole of it.
+        survey(estimator, FirstOrderLag(8.0, 0.5), random, rounds = 4) { 8 * 10.0.pow(random.between(-2.0, 0.0)) }
+        assertEquals(8.0, estimator.timeConstant, 8e-3)
+        for (cell in truths.indices) assertEquals(truths[cell], estimator.map.value(cell), 1e-4)
+    }
+
+    @Test
+    fun uncertaintyAndNoiseAreWhatTheyAreInManySurveys() {
+        var inside = 0
+        var insideCells = 0
+        var flagged = 0
+        val surveys = 200
+        repeat(surveys) { seed ->
+            val random = Random(seed + 7_000)
+            val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
+            survey(estimator, FirstOrderLag(12.0, 0.5), random, rounds = 6, noise = 0.004)
+            if (!estimator.isExplained) flagged++
+            if (12.0 in estimator.timeConstantInterval()) inside++
+            insideCells += truths.indices.count {
+                truths[it] in estimator.map.lower(it)..estimator.map.upper(it)
+            }
+            // 360 readings tell a standard deviation to 4 %; four of those.
+            assertEquals(0.004, estimator.noise, 0.004 * 0.16)
+            assertTrue(estimator.relativeUncertainty in 1e-4..0.1, "${estimator.relativeUncertainty}")
+        }
+        // Beyond four standard deviations.
+        assertEquals(0, flagged)
+        // 95 % of 200, three standard deviations of the count (3.1) either way.
+        assertTrue(inside in 181..199, "$inside of $surveys")
+        // Cells of one survey share the time constant's error: 1200 of them count as 400 or more.
+        assertTrue(insideCells / (6.0 * surveys) in 0.92..0.98, "$insideCells")
+    }
+
+    @Test
+    fun saysSoWhenTheSensorIsAnotherAndGivesNoBoundsThen() {
+        val others = listOf<SensorModel>(
+            // An asymmetric response, a dead time of three samples before a lag, two lags in a row.
+            object : SensorModel {
+                private var state = 0.5
+
+                override fun step(input: Double, dt: Double, conditions: Conditions): Double {
+                    state += (if (input > state) 0.13 else 0.07) * (input - state)
+                    return state
+                }
+            },
+            object : SensorModel {
+                private val lag = FirstOrderLag(10.0, 0.5)
+                private val waiting = ArrayDeque(listOf(0.5, 0.5, 0.5))
+
+                override fun step(input: Double, dt: Double, conditions: Conditions): Double {
+                    waiting.addLast(input)
+                    return lag.step(waiting.removeFirst(), dt, conditions)
+                }
+            },
+            object : SensorModel {
+                private val first = FirstOrderLag(5.0, 0.5)
+                private val second = FirstOrderLag(5.0, 0.5)
+
+                override fun step(input: Double, dt: Double, conditions: Conditions): Double =
+                    second.step(first.step(input, dt, conditions), dt, conditions)
+            },
+        )
+        for ((index, sensor) in others.withIndex()) {
+            val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
+            survey(estimator, sensor, Random(3), rounds = 10, noise = 0.002)
+            assertFalse(estimator.isExplained, "sensor $index")
+            for (cell in truths.indices) {
+                assertEquals(0.0, estimator.map.lower(cell))
+                assertEquals(1.0, estimator.map.upper(cell))
+            }
+        }
+    }
+
+    @Test
+    fun aBoatThatLeftTheGridComesBackWithAnUnknownSensor() {
+        val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
+        val sensor = FirstOrderLag(10.0, 0.5)
+        var time = 0.0
+        fun stay(x: Double, truth: Double) = repeat(10) {
+            time++
+            estimator.update(BoatTime(time), x, 0.5, sensor.step(truth, 1.0, Conditions.NONE))
+        }
+        repeat(12) { round ->
+            for (i in truths.indices) stay(i + 0.5, truths[i])
+            // Another water each time, outside.
+            stay(-0.5, if (round % 2 == 0) 5.0 else -5.0)
+        }
+        assertEquals(10.0, estimator.timeConstant, 0.01)
+        for (cell in truths.indices) assertEquals(truths[cell], estimator.map.value(cell), 1e-3)
+    }
+
+    @Test
+    fun aReadingNoWaterHasIsLeftOutAndCounted() {
+        val plain = SelfCalibratingEstimator(grid, Interval.UNIT)
+        val estimator = SelfCalibratingEstimator(grid, Interval.UNIT)
+        val sensor = FirstOrderLag(10.0, 0.5)
+        for (k in 0 until 120) {
+            val cell = k / 10 % 6
+            val value = sensor.step(truths[cell], 1.0, Conditions.NONE)
+            estimator.update(BoatTime(k.toDouble()), cell + 0.5, 0.5, value)
+            plain.update(BoatTime(k.toDouble()), cell + 0.5, 0.5, value)
+            if (k == 55) estimator.update(BoatTime(k.toDouble()), cell + 0.5, 0.5, 1e300)
+        }
+        assertEquals(1, estimator.map.conflicts(5))
+        assertEquals(plain.timeConstant, estimator.timeConstant)
+        for (cell in truths.indices) assertEquals(plain.map.value(cell), estimator.map.value(cell))
+    }
+
+    @Test
+    fun knowsThatItDoesNotKnowTheTimeConstantInStillWater() {
+        val estimator = SelfCalibratingEstimator(grid, Interval.UNIT, SelfCalibratingSettings(10.0, 3.0))
+        val random = Random(5)
+        for (k in 0 until 400) {
+            estimator.update(BoatTime(k.toDouble()), k / 10 % 6 + 0.5, 0.5, 0.5 + 0.002 * random.between(-1.0, 1.0))
+        }
+        // Little more is known than before: ln 3 = 1.1.
+        assertTrue(estimator.relativeUncertainty > 0.3 * ln(3.0), "${estimator.relativeUncertainty}")
+        for (cell in 0 until 6) assertTrue(abs(estimator.map.value(cell) - 0.5) < 0.05)
+    }
+
+    @Test
+    fun refusesImpossibleSettings() {
+        assertThrows<IllegalArgumentException> { SelfCalibratingSettings(timeConstant = 0.0) }
+        assertThrows<IllegalArgumentException> { SelfCalibratingSettings(factor = 1.0) }
+        assertThrows<IllegalArgumentException> { SelfCalibratingSettings(recalled = 15) }
+    }
+}

@@ -1,0 +1,49 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.parameters.groups.OptionGroup
+import com.github.ajalt.clikt.parameters.options.option
+import stillwater.run.LagFilterSettings
+
+/** The options of the filters that reckon with a lag; the same for every command that runs them. */
+class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating estimator") {
+    private val slowest by option(
+        "--slowest",
+        metavar = "SECONDS",
+        help = "interval: the longest time constant that the sensor may have",
+    ).number("a time in seconds above 0") { it > 0 }
+    private val readingError by option(
+        "--reading-error",
+        metavar = "NUMBER",
+        help = "interval: the most a reading may be off for noise and resolution",
+    ).number("a number of at least 0") { it >= 0 }
+    private val timeConstant by option(
+        "--time-constant",
+        metavar = "SECONDS",
+        help = "self-calibrating: a first guess at the sensor's time constant",
+    ).number("a time in seconds above 0") { it > 0 }
+    private val factor by option(
+        "--factor",
+        metavar = "NUMBER",
+        help = "self-calibrating: the factor by which that guess may be wrong",
+    ).number("a number above 1") { it > 1 }
+
+    /** [settings] with what was given on the command line in their place. */
+    fun applied(settings: LagFilterSettings): LagFilterSettings = settings.copy(
+        interval = settings.interval.copy(
+            longestTimeConstant = slowest ?: settings.interval.longestTimeConstant,
+            readingError = readingError ?: settings.interval.readingError,
+        ),
+        selfCalibrating = settings.selfCalibrating.copy(
+            timeConstant = timeConstant ?: settings.selfCalibrating.timeConstant,
+            factor = factor ?: settings.selfCalibrating.factor,
+        ),
+    )
+
+    /** The flags given, with their values, for writing the command down. */
+    fun flags(): List<Pair<String, Any?>> = listOf(
+        "--slowest" to slowest,
+        "--reading-error" to readingError,
+        "--time-constant" to timeConstant,
+        "--factor" to factor,
+    )
+}
