@@ -27,6 +27,7 @@ import stillwater.survey.MapSettings
 import stillwater.survey.MapSummary
 import stillwater.survey.Stretch
 import stillwater.survey.SurveyMap
+import stillwater.survey.UnfitGrid
 import java.nio.file.Files
 import java.nio.file.Path
 
@@ -140,8 +141,8 @@ class MapCommand : CliktCommand("map") {
         return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
             try {
                 SurveyMap.of(opened, settings(), progress::advance)
-            } catch (unfit: IllegalArgumentException) {
-                throw failure("--cell: ${unfit.message}")
+            } catch (unfit: UnfitGrid) {
+                throw failure("${if (gridSize == null) "--cell" else "--grid"}: ${unfit.message}")
             }
         }
     }

@@ -52,6 +52,10 @@ internal data class CsvColumns(
 
             fun recognised(name: String) = if (name in names) named(name) else NONE
 
+            val inMetres = choice.x != null || choice.y != null
+            if (inMetres && (choice.latitude != null || choice.longitude != null)) {
+                throw problem(null, "--lat and --lon or --x and --y", "some of both")
+            }
             val time = choice.time?.let(::named)
                 ?: TIMES.map(::recognised).firstOrNull { it != NONE }
                 ?: throw problem(
@@ -59,10 +63,15 @@ internal data class CsvColumns(
                     "a column time_s or unix_time_s, or --time COLUMN",
                     "columns ${names.joinToString(", ")}",
                 )
-            val inMetres = choice.x != null || choice.y != null
-            val latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
-            val longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
+            var latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
+            var longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
             val inDegrees = latitude != NONE && longitude != NONE
+            if (!inDegrees) {
+                if (choice.latitude != null) throw problem(null, "--lon with --lat, or a column lon_deg", "neither")
+                if (choice.longitude != null) throw problem(null, "--lat with --lon, or a column lat_deg", "neither")
+                latitude = NONE
+                longitude = NONE
+            }
             val x = if (inDegrees) NONE else choice.x?.let(::named) ?: recognised(X)
             val y = if (inDegrees) NONE else choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
             if (!inDegrees && (x == NONE || (y == NONE && choice.x == null))) {
@@ -75,6 +84,10 @@ internal data class CsvColumns(
             val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
             val used = setOf(time, latitude, longitude, x, y) + conditions.values
             val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
+            val serving = listOf(time, latitude, longitude, x, y, value).filter { it != NONE }
+            serving.groupBy { it }.values.firstOrNull { it.size > 1 }?.let {
+                throw problem(names[it.first()], "one use of it as time, position or readings", "${it.size}")
+            }
             return CsvColumns(names, time, latitude, longitude, x, y, value, conditions)
         }
 

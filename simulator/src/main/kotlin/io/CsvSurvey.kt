@@ -7,18 +7,22 @@ import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import java.io.UncheckedIOException
 import java.nio.file.Path
+import java.util.Locale
+import kotlin.math.abs
 
 /**
  * A survey log as comma, semicolon or tab separated values with a header line.
  *
  * Rows need the columns in use to hold finite numbers (conditions may be empty), times that grow, and latitudes and
- * longitudes that exist. Positions of exactly 0, 0 degrees are a receiver's way of saying that it has no fix: such
+ * longitudes that exist and lie within 1000 km of the first. Positions of exactly 0, 0 degrees are a receiver's way of saying that it has no fix: such
  * rows are left out and counted.
  */
 internal class CsvSurvey private constructor(
     private val content: LogContent,
     private val separator: Char,
+    private val headerLine: Long,
     private val columns: CsvColumns,
     private val skipBadRows: Boolean,
 ) : SurveyLog {
@@ -46,7 +50,7 @@ internal class CsvSurvey private constructor(
             .allowExtraFields(true)
             .allowMissingFields(true)
             .maxBufferSize(LONGEST_FIELD)
-            .build(CsvRow(slots, SLOTS + conditionNames.size), content.reader(progress))
+            .build(CsvRow(slots, SLOTS + conditionNames.size, separator), EndMark(content.reader(progress)))
         reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
         return pass.end()
     }
@@ -55,8 +59,24 @@ internal class CsvSurvey private constructor(
         try {
             work()
         } catch (failure: CsvParseException) {
-            val cause = failure.cause as? LogProblem
-            throw cause ?: problem(null, null, "rows of a CSV file", failure.message.orEmpty(), null)
+            throw generateSequence<Throwable>(failure) { it.cause }.firstNotNullOfOrNull { it as? LogProblem }
+                ?: parseProblem(failure)
+        } catch (_: UncheckedIOException) {
+            throw problem(null, null, "a log file", "a file that cannot be read", null)
+        }
+    }
+
+    /** What the parser says, in the words of the log. */
+    private fun parseProblem(failure: CsvParseException): LogProblem {
+        val texts = generateSequence<Throwable>(failure) { it.cause }.map { it.message.orEmpty() }.toList()
+        val line = texts.firstNotNullOfOrNull { LINE.find(it) }?.groupValues?.get(1)?.toLongOrNull()
+        return when {
+            texts.any { "closing quote" in it } ->
+                problem(line, null, "a separator after a closing quote", "something else", null)
+            texts.any { "fields" in it } ->
+                problem(line, null, "${columns.names.size} fields as in the header", "far more", null)
+            else ->
+                problem(line, null, "fields of at most $LONGEST_FIELD characters", "a longer one, or an open quote", null)
         }
     }
 
@@ -87,10 +107,16 @@ internal class CsvSurvey private constructor(
         private val eastColumn = if (inDegrees) columns.longitude else columns.x
 
         fun take(row: CsvRow) {
-            if (row.blank) {
+            if (row.isEnd) return
+            // Lines of blanks before the header are rows to the parser.
+            if (row.blank || row.line < headerLine) {
                 skips.count("blank lines")
             } else if (!headerSeen) {
                 headerSeen = true
+                quoteProblem(row)?.let { throw it }
+                if (row.fields != columns.names.size || row.widestBreak >= 0) {
+                    throw problem(row.line, null, "a header in one line", "a line break inside quotes", null)
+                }
             } else {
                 rows++
                 val problem = problemOf(row)
@@ -102,7 +128,18 @@ internal class CsvSurvey private constructor(
             }
         }
 
+        /** Rows swallowed by a quote are lost without a count, so skipping is no help. */
+        private fun quoteProblem(row: CsvRow): LogProblem? {
+            val found = when {
+                row.isOpen -> "none to the end of the file"
+                row.widestBreak >= columns.names.size - 1 -> "none before the next row"
+                else -> return null
+            }
+            return problem(row.line, null, "a closing quote", found, null)
+        }
+
         private fun problemOf(row: CsvRow): LogProblem? {
+            quoteProblem(row)?.let { return it }
             if (row.fields != columns.names.size) {
                 val expected = "${columns.names.size} fields as in the header"
                 return problem(row.line, null, expected, "${row.fields}", "rows with a wrong number of fields")
@@ -114,13 +151,15 @@ internal class CsvSurvey private constructor(
                 ?: conditionProblem(row)
                 ?: rangeProblem(row)
                 ?: timeProblem(row)
+                ?: reachProblem(row)
         }
 
         private fun numberProblem(row: CsvRow, slot: Int, column: Int): LogProblem? {
             if (column == CsvColumns.NONE || row.numbers[slot].isFinite()) return null
             val text = row.textOf(column)
             val reason = if (text.isBlank()) "rows with an empty field" else "rows with text where a number belongs"
-            return problem(row.line, column, "a finite number", quoted(text) + commaHint(text), reason)
+            val hint = if (row.numbers[slot].isInfinite()) " (too large)" else commaHint(text)
+            return problem(row.line, column, "a finite number", quoted(text) + hint, reason)
         }
 
         private fun commaHint(text: String) =
@@ -142,8 +181,11 @@ internal class CsvSurvey private constructor(
             val latitude = row.numbers[NORTH]
             val longitude = row.numbers[EAST]
             val reason = "positions off the globe"
+            sizeProblem(row, TIME, columns.time, LARGEST_NUMBER)?.let { return it }
+            sizeProblem(row, VALUE, columns.value, LARGEST_NUMBER)?.let { return it }
             return when {
-                !inDegrees -> null
+                !inDegrees -> sizeProblem(row, EAST, eastColumn, LARGEST_METRES)
+                    ?: sizeProblem(row, NORTH, northColumn, LARGEST_METRES)
                 latitude !in LatLon.LATITUDES_DEG ->
                     problem(row.line, northColumn, "a latitude within -90..90", "$latitude", reason)
                 longitude !in LatLon.LONGITUDES_DEG ->
@@ -154,6 +196,22 @@ internal class CsvSurvey private constructor(
                     problem(row.line, northColumn, "a latitude short of the pole", "$latitude", reason)
                 else -> null
             }
+        }
+
+        private fun sizeProblem(row: CsvRow, slot: Int, column: Int, largest: Double): LogProblem? {
+            if (column == CsvColumns.NONE || abs(row.numbers[slot]) <= largest) return null
+            val expected = "a number within -$largest..$largest"
+            return problem(row.line, column, expected, "${row.numbers[slot]}", "rows with a number out of all bounds")
+        }
+
+        private fun reachProblem(row: CsvRow): LogProblem? {
+            val origin = (if (inDegrees) frame else null) ?: return null
+            val latitude = row.numbers[NORTH]
+            val longitude = row.numbers[EAST]
+            if (latitude == 0.0 && longitude == 0.0) return null
+            origin.toLocal(latitude, longitude, local)
+            if (FixReach.holds(origin.origin, latitude, longitude, local[0], local[1])) return null
+            return problem(row.line, northColumn, FixReach.EXPECTED, "$latitude, $longitude", FixReach.REASON)
         }
 
         private fun timeProblem(row: CsvRow): LogProblem? {
@@ -196,6 +254,9 @@ internal class CsvSurvey private constructor(
 
     companion object {
         private const val LONGEST_FIELD = 1 shl 20
+        private const val LARGEST_NUMBER = 1e300
+        private const val LARGEST_METRES = 1e9
+        private val LINE = Regex("""line (\d+)""")
         private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
 
         // Where a row's numbers are kept; conditions follow.
@@ -218,8 +279,13 @@ internal class CsvSurvey private constructor(
             if (2 * header.count { !DecimalText.parse(it).isNaN() } > header.size) {
                 throw problem(null, "a header line with column names", quoted(content.head[headerLine]))
             }
+            header.indexOfFirst { name -> name.any { it.isISOControl() } }.takeIf { it >= 0 }?.let { index ->
+                val code = header[index].first { it.isISOControl() }.code
+                val found = "U+%04X in the name of column %d".format(Locale.ROOT, code, index + 1)
+                throw problem(null, "a header without control characters", found)
+            }
             val columns = CsvColumns.of(header, sample?.let { fields(it, separator) }.orEmpty(), choice, ::problem)
-            return CsvSurvey(content, separator, columns, choice.skipBadRows)
+            return CsvSurvey(content, separator, headerLine + 1L, columns, choice.skipBadRows)
         }
 
         private fun fields(line: String, separator: Char): List<String>? = try {

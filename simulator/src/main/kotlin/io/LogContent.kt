@@ -50,6 +50,10 @@ internal class LogContent private constructor(
             val lines = text.lineSequence().map { it.trimEnd('\r') }.toList()
             // The last line of the head may be cut.
             val head = if (lines.size > 1 && bytes.size == HEAD_BYTES) lines.dropLast(1) else lines
+            val firstIsCut = lines.dropLast(1).all { it.isBlank() } && lines.last().isNotBlank()
+            if (bytes.size == HEAD_BYTES && firstIsCut) {
+                throw LogProblem(file, lines.size.toLong(), null, "a header within $HEAD_BYTES bytes", "a longer one")
+            }
             if (head.all { it.isBlank() }) throw problem("a log", "nothing but blank lines")
             return LogContent(file, charset, mark, head)
         }
@@ -58,6 +62,10 @@ internal class LogContent private constructor(
             fun problem(found: String) = LogProblem(file, null, null, "a log file", found)
             if (!Files.exists(file)) throw problem("no such file")
             if (Files.isDirectory(file)) throw problem("a directory")
+            // A pipe gives its bytes once only, and opening one may wait for ever.
+            if (!Files.isRegularFile(file)) {
+                throw LogProblem(file, null, null, "a regular file (it is read twice)", "a pipe or device")
+            }
             return try {
                 Files.newInputStream(file).use { it.readNBytes(HEAD_BYTES) }
             } catch (_: IOException) {

@@ -9,6 +9,7 @@ import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.intOrNull
+import kotlin.math.abs
 
 /**
  * Takes the lines of a Platypus log of one [version] apart.
@@ -114,7 +115,7 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         val data = sensor?.get("data")?.numbers()
         val channel = (sensor?.get("channel") as? JsonPrimitive)?.intOrNull ?: NO_CHANNEL
         return if (type != null && data != null) {
-            PlatypusEntry.Sensor(type, channel, data)
+            PlatypusEntry.Sensor(type.uppercase(), channel, data)
         } else {
             PlatypusEntry.Unreadable("""a sensor {"channel":n,"type":"...","data":[numbers]}""")
         }
@@ -122,7 +123,7 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
 
     private fun jsonStart(json: JsonObject): PlatypusEntry? {
         if ("date" !in json) return null
-        val epoch = (json["time"] as? JsonPrimitive)?.doubleOrNull
+        val epoch = (json["time"] as? JsonPrimitive)?.doubleOrNull?.takeIf { abs(it) <= LATEST_EPOCH }
         return epoch?.let { PlatypusEntry.Start(it) } ?: PlatypusEntry.Unreadable("a start with a time in ms")
     }
 
@@ -146,6 +147,8 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         /** Channel of a sensor whose lines name none. */
         const val NO_CHANNEL = -1
 
+        /** Some 30 000 years, ms. */
+        private const val LATEST_EPOCH = 1e15
         private const val LEVEL_LENGTH = 3
         private const val CLOCK_PARTS = 4
         private const val SENSOR_LENGTH = 6

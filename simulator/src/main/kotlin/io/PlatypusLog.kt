@@ -96,9 +96,14 @@ internal class PlatypusLog private constructor(
                 val found = "${pose.easting}, ${pose.northing}"
                 return refuse("UTM easting in 0..1000000 m, northing in 0..10000000 m", found, "poses off the globe")
             }
-            fixes++
             val place = Utm(pose.easting, pose.northing, zone.number, zone.north).toLatLon()
-            val local = frameFrom(place).toLocal(place)
+            val frame = frameFrom(place)
+            val local = frame.toLocal(place)
+            if (!FixReach.holds(frame.origin, place.latitudeDeg, place.longitudeDeg, local.x, local.y)) {
+                val found = "${pose.easting}, ${pose.northing} in ${pose.zone}"
+                return refuse(FixReach.EXPECTED, found, FixReach.REASON)
+            }
+            fixes++
             track.add(seconds, local.x, local.y)
         }
 
@@ -116,6 +121,8 @@ internal class PlatypusLog private constructor(
                 sensor.field >= entry.data.size ->
                     refuse("at least ${sensor.field + 1} numbers", "${entry.data.size}", "readings without the field")
                 !value.isFinite() -> refuse("a finite number", "none", "readings that are no number")
+                abs(value) > LARGEST_VALUE ->
+                    refuse("a number within -$LARGEST_VALUE..$LARGEST_VALUE", "$value", "readings out of all bounds")
                 seconds <= lastSensorSeconds -> {
                     val reason = if (seconds < lastSensorSeconds) "times going back" else "duplicate times"
                     refuse("a ${sensor.type} time after $lastSensorSeconds s", "$seconds s", reason)
@@ -162,6 +169,7 @@ internal class PlatypusLog private constructor(
     }
 
     companion object {
+        private const val LARGEST_VALUE = 1e300
         private const val LARGEST_EASTING = 1e6
         private const val LARGEST_NORTHING = 1e7
         private const val PLACEHOLDER_EASTING = 476_608.34

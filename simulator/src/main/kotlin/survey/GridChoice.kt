@@ -23,6 +23,9 @@ data class GridWish(
     val rotation: Double = 0.0,
 )
 
+/** A grid that cannot be laid over a survey as wished; the message says why. */
+class UnfitGrid(message: String) : Exception(message)
+
 /**
  * Lays a grid over a survey.
  *
@@ -31,7 +34,7 @@ data class GridWish(
  * area / length, so that the map has few holes. A grid gets at least ten and at most 100 cells along its longer side.
  */
 class GridChoice(private val statistics: SurveyStatistics, private val track: Track) {
-    /** The grid for [wish]. @throws IllegalArgumentException if it would have too many cells; the message says so. */
+    /** The grid for [wish]. @throws UnfitGrid if there is none that holds every reading; the message says why. */
     fun grid(wish: GridWish): Grid {
         val extent = extent(wish.rotation)
         return if (wish.columns != null && wish.rows != null) {
@@ -107,33 +110,54 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         val bottom = floor(extent.bottom / side)
         val columns = floor(extent.right / side) - left + 1
         val rows = floor(extent.top / side) - bottom + 1
-        require(columns * rows <= Grid.MAX_CELLS) {
-            "cells of $side m would make a grid of ${columns.toLong()} x ${rows.toLong()}, above ${Grid.MAX_CELLS} cells"
+        if (!(columns * rows <= Grid.MAX_CELLS)) {
+            val size = if (columns * rows < LARGEST_COUNT) "${columns.toLong()} x ${rows.toLong()}" else "more"
+            throw UnfitGrid("cells of $side m would make a grid of $size, above ${Grid.MAX_CELLS} cells")
         }
-        return Grid(origin(left * side, bottom * side, rotation), columns.toInt(), rows.toInt(), side, side, rotation)
+        // Rounding may put a point on a border on its other side: the grid then gets one more cell there.
+        return MARGINS.firstNotNullOfOrNull { (west, east, south, north) ->
+            val corner = origin((left - west) * side, (bottom - south) * side, rotation)
+            val across = columns.toInt() + west + east
+            val up = rows.toInt() + south + north
+            if (across.toLong() * up > Grid.MAX_CELLS) return@firstNotNullOfOrNull null
+            Grid(corner, across, up, side, side, rotation).takeIf { it.holds(extent) }
+        } ?: throw UnfitGrid("cells of $side m are too small for positions ${farthest(extent)} m from the origin")
     }
 
     /** So many cells around all of [extent], a little wider than it so that its upper edges lie inside. */
-    private fun fitted(extent: Extent, columns: Int, rows: Int, rotation: Double): Grid {
-        val width = sideFor(extent.width, columns)
-        val height = sideFor(extent.height, rows)
-        // A transect has no height (or width) of its own: square cells.
-        val cellWidth = if (width > 0) {
-            width
-        } else if (height > 0) {
-            height
-        } else {
-            1.0
-        }
-        val cellHeight = if (height > 0) height else cellWidth
-        val left = (extent.left + extent.right - columns * cellWidth) / 2
-        val bottom = (extent.bottom + extent.top - rows * cellHeight) / 2
-        return Grid(origin(left, bottom, rotation), columns, rows, cellWidth, cellHeight, rotation)
+    private fun fitted(extent: Extent, columns: Int, rows: Int, rotation: Double): Grid =
+        SPARE_METRES.firstNotNullOfOrNull { spare ->
+            val width = sideFor(extent.width, columns, spare)
+            val height = sideFor(extent.height, rows, spare)
+            // A transect has no height (or width) of its own: square cells.
+            val cellWidth = if (width > 0) {
+                width
+            } else if (height > 0) {
+                height
+            } else {
+                1.0
+            }
+            val cellHeight = if (height > 0) height else cellWidth
+            val left = (extent.left + extent.right - columns * cellWidth) / 2
+            val bottom = (extent.bottom + extent.top - rows * cellHeight) / 2
+            Grid(origin(left, bottom, rotation), columns, rows, cellWidth, cellHeight, rotation)
+                .takeIf { it.holds(extent) }
+        } ?: throw UnfitGrid("no $columns x $rows cells can be laid ${farthest(extent)} m from the origin")
+
+    /** [length] / [count], rounded up to a whole number of [spare] m and a little more. */
+    private fun sideFor(length: Double, count: Int, spare: Double) =
+        if (length > 0) (ceil(length / count / spare) + 1) * spare else 0.0
+
+    /** Whether every point known lies in this grid: all readings, or those of the thinned track where it is turned. */
+    private fun Grid.holds(extent: Extent): Boolean = if (rotation == 0.0) {
+        // Without a turn rounding keeps the order of the coordinates, so the extremes speak for all.
+        cellAt(extent.left, extent.bottom) != Grid.OUTSIDE && cellAt(extent.right, extent.top) != Grid.OUTSIDE
+    } else {
+        (0 until track.size).all { cellAt(track.xs[it], track.ys[it]) != Grid.OUTSIDE }
     }
 
-    /** [length] / [count], rounded up to a whole number of micrometres and a little more. */
-    private fun sideFor(length: Double, count: Int) =
-        if (length > 0) (ceil(length / count / MICROMETRE) + 1) * MICROMETRE else 0.0
+    private fun farthest(extent: Extent) =
+        extent.run { maxOf(maxOf(abs(left), abs(right)), maxOf(abs(bottom), abs(top))) }
 
     private fun origin(along: Double, across: Double, rotation: Double) =
         Position(cos(rotation) * along - sin(rotation) * across, sin(rotation) * along + cos(rotation) * across)
@@ -146,6 +170,12 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         const val MOST_CELLS_A_SIDE = 100
         const val SMALLEST = 0.01
         const val ABOVE = 1.2
-        const val MICROMETRE = 1e-6
+        const val LARGEST_COUNT = 1e15
+
+        /** What a fitted grid's cells are rounded up to, m; the first that holds every reading is taken. */
+        val SPARE_METRES = listOf(1e-6, 1e-5, 1e-4, 1e-3)
+
+        /** Cells to add west, east, south and north of a snapped grid, the fewest first. */
+        val MARGINS = List(1 shl 4) { bits -> List(4) { bits shr it and 1 } }.sortedBy { it.sum() }
     }
 }

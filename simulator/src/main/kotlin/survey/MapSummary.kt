@@ -24,6 +24,8 @@ class MapSummary(private val map: SurveyMap) {
         add("log" to "${map.log.file.fileName} (${map.log.format})")
         add("readings" to "${map.pass.readings} of $quantity")
         map.pass.skipped.forEach { (reason, count) -> add(reason to "$count skipped") }
+        val outside = map.maps.values.maxOfOrNull { it.outside } ?: 0
+        if (outside > 0) add("readings outside the grid" to "$outside in no cell")
         add("duration" to duration(statistics.duration))
         add("time between readings" to "${spread(statistics.steps)} s")
         add("gaps" to gaps())

@@ -1,5 +1,7 @@
 package stillwater.cli
 
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.io.TempDir
 import org.junit.jupiter.params.ParameterizedTest
 import org.junit.jupiter.params.provider.MethodSource
@@ -67,6 +69,17 @@ class MapBadInputTest {
         assertNothingWritten()
     }
 
+    @Test
+    @Timeout(60)
+    fun refusesAPipeAtOnce() {
+        val pipe = directory.resolve("log.pipe")
+        assertEquals(0, ProcessBuilder("mkfifo", pipe.toString()).start().waitFor())
+        val result = runMap(pipe.toString(), "--out", directory.out().toString())
+        assertEquals(BAD_INPUT, result.statusCode)
+        assertTrue("expected a regular file (it is read twice)" in result.stderr, result.stderr)
+        assertNothingWritten()
+    }
+
     private fun assertNothingWritten() {
         assertFalse(directory.out().exists())
         val left = Files.list(directory).use { files -> files.map { it.fileName.toString() }.toList() }
@@ -126,7 +139,7 @@ class MapBadInputTest {
             csv(
                 "overflow",
                 HEAD + GOOD + "3,45.5,-73.1,1e999\n",
-                "found '1e999'",
+                "found '1e999' (too large)",
                 "rows with text where a number belongs",
             ),
             csv("empty field", HEAD + GOOD + "3,45.5,-73.1,\n", "found nothing", "rows with an empty field"),
@@ -165,9 +178,27 @@ class MapBadInputTest {
             csv(
                 "a quote left open",
                 HEAD + GOOD + "3,45.5,-73.1,\"8\n4,45.5,-73.1,8\n5,45.5,-73.1,8\n",
-                "log.csv:5",
-                TEXT,
+                "log.csv:5: expected a closing quote, found none to the end of the file",
             ),
+            csv("a quote in the last line", HEAD + GOOD + "3,45.5,-73.1,\"8", "log.csv:5: expected a closing quote"),
+            csv(
+                "a quote over several rows",
+                "time_s,x_m,y_m,v,n\n0,0,0,1,\"a\n1,1,1,1,b\n2,2,2,2,\"\n3,3,3,3,d\n",
+                "log.csv:2: expected a closing quote, found none before the next row",
+                null,
+                "--value",
+                "v",
+            ),
+            csv("text after a quote", HEAD + GOOD + "3,45.5,-73.1,\"8\"9\n", "log.csv:5: "),
+            csv("far fix", HEAD + GOOD + "3,10,-73.1,8\n", "log.csv:5: column lat_deg: $FAR", FAR_REASON),
+            csv("antipodal fix", HEAD + GOOD + "3,-45.5,106.9,8\n", FAR, FAR_REASON),
+            csv("huge x", "time_s,x_m,y_m,v\n0,0,0,1\n1,1,1,2\n2,1e10,0,3\n", "log.csv:4: column x_m", OUT),
+            csv("huge value", HEAD + GOOD + "3,45.5,-73.1,1.7e308\n", "log.csv:5: column do_mg_l", OUT),
+            csv("--lat alone", "time_s,la,x_m,y_m,v\n0,1,2,3,4\n", "expected --lon with --lat", null, "--lat", "la"),
+            csv("--x and --lat", HEAD + GOOD, "some of both", null, "--x", "lat_deg", "--lat", "lat_deg"),
+            csv("a column twice", HEAD + GOOD, "column time_s: expected one use", null, "--value", "time_s"),
+            csv("x as y", "time_s,x_m,v\n0,1,2\n1,2,3\n", "column x_m", null, "--x", "x_m", "--y", "x_m"),
+            csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
             Case("gzip", byteArrayOf(0x1f, 0x8b.toByte(), 8, 0, 0), "found a gzip archive: unpack it first"),
             Case(
@@ -175,9 +206,12 @@ class MapBadInputTest {
                 "time_s,x_m,y_m,t_°C\n0,0,0,1\n1,1,1,1\n".toByteArray(Charset.forName("ISO-8859-1")),
                 "text in UTF-8",
             ),
-            csv("garbage", "\u0001\u0002lots of (stuff\n%%\n", "log.csv:1: expected a column time_s"),
+            csv("garbage", "\u0001\u0002lots of (stuff\n%%\n", "log.csv:1: expected a header without control characters, found U+0001"),
         )
 
+        private const val FAR = "expected a fix within 1000 km of the first"
+        private const val FAR_REASON = "fixes more than 1000 km from the first"
+        private const val OUT = "rows with a number out of all bounds"
         private const val WRONG_COUNT = "rows with a wrong number of fields"
         private const val TEXT = "rows with text where a number belongs"
 
@@ -206,6 +240,14 @@ class MapBadInputTest {
                 pose(2000, "99North"),
                 "log.txt:20: expected a UTM zone 1North to 60South, found '99North'",
                 "poses in no UTM zone",
+            ),
+            platypus("another zone", pose(2000, "56North"), "log.txt:20: $FAR", FAR_REASON),
+            platypus("endless value", reading(2000, "1e301"), "a number within", "readings out of all bounds"),
+            platypus(
+                "endless start",
+                "2000\tI\t{\"date\":\"x\",\"time\":1e999}\n",
+                "log.txt:20: expected a start",
+                "unreadable lines",
             ),
             platypus("zone without a half", pose(2000, "18West"), "found '18West'", "poses in no UTM zone"),
             platypus(
