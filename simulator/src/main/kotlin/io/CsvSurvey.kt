@@ -76,7 +76,13 @@ internal class CsvSurvey private constructor(
             texts.any { "fields" in it } ->
                 problem(line, null, "${columns.names.size} fields as in the header", "far more", null)
             else ->
-                problem(line, null, "fields of at most $LONGEST_FIELD characters", "a longer one, or an open quote", null)
+                problem(
+                    line,
+                    null,
+                    "fields of at most $LONGEST_FIELD characters",
+                    "a longer one, or an open quote",
+                    null,
+                )
         }
     }
 

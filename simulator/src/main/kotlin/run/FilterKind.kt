@@ -15,8 +15,9 @@ import stillwater.model.Interval
  *
  * @property label name on the command line and in files.
  * @property givesBounds whether its map has bounds that a planner can plan on.
+ * @property valueIsMidpoint whether its value is no more than the midpoint of its bounds.
  */
-enum class FilterKind(val label: String, val givesBounds: Boolean) {
+enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMidpoint: Boolean = false) {
     /** The mean of a cell's readings. */
     AVERAGING("averaging", givesBounds = false),
 
@@ -24,10 +25,10 @@ enum class FilterKind(val label: String, val givesBounds: Boolean) {
     EXPONENTIAL("exponential", givesBounds = false),
 
     /** The report's bounded filter. */
-    BOUNDED("bounded", givesBounds = true),
+    BOUNDED("bounded", givesBounds = true, valueIsMidpoint = true),
 
     /** Bounds from a limit of the response's slowness. */
-    INTERVAL("interval", givesBounds = true),
+    INTERVAL("interval", givesBounds = true, valueIsMidpoint = true),
 
     /** Learns the time constant on the way; its bounds are credible at 95 %. */
     SELF_CALIBRATING("self-calibrating", givesBounds = true),

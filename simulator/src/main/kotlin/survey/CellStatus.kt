@@ -12,7 +12,7 @@ enum class CellStatus(val label: String) {
     /** The boat was never here. */
     UNVISITED("unvisited"),
 
-    /** A filter without bounds has an average of readings. */
+    /** There is a value from readings, and no bound. */
     MEASURED("measured"),
 
     /** Both bounds are set, the lower not above the upper. */
@@ -42,7 +42,8 @@ internal fun FieldMap.status(kind: FilterKind, cell: Int): CellStatus {
         lower(cell) > upper(cell) -> CellStatus.CROSSED
         below && above -> CellStatus.BOTH
         below || above -> CellStatus.ONE_SIDED
-        else -> CellStatus.NONE
+        kind.valueIsMidpoint -> CellStatus.NONE
+        else -> CellStatus.MEASURED
     }
 }
 

@@ -129,8 +129,8 @@ internal class MapReport(
                 "medians exceeds epsilon; its value is the midpoint. Its bounds hold for a first-order sensor " +
                 "without noise in water that does not change within a cell; conflicts show where they do not.",
             "Epsilon is the 99 % quantile of how far slopes are from their median over the stretch of the log where " +
-                "that is smallest, unless a stretch or a number was given; but not below the slope that one step of the " +
-                "sensor's resolution makes, unless a number was given.",
+                "that is smallest, unless a stretch or a number was given; but not below the slope that one step of " +
+                "the sensor's resolution makes, unless a number was given.",
         )
     }
 }

@@ -21,7 +21,8 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     private fun jumps(): String? {
         if (statistics.jumps == 0L) return null
-        return "${statistics.jumps} jumps in the positions are faster than 20 ${wording.speed}: check the receiver's fixes"
+        return "${statistics.jumps} jumps in the positions are faster than 20 ${wording.speed}: " +
+            "check the receiver's fixes"
     }
 
     private fun gap(): String? {
@@ -101,7 +102,8 @@ internal class MapWarnings(private val map: SurveyMap) {
             }
             add(
                 "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells only, " +
-                    "because $reason; elsewhere it has one, and its value leans on the range taken for the water, or none",
+                    "because $reason; elsewhere it has one, and its value leans on the range taken for the water, or " +
+                    "none",
             )
         }
     }

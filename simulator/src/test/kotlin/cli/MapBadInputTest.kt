@@ -206,7 +206,11 @@ class MapBadInputTest {
                 "time_s,x_m,y_m,t_°C\n0,0,0,1\n1,1,1,1\n".toByteArray(Charset.forName("ISO-8859-1")),
                 "text in UTF-8",
             ),
-            csv("garbage", "\u0001\u0002lots of (stuff\n%%\n", "log.csv:1: expected a header without control characters, found U+0001"),
+            csv(
+                "garbage",
+                "\u0001\u0002lots of (stuff\n%%\n",
+                "log.csv:1: expected a header without control characters, found U+0001",
+            ),
         )
 
         private const val FAR = "expected a fix within 1000 km of the first"
