@@ -101,9 +101,9 @@ internal class MapWarnings(private val map: SurveyMap) {
                 "few were crossed both ways"
             }
             add(
-                "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells only, " +
-                    "because $reason; elsewhere it has one, and its value leans on the range taken for the water, or " +
-                    "none",
+                "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells " +
+                    "only, because $reason; elsewhere it has none, or one, and then its value leans on the range " +
+                    "taken for the water",
             )
         }
     }
