@@ -157,7 +157,7 @@ public class SelfCalibratingEstimator(
             }
         }
         var step = WIDEST_STEP
-        for (round in 1..MOST_ROUNDS) {
+        repeat(MOST_ROUNDS) {
             play(best, step)
             learn()
             val wanted = (2 * relativeUncertainty).coerceIn(NARROWEST_STEP, WIDEST_STEP)

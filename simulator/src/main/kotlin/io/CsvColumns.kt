@@ -53,9 +53,7 @@ internal data class CsvColumns(
             fun recognised(name: String) = if (name in names) named(name) else NONE
 
             val inMetres = choice.x != null || choice.y != null
-            if (inMetres && (choice.latitude != null || choice.longitude != null)) {
-                throw problem(null, "--lat and --lon or --x and --y", "some of both")
-            }
+            if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
             val time = choice.time?.let(::named)
                 ?: TIMES.map(::recognised).firstOrNull { it != NONE }
                 ?: throw problem(
@@ -84,12 +82,17 @@ internal data class CsvColumns(
             val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
             val used = setOf(time, latitude, longitude, x, y) + conditions.values
             val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
-            val serving = listOf(time, latitude, longitude, x, y, value).filter { it != NONE }
-            serving.groupBy { it }.values.firstOrNull { it.size > 1 }?.let {
-                throw problem(names[it.first()], "one use of it as time, position or readings", "${it.size}")
+            usedTwice(listOf(time, latitude, longitude, x, y, value))?.let { (column, uses) ->
+                throw problem(names[column], "one use of it as time, position or readings", "$uses")
             }
             return CsvColumns(names, time, latitude, longitude, x, y, value, conditions)
         }
+
+        private val LogChoice.namesDegrees: Boolean get() = latitude != null || longitude != null
+
+        /** A column that serves more than one purpose, and how many; null where there is none. */
+        private fun usedTwice(columns: List<Int>): Pair<Int, Int>? =
+            columns.filter { it != NONE }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }?.toPair()
 
         private fun onlyCandidate(
             names: List<String>,

@@ -115,10 +115,10 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
             throw UnfitGrid("cells of $side m would make a grid of $size, above ${Grid.MAX_CELLS} cells")
         }
         // Rounding may put a point on a border on its other side: the grid then gets one more cell there.
-        return MARGINS.firstNotNullOfOrNull { (west, east, south, north) ->
-            val corner = origin((left - west) * side, (bottom - south) * side, rotation)
-            val across = columns.toInt() + west + east
-            val up = rows.toInt() + south + north
+        return MARGINS.firstNotNullOfOrNull { margin ->
+            val corner = origin((left - margin.west) * side, (bottom - margin.south) * side, rotation)
+            val across = columns.toInt() + margin.west + margin.east
+            val up = rows.toInt() + margin.south + margin.north
             if (across.toLong() * up > Grid.MAX_CELLS) return@firstNotNullOfOrNull null
             Grid(corner, across, up, side, side, rotation).takeIf { it.holds(extent) }
         } ?: throw UnfitGrid("cells of $side m are too small for positions ${farthest(extent)} m from the origin")
@@ -176,6 +176,10 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         val SPARE_METRES = listOf(1e-6, 1e-5, 1e-4, 1e-3)
 
         /** Cells to add west, east, south and north of a snapped grid, the fewest first. */
-        val MARGINS = List(1 shl 4) { bits -> List(4) { bits shr it and 1 } }.sortedBy { it.sum() }
+        val MARGINS = List(1 shl 4) { Margin(it and 1, it shr 1 and 1, it shr 2 and 1, it shr 3 and 1) }
+            .sortedBy { it.west + it.east + it.south + it.north }
     }
 }
+
+/** Cells added on each side of a grid. */
+private class Margin(val west: Int, val east: Int, val south: Int, val north: Int)

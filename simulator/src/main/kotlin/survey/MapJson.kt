@@ -30,15 +30,7 @@ object MapJson {
         put("readings", map.pass.readings)
         putJsonObject("skipped") { map.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
         statistics(map)
-        putJsonObject("grid") {
-            put("columns", map.grid.columns)
-            put("rows", map.grid.rows)
-            put("cell_width_m", map.grid.cellWidth)
-            put("cell_height_m", map.grid.cellHeight)
-            put("rotation_deg", Math.toDegrees(map.grid.rotation))
-            put("cells_visited", map.passes.visitedCells)
-            put("cells_revisited", map.passes.revisitedCells)
-        }
+        grid(map)
         map.log.frame?.let { frame ->
             putJsonObject("origin") {
                 put("lat_deg", frame.origin.latitudeDeg)
@@ -79,6 +71,16 @@ object MapJson {
             put("same_mean_difference", number(map.passes.same.meanDifference))
         }
         put("files", buildJsonArray { files.forEach { add(JsonPrimitive(it.toString())) } })
+    }
+
+    private fun JsonObjectBuilder.grid(map: SurveyMap) = putJsonObject("grid") {
+        put("columns", map.grid.columns)
+        put("rows", map.grid.rows)
+        put("cell_width_m", map.grid.cellWidth)
+        put("cell_height_m", map.grid.cellHeight)
+        put("rotation_deg", Math.toDegrees(map.grid.rotation))
+        put("cells_visited", map.passes.visitedCells)
+        put("cells_revisited", map.passes.revisitedCells)
     }
 
     private fun JsonObjectBuilder.cells(counts: BoundCounts) = putJsonObject("visited_cells") {

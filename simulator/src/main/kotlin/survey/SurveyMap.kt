@@ -90,11 +90,7 @@ class SurveyMap internal constructor(
                 scan.take(time, x, y, value, conditions)
                 epsilon.add(time.seconds, value)
             }
-            if (first.readings < 2) {
-                val skipped = first.skipped.entries.joinToString("") { "; ${it.value} ${it.key}" }
-                val found = first.readings.toString() + skipped
-                throw LogProblem(log.file, null, null, "at least 2 readings of ${log.quantity}", found)
-            }
+            if (first.readings < 2) throw tooFew(log, first)
             val statistics = scan.statistics()
             val track = scan.track()
             val stepSlope = stepSlope(statistics, settings)
@@ -143,6 +139,12 @@ class SurveyMap internal constructor(
                 settings.unit,
                 estimators.values.firstNotNullOfOrNull { it as? SelfCalibratingEstimator },
             )
+        }
+
+        private fun tooFew(log: SurveyLog, pass: LogPass): LogProblem {
+            val skipped = pass.skipped.entries.joinToString("") { "; ${it.value} ${it.key}" }
+            val found = pass.readings.toString() + skipped
+            return LogProblem(log.file, null, null, "at least 2 readings of ${log.quantity}", found)
         }
 
         private fun stepSlope(statistics: SurveyStatistics, settings: MapSettings): Double {
