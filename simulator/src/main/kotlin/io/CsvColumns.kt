@@ -65,8 +65,7 @@ internal data class CsvColumns(
             var longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
             val inDegrees = latitude != NONE && longitude != NONE
             if (!inDegrees) {
-                if (choice.latitude != null) throw problem(null, "--lon with --lat, or a column lon_deg", "neither")
-                if (choice.longitude != null) throw problem(null, "--lat with --lon, or a column lat_deg", "neither")
+                choice.halfAPlace()?.let { throw problem(null, it, "neither") }
                 latitude = NONE
                 longitude = NONE
             }
@@ -86,6 +85,13 @@ internal data class CsvColumns(
                 throw problem(names[column], "one use of it as time, position or readings", "$uses")
             }
             return CsvColumns(names, time, latitude, longitude, x, y, value, conditions)
+        }
+
+        /** What is missing where one of latitude and longitude was named alone. */
+        private fun LogChoice.halfAPlace(): String? = when {
+            latitude != null -> "--lon with --lat, or a column lon_deg"
+            longitude != null -> "--lat with --lon, or a column lat_deg"
+            else -> null
         }
 
         private val LogChoice.namesDegrees: Boolean get() = latitude != null || longitude != null
