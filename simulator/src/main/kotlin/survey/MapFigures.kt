@@ -224,13 +224,17 @@ class MapFigures(private val map: SurveyMap) {
 
     private inline fun List<Int>.doubles(of: (Int) -> Double) = DoubleArray(size) { of(this[it]) }
 
-    private companion object {
-        const val RARE = 0.01
-        const val NOWHERE = -1
-        const val MOST_POINTS = 4000
-        const val MOST_CELLS = 20_000
-        const val NEARLY_ALL = 0.999
-        const val SLOWEST = 0.01
-        const val BINS = 40
+    internal companion object {
+        /** Names of the figures' files, without ending, that any run may write. */
+        val NAMES: List<String> =
+            listOf("track", "bounds-width", "leg-mismatch", "speed") + FilterKind.entries.map { "estimate-${it.label}" }
+
+        private const val RARE = 0.01
+        private const val NOWHERE = -1
+        private const val MOST_POINTS = 4000
+        private const val MOST_CELLS = 20_000
+        private const val NEARLY_ALL = 0.999
+        private const val SLOWEST = 0.01
+        private const val BINS = 40
     }
 }

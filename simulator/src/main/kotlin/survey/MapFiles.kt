@@ -29,6 +29,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
      * @return warnings for the user, one line each.
      */
     fun write(directory: OutputDirectory): List<String> {
+        directory.retire(MapFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") } + "cells.geojson")
         directory.stream("cells.csv") { out ->
             val table = CsvTable(out, COLUMNS)
             map.maps.forEach { (kind, field) -> rows(table, kind, field) }

@@ -161,4 +161,19 @@ class OutputDirectoryTest {
         assertEquals(1, written.size)
         assertEquals("2", out.resolve("a").readText())
     }
+
+    @Test
+    fun whatWasRetiredAndNotWrittenGoesOnCommitOnly() {
+        val out = home.resolve("out").createDirectory()
+        for (name in listOf("old.svg", "new.svg", "other.txt")) out.resolve(name).writeText("earlier")
+        OutputDirectory(out).use { it.retire(listOf("old.svg", "new.svg")) }
+        assertEquals(listOf("new.svg", "old.svg", "other.txt"), out.listDirectoryEntries().map { it.name }.sorted())
+        OutputDirectory(out).use {
+            it.retire(listOf("old.svg", "new.svg", "never.svg"))
+            it.write("new.svg", "now")
+            it.commit()
+        }
+        assertEquals(listOf("new.svg", "other.txt"), out.listDirectoryEntries().map { it.name }.sorted())
+        assertEquals("now", out.resolve("new.svg").readText())
+    }
 }
