@@ -36,22 +36,31 @@ class Experiment(val settings: ExperimentSettings) {
                 async(dispatcher) { environment(name, field, environment).also { onDone() } }
             }
         }
-        val curves = work.flatMap { (name, environments) ->
-            val errors = environments.awaitAll()
+        val environments = work.associate { (name, pieces) -> name to pieces.awaitAll() }
+        val curves = environments.flatMap { (name, pieces) ->
             combinations().mapIndexed { index, (planner, filter) ->
-                Curve(name, filter, planner, settings.checkpoints, errors.map { it[index] })
+                Curve(name, filter, planner, settings.checkpoints, pieces.map { it.errors[index] })
             }
         }
-        ExperimentResult(settings, curves, settings.fields.mapValues { (name, kind) -> extremeCells(name, kind) })
+        val cells = settings.environments.toDouble() * settings.grid.size
+        ExperimentResult(
+            settings,
+            curves,
+            environments.mapValues { (_, pieces) ->
+                pieces.sumOf { it.extremes } / cells
+            },
+        )
     }
+
+    /** Errors of all combinations in one environment, one row each, and how many of its cells are local extremes. */
+    private class Environment(val errors: List<TrialErrors>, val extremes: Int)
 
     private fun combinations() = settings.planners.flatMap { planner -> settings.filters.map { planner to it } }
 
-    /** Errors of all [combinations] in one environment, one row each. */
-    private fun environment(name: String, kind: RandomField, environment: Int): List<TrialErrors> {
-        val field = field(name, kind, environment)
+    private fun environment(name: String, kind: RandomField, environment: Int): Environment {
+        val field = kind.draw(settings.grid, seeds.random("field $name", environment))
         val checkpoints = settings.checkpoints.toIntArray()
-        return settings.planners.flatMap { planner ->
+        val rows = settings.planners.flatMap { planner ->
             val start = if (planner.startsAtFirstCell) 0 else startCell(name, environment)
             val errors = HashMap<FilterKind, TrialErrors>()
             for (group in pathGroups(planner)) {
@@ -70,15 +79,8 @@ class Experiment(val settings: ExperimentSettings) {
             }
             settings.filters.map { errors.getValue(it) }
         }
+        return Environment(rows, LocalExtremes.of(field).count { it })
     }
-
-    private fun field(name: String, kind: RandomField, environment: Int) =
-        kind.draw(settings.grid, seeds.random("field $name", environment))
-
-    private fun extremeCells(name: String, kind: RandomField): Double =
-        (0 until settings.environments).sumOf { environment ->
-            LocalExtremes.of(field(name, kind, environment)).count { it }
-        } / settings.environments.toDouble() / settings.grid.size
 
     private fun startCell(name: String, environment: Int) =
         seeds.random("start $name", environment).nextInt(settings.grid.size)
