@@ -35,10 +35,7 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
             gainDt = dt
             gain = -expm1(-dt / timeConstant)
         }
-        // s ← s + α (ψ − s), in halves because the difference of two huge numbers overflows.
-        val next = 2 * (state / 2 + gain * (input / 2 - state / 2))
-        // Rounding must not carry it beyond the truth: bounds rest on the side from which it comes.
-        state = if (input > state) minOf(next, input) else maxOf(next, input)
+        state = towards(state, input, gain)
         return state
     }
 
@@ -57,4 +54,12 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
             return -period / ln1p(-alpha)
         }
     }
+}
+
+/** s + α (ψ − s) for [state] s, [input] ψ and [gain] α within 0..1. */
+internal fun towards(state: Double, input: Double, gain: Double): Double {
+    // In halves, because the difference of two huge numbers overflows.
+    val next = 2 * (state / 2 + gain * (input / 2 - state / 2))
+    // Rounding must not carry it beyond the truth: bounds rest on the side from which it comes.
+    return if (input > state) minOf(next, input) else maxOf(next, input)
 }

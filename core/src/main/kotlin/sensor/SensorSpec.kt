@@ -1,66 +1,10 @@
 package stillwater.sensor
 
-import kotlinx.serialization.SerialName
 import kotlinx.serialization.Serializable
 import kotlinx.serialization.SerializationException
 import kotlinx.serialization.descriptors.elementNames
 import kotlinx.serialization.json.Json
 import kotlin.random.Random
-
-/**
- * One part of a sensor as data. The parts of a sensor act in the order in which they are listed.
- *
- * Each is checked when it is built or read: an impossible number throws IllegalArgumentException with the reason.
- */
-@Serializable
-public sealed interface SensorStage {
-    /** A [SensorModel] of this stage that has settled at [initial], drawing what is random in it from [random]. */
-    public fun build(initial: Double, random: Random): SensorModel
-
-    /** [FirstOrderLag] with [timeConstant] τ, s. */
-    @Serializable
-    @SerialName("first-order-lag")
-    public data class Lag(@SerialName("time_constant_s") val timeConstant: Double) : SensorStage {
-        init {
-            build(0.0, Random(0))
-        }
-
-        override fun build(initial: Double, random: Random): SensorModel = FirstOrderLag(timeConstant, initial)
-    }
-
-    /** [SlewLimit] at [rate], sensor units/s. */
-    @Serializable
-    @SerialName("slew-limit")
-    public data class Slew(@SerialName("rate_per_s") val rate: Double) : SensorStage {
-        init {
-            build(0.0, Random(0))
-        }
-
-        override fun build(initial: Double, random: Random): SensorModel = SlewLimit(rate, initial)
-    }
-
-    /** [GaussianNoise] of [standardDeviation], sensor units. */
-    @Serializable
-    @SerialName("noise")
-    public data class Noise(@SerialName("standard_deviation") val standardDeviation: Double) : SensorStage {
-        init {
-            build(0.0, Random(0))
-        }
-
-        override fun build(initial: Double, random: Random): SensorModel = GaussianNoise(standardDeviation, random)
-    }
-
-    /** [Quantisation] to multiples of [step], sensor units. */
-    @Serializable
-    @SerialName("quantisation")
-    public data class Quantum(val step: Double) : SensorStage {
-        init {
-            build(0.0, Random(0))
-        }
-
-        override fun build(initial: Double, random: Random): SensorModel = Quantisation(step)
-    }
-}
 
 /**
  * A sensor as data: what the simulator runs, an estimator may assume and a diagnosis hands on.
@@ -76,13 +20,22 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
     /**
      * A sensor of this kind that has settled at [initial].
      *
-     * @param initial truth at which the sensor has come to rest, sensor units, finite.
+     * @param initial truth at which the sensor has come to rest, sensor units, finite. Each stage starts at what the one
+     *   before it shows of that.
      * @param random where its noise comes from. Retained.
      * @throws IllegalArgumentException if [initial] is not finite.
      */
     public fun build(initial: Double, random: Random): SensorModel {
         require(initial.isFinite()) { "initial ($initial) must be finite" }
-        return SensorChain(Array(stages.size) { stages[it].build(initial, random) })
+        var truth = initial
+        return SensorChain(
+            Array(stages.size) { i ->
+                stages[i].build(truth, random).also {
+                    truth =
+                        stages[i].settled(truth)
+                }
+            },
+        )
     }
 
     /** The JSON form, indented. */
