@@ -48,7 +48,7 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
         }
 
         /** The names of the stages: the second element of a sealed type's descriptor lists its subtypes. */
-        private val TYPES = SensorStage.serializer().descriptor.getElementDescriptor(1).elementNames.toList()
+        private val TYPES = SensorStage.serializer().descriptor.getElementDescriptor(1).elementNames.sorted()
 
         /**
          * Reads the JSON form.

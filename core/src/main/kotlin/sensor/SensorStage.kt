@@ -2,6 +2,7 @@ package stillwater.sensor
 
 import kotlinx.serialization.SerialName
 import kotlinx.serialization.Serializable
+import stillwater.model.Conditions
 import kotlin.random.Random
 
 /**
@@ -147,7 +148,7 @@ public sealed interface SensorStage {
 
         override fun build(initial: Double, random: Random): SensorModel = GainOffset(gain, offset)
 
-        override fun settled(truth: Double): Double = inRange(gain * truth + offset)
+        override fun settled(truth: Double): Double = build(truth, Random(0)).step(truth, 0.0, Conditions.NONE)
     }
 
     /**
@@ -209,7 +210,7 @@ public sealed interface SensorStage {
         override fun build(initial: Double, random: Random): SensorModel =
             Saturation(lower ?: Double.NEGATIVE_INFINITY, upper ?: Double.POSITIVE_INFINITY)
 
-        override fun settled(truth: Double): Double = truth.coerceIn(lower ?: truth, upper ?: truth)
+        override fun settled(truth: Double): Double = build(truth, Random(0)).step(truth, 0.0, Conditions.NONE)
     }
 
     /** [Outliers] with [probability], dimensionless, and [size], sensor units. */

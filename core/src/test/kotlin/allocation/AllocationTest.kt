@@ -64,6 +64,18 @@ class AllocationTest {
             SensorStage.Slew(0.01),
             SensorStage.Noise(0.002),
             SensorStage.Quantum(0.005),
+            SensorStage.Asymmetric(7.0, 13.0),
+            SensorStage.Delay(2.5),
+            SensorStage.TwoPath(2.0, 40.0, 0.3),
+            SensorStage.FlowLag(9.5, 1.0, 0.5),
+            SensorStage.TemperatureLag(9.5, 20.0, 0.03),
+            SensorStage.Calibration(1.1, 0.4),
+            SensorStage.Cross("salinity", 30.0, 0.2),
+            SensorStage.Drifting(1e-3),
+            SensorStage.Jumps(listOf(3.0, 40.0), listOf(0.5, 0.2)),
+            SensorStage.Backlash(0.2),
+            SensorStage.Range(-1.0, 2.0),
+            SensorStage.Outlying(0.1, 1.0),
         )
         val sensors = stages.map { it.toString() to it.build(0.5, Random(1)) } +
             ("the chain of all" to SensorSpec("all", stages).build(0.5, Random(1)))

@@ -24,7 +24,21 @@ class SensorSpecTest {
     @Test
     fun everyStageComesBackFromJsonAsItWent() {
         assertEquals(every, SensorSpec.fromJson(every.toJson()))
-        for (stage in every.stages) {
+        val beyond = listOf(
+            SensorStage.Asymmetric(7.0, 13.0),
+            SensorStage.Delay(2.5),
+            SensorStage.TwoPath(2.0, 40.0, 0.3),
+            SensorStage.FlowLag(9.5, 1.0, 0.5),
+            SensorStage.TemperatureLag(9.5, 20.0, 0.03),
+            SensorStage.Calibration(1.1, -0.4),
+            SensorStage.Cross("salinity", 30.0, 0.2),
+            SensorStage.Drifting(1e-3),
+            SensorStage.Jumps(listOf(3.0, 40.0), listOf(0.5, -0.5)),
+            SensorStage.Backlash(0.2),
+            SensorStage.Range(null, 12.5),
+            SensorStage.Outlying(0.01, 3.0),
+        )
+        for (stage in every.stages + beyond) {
             val spec = SensorSpec("one", listOf(stage))
             assertEquals(spec, SensorSpec.fromJson(spec.toJson()))
         }
@@ -85,6 +99,19 @@ class SensorSpecTest {
     }
 
     @Test
+    fun aSensorStartsSettledThroughAllItsStages() {
+        val stages = listOf(
+            SensorStage.Calibration(2.0, 1.0),
+            SensorStage.Lag(100.0),
+            SensorStage.Range(null, 6.0),
+            SensorStage.Delay(10.0),
+        )
+        // 2 × 2 + 1 is what the lag and the dead time start at; 2 × 4 + 1 is beyond the range.
+        assertEquals(5.0, SensorSpec("low", stages).build(2.0, Random(1)).step(2.0, 1.0, Conditions.NONE), 0.0)
+        assertEquals(6.0, SensorSpec("high", stages).build(4.0, Random(1)).step(4.0, 1.0, Conditions.NONE), 0.0)
+    }
+
+    @Test
     fun stagesShareTheRandomNumbersOfTheirSensor() {
         val spec = SensorSpec("noisy", listOf(SensorStage.Noise(1.0)))
         val first = spec.build(0.0, Random(9))
@@ -106,6 +133,22 @@ class SensorSpecTest {
         assertFailsWith<IllegalArgumentException> { SensorStage.Slew(0.0) }
         assertFailsWith<IllegalArgumentException> { SensorStage.Noise(Double.NaN) }
         assertFailsWith<IllegalArgumentException> { SensorStage.Quantum(0.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Asymmetric(1.0, 0.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Asymmetric(Double.NaN, 1.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Delay(-1.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.TwoPath(2.0, 1.0, 0.5) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.TwoPath(1.0, 2.0, 1.5) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.FlowLag(1.0, 0.0, 0.5) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.FlowLag(0.0, 1.0, 0.5) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.TemperatureLag(1.0, 20.0, 3.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Calibration(0.0, 0.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Cross(" ", 0.0, 1.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Drifting(Double.NaN) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Jumps(listOf(2.0, 2.0), listOf(1.0, 1.0)) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Jumps(listOf(2.0), emptyList()) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Backlash(-1.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Range(2.0, 2.0) }
+        assertFailsWith<IllegalArgumentException> { SensorStage.Outlying(1.5, 1.0) }
     }
 
     @Test
@@ -113,7 +156,7 @@ class SensorSpecTest {
         fun stage(json: String) = """{"name": "x", "stages": [{"type": "noise", "standard_deviation": 1}, $json]}"""
         for ((json, words) in listOf(
             stage("""{"type": "warp", "factor": 9}""") to
-                listOf("type", "first-order-lag, noise, quantisation, slew-limit", "$.stages[1]"),
+                listOf("type", "asymmetric-lag, cross-sensitivity, dead-time, drift, first-order-lag", "$.stages[1]"),
             stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to
                 listOf("timeConstant (-2.0 s) must be above 0", "$.stages[1]"),
             stage("""{"type": "first-order-lag"}""") to listOf("time_constant_s", "$.stages[1]"),

@@ -23,6 +23,23 @@ class SensorContractTest {
         SensorStage.Noise(0.02),
         SensorStage.Quantum(0.005),
         SensorStage.Quantum(1e300),
+        SensorStage.Asymmetric(7.0, 13.0),
+        SensorStage.Asymmetric(1e-300, 1e300),
+        SensorStage.Delay(0.0),
+        SensorStage.Delay(2.5),
+        SensorStage.Delay(1e300),
+        SensorStage.TwoPath(2.0, 40.0, 0.3),
+        SensorStage.FlowLag(9.5, 1.0, 0.5),
+        SensorStage.TemperatureLag(9.5, 20.0, 0.03),
+        SensorStage.Calibration(-1.1, 0.4),
+        SensorStage.Calibration(1e300, -1e300),
+        SensorStage.Cross("salinity", 30.0, 0.2),
+        SensorStage.Drifting(1e-3),
+        SensorStage.Drifting(-1e300),
+        SensorStage.Jumps(listOf(3.0, 40.0), listOf(0.5, -1e300)),
+        SensorStage.Backlash(0.2),
+        SensorStage.Range(-1.0, null),
+        SensorStage.Outlying(0.1, 1e300),
     )
     private val specs = stages.map { SensorSpec("$it", listOf(it)) } +
         SensorSpec("none", emptyList()) +
