@@ -8,7 +8,8 @@ import stillwater.report.writeFigures
 import stillwater.run.ExperimentResult
 
 /**
- * Writes what an experiment found: results.csv, extremes.csv, sensor.json, a figure a field (SVG and PNG) and report.html.
+ * Writes what an experiment found: results.csv, extremes.csv, bounds.csv, sensor.json, a figure a field (SVG and PNG)
+ * and report.html.
  *
  * @param result what was found.
  * @param command the command as typed, for the report.
@@ -22,6 +23,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
     fun write(directory: OutputDirectory): List<String> {
         directory.stream("results.csv") { out -> CsvTable(out, COLUMNS).use(::rows) }
         directory.stream("extremes.csv") { out -> CsvTable(out, EXTREMES_COLUMNS).use(::extremes) }
+        directory.stream("bounds.csv") { out -> CsvTable(out, BOUNDS_COLUMNS).use(::bounds) }
         directory.write("sensor.json", result.settings.sensor.toJson() + "\n")
         directory.retire(BenchmarkFigures.names.flatMap { listOf("$it.svg", "$it.png") })
         val figures = BenchmarkFigures.of(result)
@@ -65,7 +67,26 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
         }
     }
 
+    private fun bounds(table: CsvTable) {
+        for (curve in result.curves) {
+            curve.checkpoints.zip(curve.summaries) { move, summary ->
+                val bounds = summary.bounds ?: return@zip
+                table.row(
+                    curve.field,
+                    curve.filter.label,
+                    curve.planner.label,
+                    move,
+                    bounds.coverage,
+                    bounds.standardError,
+                    bounds.meanWidth,
+                )
+            }
+        }
+    }
+
     private companion object {
+        val BOUNDS_COLUMNS =
+            listOf("field", "filter", "planner", "move", "coverage", "standard_error", "mean_width")
         val EXTREMES_COLUMNS = listOf("field", "filter", "planner", "move", "share_of_cells", "share_of_error")
         val COLUMNS = listOf(
             "field",

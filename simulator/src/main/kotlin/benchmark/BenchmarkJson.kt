@@ -37,6 +37,8 @@ object BenchmarkJson {
                         put("standard_error", number(summary.standardError))
                         put("p10", number(summary.p10))
                         put("p90", number(summary.p90))
+                        put("coverage", number(summary.bounds?.coverage ?: Double.NaN))
+                        put("mean_width", number(summary.bounds?.meanWidth ?: Double.NaN))
                     }
                 }
             }

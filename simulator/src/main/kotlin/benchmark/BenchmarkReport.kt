@@ -35,6 +35,7 @@ internal class BenchmarkReport(
             page.section(figure.title) {
                 figure(figure, CAPTION)
                 table(BenchmarkTable.of(result, field), "Mean absolute error at some of the moves")
+                BenchmarkTable.bounds(result, field)?.let { table(it, BOUNDS_CAPTION) }
             }
         }
         val claims = ReportClaims(result).all()
@@ -97,6 +98,9 @@ internal class BenchmarkReport(
     private fun String.words() = lowercase().replace('_', ' ')
 
     private companion object {
+        const val BOUNDS_CAPTION =
+            "Share of the visited cells whose bounds hold the truth, and at the last move the bounds' mean width; all " +
+                "moves are in bounds.csv"
         const val CAPTION =
             "The report draws this comparison as its Figure 6 (uniform field) and Figure 7 (Gaussian). " +
                 "Planners by colour, filters by line, bands of one standard error of the mean either way."

@@ -128,8 +128,9 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         "Compare filters and planners in simulated fields, as the report does in its Figures 6 and 7."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), figure-6 and " +
-            "figure-7 (SVG and PNG), sensor.json and report.html into DIR; nothing at all when something is wrong.",
+        "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), bounds.csv " +
+            "(how often bounds hold the truth, how wide they are), figure-6 and figure-7 (SVG and PNG), sensor.json " +
+            "and report.html into DIR; nothing at all when something is wrong.",
         listOf(
             "stillwater benchmark",
             "stillwater benchmark --preset noisy --out noisy",
@@ -178,6 +179,9 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     private fun show(result: ExperimentResult) {
         for (field in result.settings.fields.keys) {
             terminal.println(BenchmarkTable.of(result, field).toTerminal("Mean absolute error, field $field, by moves"))
+            terminal.println()
+            val bounds = BenchmarkTable.bounds(result, field) ?: continue
+            terminal.println(bounds.toTerminal("Share of cells whose bounds hold the truth, field $field, by moves"))
             terminal.println()
         }
         for (claim in ReportClaims(result).all()) {

@@ -59,38 +59,42 @@ class Experiment(val settings: ExperimentSettings) {
 
     private fun environment(name: String, kind: RandomField, environment: Int): Environment {
         val field = kind.draw(settings.grid, seeds.random("field $name", environment))
+        val extremes = LocalExtremes.of(field)
         val checkpoints = settings.checkpoints.toIntArray()
         val rows = settings.planners.flatMap { planner ->
             val start = if (planner.startsAtFirstCell) 0 else startCell(name, environment)
             val errors = HashMap<FilterKind, TrialErrors>()
             for (group in pathGroups(planner)) {
-                val stream = "$name ${planner.label} ${group.first().label}"
+                val stream = "$name ${planner.label} ${group.leader.label}"
                 val trial = Trial(
                     field = field,
                     sensor = settings.sensor.build(field.truth(start), seeds.random("noise $stream", environment)),
                     planner = planner.planner(seeds.random("planner $stream", environment), settings.plannerSettings),
-                    estimators = group.map {
+                    estimators = group.filters.map {
                         it.estimator(settings.grid, settings.prior, settings.boundedFilter, settings.lagFilters)
                     },
                     samplesPerMove = settings.samplesPerMove,
                     period = settings.period,
+                    extremes = extremes,
                 )
-                group.zip(trial.run(start, checkpoints)).toMap(errors)
+                group.filters.zip(trial.run(start, checkpoints)).toMap(errors)
             }
             settings.filters.map { errors.getValue(it) }
         }
-        return Environment(rows, LocalExtremes.of(field).count { it })
+        return Environment(rows, extremes.count { it })
     }
 
     private fun startCell(name: String, environment: Int) =
         seeds.random("start $name", environment).nextInt(settings.grid.size)
 
-    /** Filters that share a path of [planner]; where it plans on a map, the map of the first of its group. */
-    private fun pathGroups(planner: PlannerKind): List<List<FilterKind>> {
-        if (!planner.usesMap) return listOf(listOf(FilterKind.BOUNDED) + (settings.filters - FilterKind.BOUNDED))
+    /** Filters that share a path, drawn from the stream of [leader]; a planner plans on the map of the first. */
+    private class PathGroup(val leader: FilterKind, val filters: List<FilterKind>)
+
+    private fun pathGroups(planner: PlannerKind): List<PathGroup> {
+        if (!planner.usesMap) return listOf(PathGroup(FilterKind.BOUNDED, settings.filters))
         val (bounding, others) = settings.filters.partition { it.givesBounds }
-        val withOthers = listOf(FilterKind.BOUNDED) + others
-        val alone = (bounding - FilterKind.BOUNDED).map { listOf(it) }
-        return if (others.isEmpty() && FilterKind.BOUNDED !in bounding) alone else listOf(withOthers) + alone
+        val alone = (bounding - FilterKind.BOUNDED).map { PathGroup(it, listOf(it)) }
+        if (others.isEmpty() && FilterKind.BOUNDED !in bounding) return alone
+        return listOf(PathGroup(FilterKind.BOUNDED, listOf(FilterKind.BOUNDED) + others)) + alone
     }
 }

@@ -52,6 +52,17 @@ class Curve(
             p10 = statistics.getPercentile(10.0),
             p90 = statistics.getPercentile(90.0),
             shareInExtremes = errors.sumOf { it.inExtremes[checkpoint] } / errors.sumOf { it.mean[checkpoint] },
+            bounds = if (filter.givesBounds) bounds(checkpoint) else null,
+        )
+    }
+
+    private fun bounds(checkpoint: Int): BoundsSummary {
+        val coverage = DescriptiveStatistics(DoubleArray(errors.size) { errors[it].coverage[checkpoint] })
+        val spread = coverage.standardDeviation / sqrt(errors.size.toDouble())
+        return BoundsSummary(
+            coverage = coverage.mean,
+            standardError = if (errors.size < 2) Double.NaN else spread,
+            meanWidth = errors.sumOf { it.width[checkpoint] } / errors.size,
         )
     }
 }
@@ -65,6 +76,7 @@ class Curve(
  * @property p90 90th percentile over the environments, sensor units.
  * @property shareInExtremes share of all error that lies in local extremes of the field, dimensionless; NaN where
  *   there is no error.
+ * @property bounds what the bounds are worth; null for a filter that gives none.
  */
 data class ErrorSummary(
     val mean: Double,
@@ -72,7 +84,18 @@ data class ErrorSummary(
     val p10: Double,
     val p90: Double,
     val shareInExtremes: Double,
+    val bounds: BoundsSummary?,
 )
+
+/**
+ * What the bounds of a combination are worth at one checkpoint.
+ *
+ * @property coverage mean over the environments of the share of visited cells whose bounds hold the truth,
+ *   dimensionless: 1 where they are sound, the credible level where they are credible.
+ * @property standardError standard error of [coverage], dimensionless; NaN for one environment.
+ * @property meanWidth mean width of the visited cells' bounds, sensor units.
+ */
+data class BoundsSummary(val coverage: Double, val standardError: Double, val meanWidth: Double)
 
 /**
  * How far apart two combinations are at one checkpoint.

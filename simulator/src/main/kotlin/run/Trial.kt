@@ -24,6 +24,7 @@ import kotlin.math.abs
  * @property estimators each gets every reading. The planner plans on the map of the first.
  * @property samplesPerMove readings taken in a cell before moving on.
  * @property period time between readings, s.
+ * @property extremes for each cell of [field] whether it is a local extreme of it. Not modified.
  */
 class Trial(
     private val field: CellField,
@@ -32,8 +33,8 @@ class Trial(
     private val estimators: List<FieldEstimator>,
     private val samplesPerMove: Int,
     private val period: Double,
+    private val extremes: BooleanArray = LocalExtremes.of(field),
 ) {
-    private val extremes = LocalExtremes.of(field)
     private var samples = 0L
     private var reading = 0.0
 
@@ -90,20 +91,37 @@ class Trial(
 
     private fun take(errors: TrialErrors, checkpoint: Int, estimator: FieldEstimator) {
         val cells = field.grid.size
+        val map = estimator.map
+        val rounding = ROUNDING * map.prior.width
         var all = 0.0
         var inExtremes = 0.0
+        var visited = 0
+        var covered = 0
+        var width = 0.0
         for (cell in 0 until cells) {
-            val error = abs(estimator.map.value(cell) - field.truth(cell))
+            val truth = field.truth(cell)
+            val error = abs(map.value(cell) - truth)
             all += error
             if (extremes[cell]) inExtremes += error
+            if (map.readings(cell) == 0) continue
+            visited++
+            if (truth >= map.lower(cell) - rounding && truth <= map.upper(cell) + rounding) covered++
+            width += map.upper(cell) - map.lower(cell)
         }
         errors.mean[checkpoint] = all / cells
         errors.inExtremes[checkpoint] = inExtremes / cells
+        errors.coverage[checkpoint] = covered.toDouble() / visited
+        errors.width[checkpoint] = width / visited
+    }
+
+    private companion object {
+        /** What a bound may miss the truth by for the numbers' own rounding, in widths of the prior. */
+        const val ROUNDING = 1e-12
     }
 }
 
 /**
- * Errors of one estimator in one trial.
+ * Errors of one estimator in one trial, and what its bounds are worth.
  *
  * @param checkpoints number of checkpoints.
  */
@@ -113,4 +131,10 @@ class TrialErrors(checkpoints: Int) {
 
     /** The part of [mean] that lies in local extremes of the field, sensor units: a sum there over all cells' number. */
     val inExtremes: DoubleArray = DoubleArray(checkpoints)
+
+    /** Share of the visited cells whose bounds hold the truth, dimensionless; bounds that crossed hold nothing. */
+    val coverage: DoubleArray = DoubleArray(checkpoints)
+
+    /** Mean width of the visited cells' bounds, sensor units; negative where they crossed. */
+    val width: DoubleArray = DoubleArray(checkpoints)
 }

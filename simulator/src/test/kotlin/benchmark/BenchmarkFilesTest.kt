@@ -52,6 +52,7 @@ class BenchmarkFilesTest {
             listOf(
                 "results.csv",
                 "extremes.csv",
+                "bounds.csv",
                 "sensor.json",
                 "figure-6.svg",
                 "figure-6.png",
@@ -93,6 +94,23 @@ class BenchmarkFilesTest {
             out.resolve("extremes.csv").readLines()[0],
         )
         assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.4375", "0.5"), rows("extremes.csv").first())
+    }
+
+    @Test
+    fun boundsTellHowOftenTheyHoldAndHowWideTheyAreForFiltersThatGiveThem() {
+        write(result)
+        assertEquals(
+            "field,filter,planner,move,coverage,standard_error,mean_width",
+            out.resolve("bounds.csv").readLines()[0],
+        )
+        val rows = rows("bounds.csv")
+        // Two environments, 0.75 and 1: mean 0.875, standard error 0.125.
+        assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.875", "0.125", "0.25"), rows.first())
+        assertEquals(setOf("bounded"), rows.map { it[1] }.toSet(), "averaging gives none")
+        assertContains(out.resolve("report.html").readText(), "0.875")
+        val first = json(result).getValue("results").jsonArray.map { it.jsonObject }
+        assertEquals(0.875, first[0].getValue("coverage").jsonPrimitive.double)
+        assertEquals(JsonNull, first.first { it["filter"]?.jsonPrimitive?.content == "averaging" }["coverage"])
     }
 
     @Test

@@ -12,6 +12,8 @@ import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertIs
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
 
 class BenchmarkTableTest {
     private val result = HandMadeResult()
@@ -32,6 +34,14 @@ class BenchmarkTableTest {
             table.rows,
         )
         assertEquals(1, BenchmarkTable.of(result, Preset.GAUSSIAN).rows.size)
+    }
+
+    @Test
+    fun boundsHaveARowForEachFilterThatGivesThemAndTheWidthAtTheEnd() {
+        val table = assertNotNull(BenchmarkTable.bounds(result, Preset.UNIFORM))
+        assertEquals(listOf("planner", "filter", "50", "100", "200", "width"), table.columns.map { it.header })
+        assertEquals(listOf(listOf("random-walk", "bounded", "0.875", "0.875", "0.875", "0.250")), table.rows)
+        assertNull(BenchmarkTable.bounds(HandMadeResult().curve(WALK, AVERAGING, 0.5, 0.25, 0.1).build(), "uniform"))
     }
 
     @Test

@@ -19,6 +19,8 @@ internal class HandMadeResult(private val environments: Int = 2) {
                 for (i in means.indices) {
                     mean[i] = means[i] + if (environments == 1) 0.0 else SPREAD * (2 * (environment % 2) - 1)
                     inExtremes[i] = mean[i] / 2
+                    coverage[i] = if (environment % 2 == 0) 0.75 else 1.0
+                    width[i] = 0.25
                 }
             }
         }

@@ -42,9 +42,10 @@ class BenchmarkCommandTest {
         assertEquals(listOf("2"), column("environments"))
         assertEquals(2 * 3 * 2 * Checkpoints.upTo(12).size, results(out).size)
         assertContains(result.stdout, "Mean absolute error, field gaussian, by moves")
-        assertContains(result.stdout, "wrote 8 files into $out, see ${out.resolve("report.html")}")
+        assertContains(result.stdout, "Share of cells whose bounds hold the truth, field gaussian, by moves")
+        assertContains(result.stdout, "wrote 9 files into $out, see ${out.resolve("report.html")}")
         assertEquals("", result.stderr)
-        assertEquals(8, out.listDirectoryEntries().size)
+        assertEquals(9, out.listDirectoryEntries().size)
     }
 
     @Test
@@ -55,7 +56,10 @@ class BenchmarkCommandTest {
         assertEquals(listOf("exponential", "bounded"), column("filter"))
         assertEquals(listOf("lawnmower", "bounded"), column("planner"))
         assertEquals(
-            listOf("extremes.csv", "figure-7.png", "figure-7.svg", "report.html", "results.csv", "sensor.json"),
+            listOf(
+                "bounds.csv", "extremes.csv", "figure-7.png", "figure-7.svg", "report.html", "results.csv",
+                "sensor.json",
+            ),
             out.listDirectoryEntries().map { it.name }.sorted(),
         )
     }
@@ -162,7 +166,7 @@ class BenchmarkCommandTest {
             results(out).map { it.getValue("mean_abs_error") },
             json.getValue("results").jsonArray.map { it.jsonObject.getValue("mean_abs_error").jsonPrimitive.content },
         )
-        assertEquals(8, json.getValue("files").jsonArray.size)
+        assertEquals(9, json.getValue("files").jsonArray.size)
         assertEquals("", result.stderr)
     }
 
@@ -179,7 +183,7 @@ class BenchmarkCommandTest {
 
     @Test
     fun theSameSeedGivesTheSameBytesOnAnyNumberOfThreadsInAnyLanguage() {
-        val names = listOf("results.csv", "extremes.csv", "figure-6.svg", "figure-7.svg", "sensor.json", "report.html")
+        val names = listOf("results.csv", "extremes.csv", "bounds.csv", "figure-6.svg", "figure-7.svg", "report.html")
         fun bytes(vararg flags: String): List<ByteArray> {
             runSmallBenchmark(out, "--preset", "noisy", "--environments", "4", *flags)
             return names.map { out.resolve(it).readBytes() }

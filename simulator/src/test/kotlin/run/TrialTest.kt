@@ -1,7 +1,10 @@
 package stillwater.run
 
+import stillwater.estimate.BoundedFilter
+import stillwater.estimate.BoundedFilterSettings
 import stillwater.field.CellField
 import stillwater.model.Grid
+import stillwater.model.Interval
 import stillwater.plan.Planner
 import stillwater.sensor.FirstOrderLag
 import stillwater.sensor.SensorModel
@@ -81,6 +84,21 @@ class TrialTest {
         assertEquals(0.5 / 4, errors.mean[1], 1e-15, "rounding of a sum")
         assertEquals(0.4 / 4, errors.inExtremes[0], 1e-15, "rounding of a difference")
         assertEquals(0.4 / 4, errors.inExtremes[1], 1e-15, "rounding of a difference")
+    }
+
+    @Test
+    fun coverageAndWidthAreThoseOfTheVisitedCells() {
+        val filter = BoundedFilter(grid, Interval.UNIT, BoundedFilterSettings(0.0, medianWindow = 1, slopeWindow = 2))
+        // Says 0.1 too much in the second cell and rises there: its lower bound is wrong.
+        var steps = 0
+        val above = SensorModel { input, _, _ -> if (++steps <= 2) input else input + 0.1 + 0.001 * steps }
+        val errors = Trial(field, above, ScriptedPlanner(grid, listOf(1)), listOf(filter), 2, 1.0)
+            .run(0, intArrayOf(1, 2)).single()
+        // In the first cell there is no slope and so the prior's bounds.
+        assertEquals(listOf(1.0, 0.5), errors.coverage.toList())
+        assertEquals(1.0, errors.width[0])
+        // Bounds [0, 1] and [0.9.., 1].
+        assertEquals((1.0 + 1.0 - filter.map.lower(1)) / 2, errors.width[1], 1e-15, "rounding of a sum")
     }
 
     @Test
