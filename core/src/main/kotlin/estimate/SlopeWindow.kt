@@ -36,6 +36,10 @@ public class SlopeWindow(public val size: Int) {
         if (count < size) count++
     }
 
+    /** Σ (t − t̄)² of the values that the last [slope] was taken over, s². */
+    internal var timeSpread: Double = 0.0
+        private set
+
     /** Slope, sensor units/s; 0 when there are fewer than two values or all have one time. */
     public fun slope(): Double {
         if (count < 2) return 0.0
@@ -57,6 +61,7 @@ public class SlopeWindow(public val size: Int) {
             covariance += time * (values[i] - value0 - meanValue)
             variance += time * time
         }
+        timeSpread = variance
         return if (variance > 0) covariance / variance else 0.0
     }
 }

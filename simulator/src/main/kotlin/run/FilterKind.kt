@@ -1,6 +1,8 @@
 package stillwater.run
 
 import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BoundedExtendedFilter
+import stillwater.estimate.BoundedExtendedSettings
 import stillwater.estimate.BoundedFilter
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.ExponentialFilter
@@ -32,6 +34,9 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
 
     /** Learns the time constant on the way; its bounds are credible at 95 %. */
     SELF_CALIBRATING("self-calibrating", givesBounds = true),
+
+    /** The bounded filter grown up: noise and distances per slope learned from the readings. */
+    BOUNDED_EXTENDED("bounded-extended", givesBounds = true),
     ;
 
     /** A filter of this kind over [grid]; [settings] count for the bounded one, [lag] for those after it. */
@@ -46,5 +51,10 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
         BOUNDED -> BoundedFilter(grid, prior, settings)
         INTERVAL -> IntervalFilter(grid, prior, lag.interval)
         SELF_CALIBRATING -> SelfCalibratingEstimator(grid, prior, lag.selfCalibrating)
+        BOUNDED_EXTENDED -> BoundedExtendedFilter(
+            grid,
+            prior,
+            BoundedExtendedSettings(settings.medianWindow, settings.slopeWindow),
+        )
     }
 }

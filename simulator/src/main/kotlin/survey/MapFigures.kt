@@ -110,6 +110,8 @@ class MapFigures(private val map: SurveyMap) {
                 "Midpoint of the bounds that hold for every sensor no slower than was said, in each visited cell."
             FilterKind.SELF_CALIBRATING ->
                 "The water's value in each visited cell at the time constant that explains all readings best."
+            FilterKind.BOUNDED_EXTENDED ->
+                "The water's value in each visited cell by the readings there and their slopes, within the bounds."
         }
         val value: (Int) -> Double = { field.measuredValue(kind, it) }
         val figure = if (map.log.oneDimensional) {
