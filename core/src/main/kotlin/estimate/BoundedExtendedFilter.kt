@@ -271,7 +271,7 @@ public class BoundedExtendedFilter(
         val value = mean + ratios.rising * up - ratios.falling * down
         val deviation = minOf(noise.deviation(true), noise.deviation(false))
         val base = maxOf(ratios.base, deviation * deviation) * (squaredWeights[cell] + weight * weight) / (sum * sum)
-        val reach = CREDIBLE * sqrt(base + ratios.variance(up, down))
+        val reach = ratios.quantile * sqrt(base + ratios.variance(up, down))
         if (!value.isFinite() || !reach.isFinite()) return false
         map.setValue(cell, value.coerceIn(lower, upper))
         if (value + reach < lower || value - reach > upper) {
@@ -293,7 +293,6 @@ public class BoundedExtendedFilter(
         private const val CLEAR = 3.0
         private const val STEP_MARGIN = 1.05
         private const val FIRST_FAILURE = 0.015
-        private const val CREDIBLE = 2.1
         private const val TINY = 1e-300
     }
 }

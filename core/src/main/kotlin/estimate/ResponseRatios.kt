@@ -91,6 +91,9 @@ internal class ResponseRatios {
         return clear
     }
 
+    /** 97.5 % quantile of Student's distribution, to first order in 1/ν, for the cells that the ratios rest on. */
+    val quantile: Double get() = NORMAL + NORMAL * (NORMAL * NORMAL + 1) / (4.0 * maxOf(1, cells - 2))
+
     /** Variance of k⁺ [up] − k⁻ [down]: spread from stay to stay, and what is not known of the ratios themselves. */
     fun variance(up: Double, down: Double): Double =
         (perSlope + upVariance) * up * up + (perSlope + downVariance) * down * down - 2 * covariance * up * down
@@ -152,6 +155,8 @@ internal class ResponseRatios {
     }
 
     private companion object {
+        /** 97.5 % quantile of the normal distribution. */
+        const val NORMAL = 1.96
         const val FEWEST = 12
         const val FEWEST_CELLS = 6
         const val FARTHEST = 3.0

@@ -1,5 +1,7 @@
 package stillwater.run
 
+import stillwater.plan.BoundedExtendedPlanner
+import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.BoundedPlanner
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Lawnmower
@@ -15,11 +17,13 @@ import kotlin.random.Random
  * @property walk steps of the random walk.
  * @property pattern order of the lawnmower.
  * @property bounded horizon, expansions and choices of the bounded planner.
+ * @property boundedExtended horizon and expansions of the extended bounded planner.
  */
 data class PlannerSettings(
     val walk: WalkSteps = WalkSteps.EDGE,
     val pattern: LawnmowerPattern = LawnmowerPattern.HAMILTONIAN_CYCLE,
     val bounded: BoundedPlannerSettings = BoundedPlannerSettings(),
+    val boundedExtended: BoundedExtendedPlannerSettings = BoundedExtendedPlannerSettings(),
 )
 
 /**
@@ -38,6 +42,9 @@ enum class PlannerKind(val label: String, val usesMap: Boolean, val startsAtFirs
 
     /** The report's bounded planner. */
     BOUNDED("bounded", usesMap = true, startsAtFirstCell = false),
+
+    /** The bounded planner that remembers where it learned nothing. */
+    BOUNDED_EXTENDED("bounded-extended", usesMap = true, startsAtFirstCell = false),
     ;
 
     /** A fresh planner of this kind that draws from [random]. */
@@ -45,5 +52,6 @@ enum class PlannerKind(val label: String, val usesMap: Boolean, val startsAtFirs
         RANDOM_WALK -> RandomWalk(random, settings.walk)
         LAWNMOWER -> Lawnmower(settings.pattern)
         BOUNDED -> BoundedPlanner(random, settings.bounded)
+        BOUNDED_EXTENDED -> BoundedExtendedPlanner(random, settings.boundedExtended)
     }
 }
