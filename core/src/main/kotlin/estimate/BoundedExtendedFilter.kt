@@ -124,7 +124,7 @@ public class BoundedExtendedFilter(
         if (!slope.isFinite() || !(timeSpread > 0)) return
         direction(cell, medians.median, slope)
         evidence++
-        val share = 1.0 / minOf(evidence, settings.slopeWindow)
+        val share = 1.0 / minOf(evidence, 2)
         stayValue += share * (medians.median - stayValue)
         staySlope += share * (slope - staySlope)
         write(cell)
@@ -180,7 +180,7 @@ public class BoundedExtendedFilter(
 
     /** What noise may make of the n-th stay's evidence so that all of them together fail one time in forty, eq. (2). */
     private fun margin(deviation: Double, n: Int): Double =
-        maxOf(deviation * sqrt(2 * ln(n.toDouble() * n / FIRST_FAILURE)), noise.resolution / 2)
+        noise.besidesRounding(deviation) * sqrt(2 * ln(n.toDouble() * n / FIRST_FAILURE)) + noise.resolution / 2
 
     private fun raise(cell: Int, bound: Double, slope: Double) {
         if (!(bound > lowers[cell]) || !bound.isFinite()) return
@@ -271,7 +271,9 @@ public class BoundedExtendedFilter(
         val value = mean + ratios.rising * up - ratios.falling * down
         val deviation = minOf(noise.deviation(true), noise.deviation(false))
         val base = maxOf(ratios.base, deviation * deviation) * (squaredWeights[cell] + weight * weight) / (sum * sum)
-        val reach = ratios.quantile * sqrt(base + ratios.variance(up, down))
+        val bySlope = ratios.variance(up, down)
+        if (!ratios.proportional && bySlope > base) return false
+        val reach = ratios.quantile * sqrt(base + bySlope)
         if (!value.isFinite() || !reach.isFinite()) return false
         map.setValue(cell, value.coerceIn(lower, upper))
         if (value + reach < lower || value - reach > upper) {

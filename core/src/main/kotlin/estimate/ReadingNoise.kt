@@ -57,6 +57,10 @@ internal class ReadingNoise(private val smallest: Double) {
         return sqrt(maxOf(learned / THIRD_DIFFERENCE, resolution * resolution / UNIFORM))
     }
 
+    /** What is left of [deviation] without the uniform error of rounding to [resolution], sensor units. */
+    fun besidesRounding(deviation: Double): Double =
+        sqrt(maxOf(0.0, deviation * deviation - resolution * resolution / UNIFORM))
+
     private fun pooled(): Double {
         val all = counts[0] + counts[1]
         return if (all == 0) 0.0 else (means[0] * counts[0] + means[1] * counts[1]) / all

@@ -91,6 +91,9 @@ internal class ResponseRatios {
         return clear
     }
 
+    /** Whether distances are proportional to slopes so well that a slope tells a distance. */
+    val proportional: Boolean get() = perSlope < LOOSEST * LOOSEST * rising * falling
+
     /** 97.5 % quantile of Student's distribution, to first order in 1/ν, for the cells that the ratios rest on. */
     val quantile: Double get() = NORMAL + NORMAL * (NORMAL * NORMAL + 1) / (4.0 * maxOf(1, cells - 2))
 
@@ -160,11 +163,14 @@ internal class ResponseRatios {
         const val FEWEST = 12
         const val FEWEST_CELLS = 6
         const val FARTHEST = 3.0
-        const val CLEAR = 64.0
+        const val CLEAR = 16.0
 
         /** Ratios are never believed to be alike to better than this share, squared. */
         const val STRICTEST = 1e-4
         const val ALIKE = 0.5
+
+        /** b over k beyond which a slope tells no distance: at three standard deviations it may be none. */
+        const val LOOSEST = 1.0 / 3
         const val SINGULAR = 1e-9
     }
 }
