@@ -67,6 +67,9 @@ public class BoundedExtendedFilter(
 
     /** Slope times √Σ(t − t̄)² of one step of height 1 in the middle of the window, and a margin; √(3 n) / 4. */
     private val flicker = STEP_MARGIN * sqrt(3.0 * settings.slopeWindow) / 4
+
+    /** Slopes of a stay that its evidence is taken over: the last ones, of windows that overlap by half or more. */
+    private val pooled = maxOf(1, settings.slopeWindow / 2)
     private val noise = ReadingNoise(ROUNDING * maxOf(abs(prior.lower), abs(prior.upper), prior.width))
     private val ratios = ResponseRatios()
 
@@ -124,7 +127,7 @@ public class BoundedExtendedFilter(
         if (!slope.isFinite() || !(timeSpread > 0)) return
         direction(cell, medians.median, slope)
         evidence++
-        val share = 1.0 / minOf(evidence, 2)
+        val share = 1.0 / minOf(evidence, pooled)
         stayValue += share * (medians.median - stayValue)
         staySlope += share * (slope - staySlope)
         write(cell)

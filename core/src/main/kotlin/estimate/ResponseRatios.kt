@@ -127,16 +127,17 @@ internal class ResponseRatios {
 
     /** a² and b² by weighted least squares of squared residuals, eq. (6). */
     private fun judge(residual: Double, stays: Double, slopes: Double, a2: Double) {
-        val expected = stays * a2 + perSlope * slopes
-        val most = if (judged >= FEWEST) FARTHEST * FARTHEST * expected else Double.MAX_VALUE
+        val floor = FLOOR * FLOOR * rising * falling
+        val expected = stays * a2 + maxOf(perSlope, floor) * slopes
+        val most = if (judged >= FEWEST) CAP * expected else Double.MAX_VALUE
         val square = minOf(residual * residual, most)
         val weight = 1 / (expected * expected)
         if (!(weight * square * slopes).isFinite() || !(weight * slopes * slopes).isFinite()) return
-        spread11 += weight * stays * stays
-        spread12 += weight * stays * slopes
-        spread22 += weight * slopes * slopes
-        spreadY1 += weight * stays * square
-        spreadY2 += weight * slopes * square
+        spread11 = KEPT * spread11 + weight * stays * stays
+        spread12 = KEPT * spread12 + weight * stays * slopes
+        spread22 = KEPT * spread22 + weight * slopes * slopes
+        spreadY1 = KEPT * spreadY1 + weight * stays * square
+        spreadY2 = KEPT * spreadY2 + weight * slopes * square
         judged++
         val determinant = spread11 * spread22 - spread12 * spread12
         var a = 0.0
@@ -168,6 +169,9 @@ internal class ResponseRatios {
         /** Ratios are never believed to be alike to better than this share, squared. */
         const val STRICTEST = 1e-4
         const val ALIKE = 0.5
+        const val FLOOR = 0.1
+        const val CAP = 16.0
+        const val KEPT = 1 - 1.0 / 256
 
         /** b over k beyond which a slope tells no distance: at three standard deviations it may be none. */
         const val LOOSEST = 1.0 / 3
