@@ -243,6 +243,8 @@ public class BoundedExtendedFilter(
 
     /** How much the stay counts: one over the variance of what it says, as far as that is known, eq. (7). */
     private fun weight(deviation: Double): Double {
+        val flat = abs(staySlope) * sqrt(timeSpread) <= CLEAR * deviation
+        if (ratios.known && !ratios.proportional && !flat) return 0.0
         val perSlope = if (ratios.known) ratios.perSlope else timeSpread
         val base = if (ratios.known) maxOf(ratios.base, deviation * deviation) else deviation * deviation
         return 1 / maxOf(base + perSlope * staySlope * staySlope, TINY)
@@ -268,6 +270,7 @@ public class BoundedExtendedFilter(
     private fun writeDistance(cell: Int, lower: Double, upper: Double): Boolean {
         val weight = if (cell == stayCell && evidence > 0) weight(noise.deviation(staySlope > 0)) else 0.0
         val sum = weights[cell] + weight
+        if (!(sum > 0)) return false
         val up = (weightedRises[cell] + weight * maxOf(staySlope, 0.0)) / sum
         val down = (weightedFalls[cell] + weight * maxOf(-staySlope, 0.0)) / sum
         val mean = (weightedValues[cell] + weight * stayValue) / sum
@@ -275,7 +278,7 @@ public class BoundedExtendedFilter(
         val deviation = minOf(noise.deviation(true), noise.deviation(false))
         val base = maxOf(ratios.base, deviation * deviation) * (squaredWeights[cell] + weight * weight) / (sum * sum)
         val bySlope = ratios.variance(up, down)
-        if (!ratios.proportional && bySlope > base) return false
+        if (!ratios.proportional && (up + down) * sqrt(timeSpread) > CLEAR * deviation) return false
         val reach = ratios.quantile * sqrt(base + bySlope)
         if (!value.isFinite() || !reach.isFinite()) return false
         map.setValue(cell, value.coerceIn(lower, upper))

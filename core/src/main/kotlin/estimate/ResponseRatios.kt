@@ -18,6 +18,7 @@ internal class ResponseRatios {
     private var upY = 0.0
     private var downY = 0.0
     private var cells = 0
+    private var seen = 0
     private var upVariance = 0.0
     private var downVariance = 0.0
     private var covariance = 0.0
@@ -87,12 +88,17 @@ internal class ResponseRatios {
             if (firstOfCell) cells++
             solve()
         }
+        explained += (noise + rising * falling * slopeNoise - explained) / minOf(++seen, RECENT)
         if (rising > 0) judge(difference - rising * up - falling * down, stays, slopes, a2)
         return clear
     }
 
+    /** What noise alone makes of a², sensor units squared. */
+    private var explained = 0.0
+
     /** Whether distances are proportional to slopes so well that a slope tells a distance. */
-    val proportional: Boolean get() = perSlope < LOOSEST * LOOSEST * rising * falling
+    val proportional: Boolean
+        get() = perSlope < LOOSEST * LOOSEST * rising * falling && base < UNEXPLAINED * explained
 
     /** 97.5 % quantile of Student's distribution, to first order in 1/ν, for the cells that the ratios rest on. */
     val quantile: Double get() = NORMAL + NORMAL * (NORMAL * NORMAL + 1) / (4.0 * maxOf(1, cells - 2))
@@ -169,6 +175,8 @@ internal class ResponseRatios {
         /** Ratios are never believed to be alike to better than this share, squared. */
         const val STRICTEST = 1e-4
         const val ALIKE = 0.5
+        const val UNEXPLAINED = 16.0
+        const val RECENT = 64
         const val FLOOR = 0.1
         const val CAP = 16.0
         const val KEPT = 1 - 1.0 / 256
