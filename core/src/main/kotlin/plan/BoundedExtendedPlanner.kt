@@ -33,12 +33,13 @@ public data class BoundedExtendedPlannerSettings(val horizon: Int = 10, val expa
  * - *Visit memory*: a cell is worth its width over twice the number of its visits and one at the least, so that cells are
  *   not forgotten.
  * - *Fall-back goal*: where a cell farther away is worth more for each move than the best path, or no path has any
- *   value, the boat goes there; where nothing has any value, to the cell visited least.
+ *   value, the boat goes there; where nothing has any value, or a cell was visited less than a sixteenth of the
+ *   mean, to the cell visited least.
  * - *Commitment*: paths and ways to a goal are planned whole.
  *
- * Never stalls: on a grid of two cells or more every plan holds at least one move, and every cell is visited again and
- * again as long as visits are counted in the map, core/docs/BoundedExtendedPlanner.md. Works on the bounds of any map;
- * bounds that crossed count as having no width. Source: the report, section 6, and own result. O(cells + expansions), no
+ * Never stalls: on a grid of two cells or more every plan holds at least one move, and every cell is
+ * visited again and again as long as visits are counted in the map, core/docs/BoundedExtendedPlanner.md. Works
+ * on the bounds of any map; bounds that crossed are as wide as they are apart. Source: the report, section 6, and own result. O(cells + expansions), no
  * allocation once warm. One planner plans for one boat on one map.
  *
  * @param random where the order of neighbours comes from. Retained.
@@ -229,8 +230,9 @@ internal class ProgressMemory(cells: Int) {
     }
 
     private fun width(map: FieldMap, cell: Int): Double {
-        val width = map.upper(cell) - map.lower(cell)
-        return if (width > 0) minOf(width, Double.MAX_VALUE) else 0.0
+        // Bounds that crossed are as far from the truth as they are apart, at the least.
+        val width = abs(map.upper(cell) - map.lower(cell))
+        return if (width.isFinite()) width else 0.0
     }
 
     /** Notes that the plan goes through [cell], entered at [sensor]. */
@@ -273,14 +275,17 @@ internal class ProgressMemory(cells: Int) {
 
     /**
      * The cell worth more for each move of the way there than [rate], the most of all; [start] where there is none. Where
-     * nothing at all has any worth, the cell visited least, of those the nearest.
+     * nothing at all has any worth, or a cell was visited less than one [FORGOTTEN]th of the mean, the cell other than
+     * [start] that was visited least, of those the nearest.
      */
     fun goal(map: FieldMap, start: Int, rate: Double): Int {
         var goal = start
-        var best = MARGIN * rate
+        var best = rate
         var least = start
+        var all = map.visits(start).toLong()
         for (cell in 0 until map.grid.size) {
             if (cell == start) continue
+            all += map.visits(cell)
             val far = distance(map.grid, start, cell)
             // What it is worth to come from there with the sensor where it is most wanted is not known: half its width.
             val worth = width(map, cell) / (2.0 * (1 + map.visits(cell))) / far
@@ -292,7 +297,8 @@ internal class ProgressMemory(cells: Int) {
             val nearer = map.visits(cell) == map.visits(least) && far < distance(map.grid, start, least)
             if (fewer || nearer) least = cell
         }
-        return if (goal == start && !(rate > 0)) least else goal
+        val forgotten = (map.visits(least) + 1.0) * FORGOTTEN * map.grid.size < all
+        return if (forgotten || (goal == start && !(rate > 0))) least else goal
     }
 
     private fun distance(grid: Grid, one: Int, other: Int): Int =
@@ -304,6 +310,6 @@ internal class ProgressMemory(cells: Int) {
         const val SMALLEST_SHARE = 0.05
         const val RATE = 0.5f
         const val MOST_TRUST = 2.0
-        const val MARGIN = 1.0
+        const val FORGOTTEN = 16
     }
 }

@@ -5,6 +5,7 @@ import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
 import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BoundedExtendedFilter
 import stillwater.estimate.BoundedFilter
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.CrossingPolicy
@@ -20,6 +21,8 @@ import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.model.Position
+import stillwater.plan.BoundedExtendedPlanner
+import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.BoundedPlanner
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Execution
@@ -97,6 +100,7 @@ class AllocationTest {
             "exponential" to ExponentialFilter(grid, Interval.UNIT),
             "interval" to IntervalFilter(grid, Interval.UNIT, IntervalFilterSettings(30.0, 0.01)),
             "self-calibrating" to SelfCalibratingEstimator(grid, Interval.UNIT),
+            "bounded-extended" to BoundedExtendedFilter(grid, Interval.UNIT),
             "bounded, uncleared" to BoundedFilter(grid, Interval.UNIT, settings.copy(clearOnEntry = false)),
         ) + CrossingPolicy.entries.map {
             "bounded, $it" to BoundedFilter(grid, Interval.UNIT, settings.copy(crossing = it))
@@ -130,7 +134,8 @@ class AllocationTest {
             }
         }
         val planners = WalkSteps.entries.map { "walk, $it" to RandomWalk(Random(1), it) } +
-            LawnmowerPattern.entries.map { "lawnmower, $it" to Lawnmower(it) } + bounded
+            LawnmowerPattern.entries.map { "lawnmower, $it" to Lawnmower(it) } + bounded +
+            ("bounded-extended" to BoundedExtendedPlanner(Random(1), BoundedExtendedPlannerSettings(6, 40)))
         return planners.map { (name, planner) -> dynamicTest(name) { assertDecisionsAllocateNothing(name, planner) } }
     }
 

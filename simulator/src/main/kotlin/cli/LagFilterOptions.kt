@@ -5,7 +5,7 @@ import com.github.ajalt.clikt.parameters.options.option
 import stillwater.run.LagFilterSettings
 
 /** The options of the filters that reckon with a lag; the same for every command that runs them. */
-class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating estimator") {
+class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating estimator, extended bounded filter") {
     private val slowest by option(
         "--slowest",
         metavar = "SECONDS",
@@ -27,6 +27,12 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
         help = "self-calibrating: the factor by which that guess may be wrong",
     ).number("a number above 1") { it > 1 }
 
+    private val response by option(
+        "--response",
+        metavar = "HOW",
+        help = "bounded-extended: distances per slope are learned, or none: bounds from the direction alone",
+    ).oneOf(RESPONSES)
+
     /** [settings] with what was given on the command line in their place. */
     fun applied(settings: LagFilterSettings): LagFilterSettings = settings.copy(
         interval = settings.interval.copy(
@@ -37,6 +43,7 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
             timeConstant = timeConstant ?: settings.selfCalibrating.timeConstant,
             factor = factor ?: settings.selfCalibrating.factor,
         ),
+        learnsResponse = response ?: settings.learnsResponse,
     )
 
     /** The flags given, with their values, for writing the command down. */
@@ -45,5 +52,10 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
         "--reading-error" to readingError,
         "--time-constant" to timeConstant,
         "--factor" to factor,
+        "--response" to RESPONSES.entries.find { it.value == response }?.key,
     )
+
+    private companion object {
+        val RESPONSES = mapOf("learned" to true, "none" to false)
+    }
 }

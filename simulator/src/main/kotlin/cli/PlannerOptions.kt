@@ -3,6 +3,7 @@ package stillwater.cli
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.nullableFlag
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.Execution
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Neighbours
@@ -20,9 +21,9 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         metavar = "NAME",
         help = "lawnmower: ${PATTERNS.keys.joinToString(", ")}",
     ).oneOf(PATTERNS)
-    private val horizon by option("--horizon", metavar = "N", help = "bounded planner: moves in the longest path")
+    private val horizon by option("--horizon", metavar = "N", help = "bounded planners: moves in the longest path")
         .wholeNumber("a whole number within 1..$LONGEST_HORIZON") { it in 1..LONGEST_HORIZON }
-    private val expansions by option("--expansions", metavar = "N", help = "bounded planner: nodes expanded for a plan")
+    private val expansions by option("--expansions", metavar = "N", help = "bounded planners: nodes expanded for a plan")
         .wholeNumber("a whole number within 1..$MOST_EXPANSIONS") { it in 1..MOST_EXPANSIONS }
     private val maxChange by option(
         "--max-change",
@@ -68,6 +69,10 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             choice = choice ?: settings.bounded.choice,
             neighbours = neighbours ?: settings.bounded.neighbours,
             priority = priority ?: settings.bounded.priority,
+        ),
+        boundedExtended = BoundedExtendedPlannerSettings(
+            horizon = horizon ?: settings.boundedExtended.horizon,
+            expansions = expansions ?: settings.boundedExtended.expansions,
         ),
     )
 

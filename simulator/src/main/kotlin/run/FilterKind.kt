@@ -54,7 +54,7 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
         BOUNDED_EXTENDED -> BoundedExtendedFilter(
             grid,
             prior,
-            BoundedExtendedSettings(settings.medianWindow, settings.slopeWindow),
+            BoundedExtendedSettings(settings.medianWindow, settings.slopeWindow, lag.learnsResponse),
         )
     }
 }

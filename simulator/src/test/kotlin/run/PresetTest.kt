@@ -39,7 +39,10 @@ class PresetTest {
     fun theReportsComparisonIsAsRead() {
         assertEquals(mapOf("uniform" to UniformField, "gaussian" to GaussianMixtureField), report.fields)
         assertEquals(setOf(FilterKind.BOUNDED, FilterKind.AVERAGING), report.filters.toSet())
-        assertEquals(PlannerKind.entries, report.planners)
+        assertEquals(
+            listOf(PlannerKind.RANDOM_WALK, PlannerKind.LAWNMOWER, PlannerKind.BOUNDED),
+            report.planners,
+        )
         assertEquals(listOf(10, 10), listOf(report.grid.columns, report.grid.rows))
         assertEquals(Interval(0.0, 1.0), report.prior)
         assertEquals(listOf(100, 2000, 10), listOf(report.environments, report.moves, report.samplesPerMove))
@@ -125,9 +128,12 @@ class PresetTest {
     fun namesAreThoseOfTheCommandLine() {
         assertEquals(listOf("report", "noisy", "original"), Preset.entries.map { it.label })
         assertEquals(
-            listOf("averaging", "exponential", "bounded", "interval", "self-calibrating"),
+            listOf("averaging", "exponential", "bounded", "interval", "self-calibrating", "bounded-extended"),
             FilterKind.entries.map { it.label },
         )
-        assertEquals(listOf("random-walk", "lawnmower", "bounded"), PlannerKind.entries.map { it.label })
+        assertEquals(
+            listOf("random-walk", "lawnmower", "bounded", "bounded-extended"),
+            PlannerKind.entries.map { it.label },
+        )
     }
 }

@@ -8,6 +8,7 @@ import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.model.Position
+import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Execution
 import stillwater.plan.LawnmowerPattern
@@ -32,7 +33,7 @@ class PlannerContractTest {
         val movesByEdges = when (kind) {
             PlannerKind.RANDOM_WALK -> settings.walk == WalkSteps.EDGE
             PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
-            PlannerKind.BOUNDED -> true
+            PlannerKind.BOUNDED, PlannerKind.BOUNDED_EXTENDED -> true
         }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
@@ -43,6 +44,9 @@ class PlannerContractTest {
             PlannerKind.RANDOM_WALK -> WalkSteps.entries.map { Subject(kind, PlannerSettings(walk = it), it) }
             PlannerKind.LAWNMOWER -> LawnmowerPattern.entries.map { Subject(kind, PlannerSettings(pattern = it), it) }
             PlannerKind.BOUNDED -> boundedSettings().map { Subject(kind, PlannerSettings(bounded = it), it) }
+            PlannerKind.BOUNDED_EXTENDED -> listOf(1 to 1, 3 to 30, 10 to 200)
+                .map { (horizon, expansions) -> BoundedExtendedPlannerSettings(horizon, expansions) }
+                .map { Subject(kind, PlannerSettings(boundedExtended = it), it) }
         }
     }
 
