@@ -88,6 +88,8 @@ public class BoundedExtendedFilter(
     private val weightedRises = DoubleArray(grid.size)
     private val weightedFalls = DoubleArray(grid.size)
 
+    private val hasEvidence = BooleanArray(grid.size)
+
     /** Whether a cell has shown two stays of clearly different slopes. */
     private val compared = BooleanArray(grid.size)
 
@@ -118,15 +120,19 @@ public class BoundedExtendedFilter(
         refresh()
         noise.add(seconds, value, rising)
         medians.add(seconds, value)
-        if (!medians.full) return
-        slopes.add(medians.time, medians.median)
-        if (!slopes.full) return
+        if (medians.full) slopes.add(medians.time, medians.median)
+        if (!slopes.full) {
+            // Too few readings for a slope: they are all there is to say of the cell, if nothing was said before.
+            if (!hasEvidence[cell]) map.setValue(cell, value.coerceIn(map.lower(cell), map.upper(cell)))
+            return
+        }
         val slope = slopes.slope()
         rising = slope > 0
         timeSpread = slopes.timeSpread
         if (!slope.isFinite() || !(timeSpread > 0)) return
         direction(cell, medians.median, slope)
         evidence++
+        hasEvidence[cell] = true
         val share = 1.0 / minOf(evidence, pooled)
         stayValue += share * (medians.median - stayValue)
         staySlope += share * (slope - staySlope)

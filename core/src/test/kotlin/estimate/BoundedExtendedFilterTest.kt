@@ -164,6 +164,13 @@ class BoundedExtendedFilterTest {
     }
 
     @Test
+    fun tooFewReadingsForASlopeGiveTheLastOfThemAndNoBounds() {
+        val filter = BoundedExtendedFilter(Grid.unit(1, 1), Interval.UNIT)
+        for (i in 0 until 6) filter.update(BoatTime(i.toDouble()), 0.5, 0.5, 0.1 * i)
+        assertEquals(listOf(0.5, 0.0, 1.0), listOf(filter.map.value(0), filter.map.lower(0), filter.map.upper(0)))
+    }
+
+    @Test
     fun noiseIsFoundWhileTheSensorMoves() {
         val noise = ReadingNoise(smallest = 1e-9)
         val random = java.util.Random(1)

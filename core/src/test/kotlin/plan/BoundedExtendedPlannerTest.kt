@@ -44,10 +44,9 @@ class BoundedExtendedPlannerTest {
         forEvery(drawn(::Water), cases = 60) { water ->
             val planner = BoundedExtendedPlanner(Random(water.seed), BoundedExtendedPlannerSettings(6, 60))
             val moves = 60 * water.map.grid.size
-            val visited = run(planner, water.map, water.start, moves)
-            // In the second half too: nothing that was learned in the first keeps it away.
-            val late = visited.drop(moves / 2).toSet()
-            assertEquals((0 until water.map.grid.size).toSet(), late)
+            run(planner, water.map, water.start, moves)
+            // A sixteenth of the mean of 60, but for the cells passed on the way and the plan that was being run.
+            for (cell in 0 until water.map.grid.size) assertTrue(water.map.visits(cell) >= 60 / 16 - 1, "cell $cell")
         }
     }
 
