@@ -33,27 +33,38 @@ def benchmark(seed, *arguments):
         return found
 
 
+VARIANTS = (
+    ("bounded", "bounded", "learned"),
+    ("bounded-extended, response none", "bounded-extended", "none"),
+    ("bounded-extended", "bounded-extended", "learned"),
+)
+
+
+def both(seed, *arguments):
+    """Rows of [benchmark] with the response learned and with none, by "learned" and "none"."""
+    return {
+        "learned": benchmark(seed, "--filter", "bounded,bounded-extended", *arguments),
+        "none": benchmark(seed, "--filter", "bounded-extended", "--response", "none", *arguments),
+    }
+
+
 def bounds(seed):
     """Share of cells whose bounds hold the truth, mean width and error, by sensor."""
     moves = [100, 500, 2000]
-    for field in ("uniform", "gaussian"):
-        print(f"\n{field} field: coverage (mean width) after {moves} moves\n")
-        print("| sensor | filter | " + " | ".join(map(str, moves)) + " | error at 2000 |\n|---|---|---|---|---|---|")
-        for sensor in [None, *SENSORS]:
-            spec = [] if sensor is None else ["--sensor", f"docs/sensors/noisy-{sensor}.json"]
-            for name, kind, response in (
-                ("bounded", "bounded", "learned"),
-                ("bounded-extended, response none", "bounded-extended", "none"),
-                ("bounded-extended", "bounded-extended", "learned"),
-            ):
-                rows = benchmark(
-                    seed, *spec, "--field", field, "--filter", kind, "--response", response,
-                    "--planner", "bounded-extended", "--checkpoints", ",".join(map(str, moves)),
-                )
-                at = [rows[field, kind, "bounded-extended", move] for move in moves]
+    tables = {field: [] for field in ("uniform", "gaussian")}
+    for sensor in [None, *SENSORS]:
+        spec = [] if sensor is None else ["--sensor", f"docs/sensors/noisy-{sensor}.json"]
+        rows = both(seed, *spec, "--planner", "bounded-extended", "--checkpoints", ",".join(map(str, moves)))
+        for field, table in tables.items():
+            for name, kind, response in VARIANTS:
+                at = [rows[response][field, kind, "bounded-extended", move] for move in moves]
                 cells = [f'{float(r["coverage"]):.3f} ({float(r["mean_width"]):.3f})' for r in at]
                 error = f'{float(at[-1]["mean_abs_error"]):.4f}'
-                print(f"| {sensor or 'noisy base'} | {name} | " + " | ".join(cells) + f" | {error} |", flush=True)
+                table.append(f"| {sensor or 'first order'} | {name} | " + " | ".join(cells) + f" | {error} |")
+    for field, table in tables.items():
+        print(f"\n| {field} field: sensor | filter | " + " | ".join(map(str, moves)) + " moves | error at 2000 |")
+        print("|---|---|" + "---|" * (len(moves) + 1))
+        print("\n".join(table))
 
 
 def errors(seed):
@@ -86,6 +97,10 @@ def lag(seconds):
     return {"type": "first-order-lag", "time_constant_s": seconds}
 
 
+def second_lag(share):
+    return [lag(TIME_CONSTANT * share / (1 + share))] if share else []
+
+
 def noise(step):
     return [{"type": "noise", "standard_deviation": 0.002}, {"type": "quantisation", "step": step}]
 
@@ -97,26 +112,22 @@ def filter_figure(seed):
     panels = []
     with tempfile.TemporaryDirectory() as directory:
         second = [
-            (share, sensor, [lag(TIME_CONSTANT / (1 + share))] + ([lag(TIME_CONSTANT * share / (1 + share))] if share else []) + noise(0.005))
-            for share in shares
+            (share, sensor, [lag(TIME_CONSTANT / (1 + share))] + second_lag(share) + noise(0.005)) for share in shares
         ]
         coarse = [(step, sensor, [lag(TIME_CONSTANT)] + noise(step)) for step in steps]
         for title, cases in (
             ("second time constant over the first, their sum kept", second),
             ("resolution of the sensor", coarse),
         ):
-            lines = {"bounded": [], "bounded-extended": [], "bounded-extended, response none": []}
+            lines = {name: [] for name, _, _ in VARIANTS}
             for x, make, stages in cases:
-                for name, kind, response in (
-                    ("bounded", "bounded", "learned"),
-                    ("bounded-extended", "bounded-extended", "learned"),
-                    ("bounded-extended, response none", "bounded-extended", "none"),
-                ):
-                    rows = benchmark(
-                        seed, *make(directory, stages), "--environments", "20", "--field", "uniform", "--filter", kind,
-                        "--response", response, "--planner", "bounded-extended", "--checkpoints", "500",
-                    )
-                    lines[name].append((x, float(rows["uniform", kind, "bounded-extended", 500]["coverage"])))
+                rows = both(
+                    seed, *make(directory, stages), "--environments", "20", "--field", "uniform",
+                    "--planner", "bounded-extended", "--checkpoints", "500",
+                )
+                for name, kind, response in VARIANTS:
+                    coverage = rows[response]["uniform", kind, "bounded-extended", 500]["coverage"]
+                    lines[name].append((x, float(coverage)))
             panels.append((title, lines))
     draw(FIGURES / "bounded-extended-filter-fails.svg",
          "Share of cells whose bounds hold the truth, uniform field, 500 moves", panels, lowest=0.0, highest=1.0)
@@ -129,7 +140,12 @@ def planner_figure(seed):
         ("readings in a cell", "--samples", [7, 8, 10, 15, 25, 40], str),
         ("cells along a side of the field", "--grid", [4, 6, 10, 16, 24], lambda n: f"{n}x{n}"),
     ):
-        lines = {"extended filter, bounded-extended": [], "extended filter, bounded": [], "plain filter, bounded-extended": []}
+        pairs = (
+            ("extended filter, bounded-extended", "bounded-extended", "bounded-extended"),
+            ("extended filter, bounded", "bounded-extended", "bounded"),
+            ("plain filter, bounded-extended", "bounded", "bounded-extended"),
+        )
+        lines = {name: [] for name, _, _ in pairs}
         for value in values:
             cells = value * value if flag == "--grid" else 100
             moves = 5 * cells
@@ -139,11 +155,7 @@ def planner_figure(seed):
                 "--checkpoints", str(moves),
             )
             error = {key: float(row["mean_abs_error"]) for key, row in rows.items()}
-            for name, kind, planner in (
-                ("extended filter, bounded-extended", "bounded-extended", "bounded-extended"),
-                ("extended filter, bounded", "bounded-extended", "bounded"),
-                ("plain filter, bounded-extended", "bounded", "bounded-extended"),
-            ):
+            for name, kind, planner in pairs:
                 walk = error["gaussian", kind, "random-walk", moves]
                 lines[name].append((value, error["gaussian", kind, planner, moves] / walk))
         panels.append((title, lines))

@@ -264,7 +264,9 @@ public class BoundedExtendedFilter(
         val hasLower = !lowerSlopes[cell].isNaN()
         val hasUpper = !upperSlopes[cell].isNaN()
         val value = when {
-            hasLower && hasUpper -> lower + (upper - lower) * (lowerSlopes[cell] / (lowerSlopes[cell] + upperSlopes[cell]))
+            hasLower && hasUpper ->
+                lower +
+                    (upper - lower) * (lowerSlopes[cell] / (lowerSlopes[cell] + upperSlopes[cell]))
             hasLower -> lower
             hasUpper -> upper
             else -> stayValue.coerceIn(lower, upper)

@@ -23,7 +23,11 @@ class PlannerOptions : OptionGroup(name = "Planners") {
     ).oneOf(PATTERNS)
     private val horizon by option("--horizon", metavar = "N", help = "bounded planners: moves in the longest path")
         .wholeNumber("a whole number within 1..$LONGEST_HORIZON") { it in 1..LONGEST_HORIZON }
-    private val expansions by option("--expansions", metavar = "N", help = "bounded planners: nodes expanded for a plan")
+    private val expansions by option(
+        "--expansions",
+        metavar = "N",
+        help = "bounded planners: nodes expanded for a plan",
+    )
         .wholeNumber("a whole number within 1..$MOST_EXPANSIONS") { it in 1..MOST_EXPANSIONS }
     private val maxChange by option(
         "--max-change",

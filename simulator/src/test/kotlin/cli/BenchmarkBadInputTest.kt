@@ -112,8 +112,8 @@ class BenchmarkBadInputTest {
         private const val PRESETS = "--preset: expected one of report, noisy, original"
         private const val FIELDS = "--field: expected some of uniform, gaussian, separated by commas"
         private const val FILTERS =
-            "--filter: expected some of averaging, exponential, bounded, interval, self-calibrating, bounded-extended, " +
-                "separated by commas"
+            "--filter: expected some of averaging, exponential, bounded, interval, self-calibrating, " +
+                "bounded-extended, separated by commas"
         private const val PLANNERS =
             "--planner: expected some of random-walk, lawnmower, bounded, bounded-extended, separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"

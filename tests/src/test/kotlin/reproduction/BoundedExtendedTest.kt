@@ -85,7 +85,11 @@ class BoundedExtendedTest {
     fun boundsHoldTheTruthAsOftenAsTheyShould(): List<DynamicTest> = listOf(
         // Credible at 95 %; 0.02 is four standard errors of 20 environments, 0.94 to 0.98 were found.
         Sensor("first order", listOf(lag) + noise, least = 0.93),
-        Sensor("asymmetric", listOf(SensorStage.Asymmetric(1.3 * lag.timeConstant, 0.7 * lag.timeConstant)) + noise, 0.93),
+        Sensor(
+            "asymmetric",
+            listOf(SensorStage.Asymmetric(1.3 * lag.timeConstant, 0.7 * lag.timeConstant)) + noise,
+            0.93,
+        ),
         Sensor("dead time", listOf(SensorStage.Delay(2.0), lag) + noise, 0.92),
         Sensor("outliers", listOf(lag, SensorStage.Noise(0.002), SensorStage.Outlying(0.01, 0.3)) + noise.last(), 0.93),
         // Not what they should: a second-order sensor misleads them, core/docs/BoundedExtendedFilter.md.
