@@ -21,6 +21,7 @@ class ExperimentTest {
     /** Small, and with noise, so that a stream that is not a combination's own would show. */
     private val settings = Preset.NOISY.settings().copy(
         filters = FilterKind.entries,
+        planners = PlannerKind.entries,
         grid = Grid.unit(4, 4),
         environments = 5,
         moves = 60,
