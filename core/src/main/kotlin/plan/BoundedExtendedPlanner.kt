@@ -46,12 +46,12 @@ public data class BoundedExtendedPlannerSettings(val horizon: Int = 10, val expa
  * @property settings horizon and expansions.
  */
 public class BoundedExtendedPlanner(
-    private val random: Random,
+    random: Random,
     public val settings: BoundedExtendedPlannerSettings = BoundedExtendedPlannerSettings(),
 ) : Planner {
     private val tree = SearchTree(minOf(DIRECTIONS.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
     private val path = IntArray(minOf(settings.horizon, settings.expansions))
-    private val directions = IntArray(DIRECTIONS) { it }
+    private val neighbours = NeighbourOrder(random, DIRECTIONS)
     private var progress = ProgressMemory(0)
     private var grid: Grid? = null
 
@@ -95,26 +95,7 @@ public class BoundedExtendedPlanner(
     }
 
     private fun expand(map: FieldMap, node: Int) {
-        val grid = map.grid
-        val column = tree.cell(node) % grid.columns
-        val row = tree.cell(node) / grid.columns
-        shuffleDirections()
-        for (direction in directions) {
-            val toColumn = column + COLUMN_STEPS[direction]
-            val toRow = row + ROW_STEPS[direction]
-            val inGrid = toColumn >= 0 && toColumn < grid.columns && toRow >= 0 && toRow < grid.rows
-            if (inGrid) enter(map, node, toRow * grid.columns + toColumn)
-        }
-    }
-
-    /** Fisher and Yates: every order is as likely. */
-    private fun shuffleDirections() {
-        for (last in directions.lastIndex downTo 1) {
-            val other = random.nextInt(last + 1)
-            val direction = directions[last]
-            directions[last] = directions[other]
-            directions[other] = direction
-        }
+        neighbours.forEach(map.grid, tree.cell(node)) { cell -> enter(map, node, cell) }
     }
 
     private fun enter(map: FieldMap, from: Int, cell: Int) {
@@ -172,10 +153,6 @@ public class BoundedExtendedPlanner(
     private companion object {
         const val ROOT = 0
         const val DIRECTIONS = 4
-
-        // West, east, south, north.
-        val COLUMN_STEPS = intArrayOf(-1, 1, 0, 0)
-        val ROW_STEPS = intArrayOf(0, 0, -1, 1)
         const val MAX_INITIAL_NODES = 1L shl 16
     }
 }

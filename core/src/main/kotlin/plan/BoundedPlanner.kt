@@ -96,13 +96,14 @@ public data class BoundedPlannerSettings(
  * @property settings horizon, expansions and choices.
  */
 public class BoundedPlanner(
-    private val random: Random,
+    random: Random,
     public val settings: BoundedPlannerSettings = BoundedPlannerSettings(),
 ) : Planner {
     private val tree =
         SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
     private val path = IntArray(minOf(settings.horizon, settings.expansions))
-    private val directions = IntArray(if (settings.neighbours == Neighbours.EDGE) EDGES else MOST_CHILDREN) { it }
+    private val neighbours =
+        NeighbourOrder(random, if (settings.neighbours == Neighbours.EDGE) EDGES else MOST_CHILDREN)
 
     override fun plan(
         map: FieldMap,
@@ -136,27 +137,7 @@ public class BoundedPlanner(
     }
 
     private fun expand(map: FieldMap, node: Int) {
-        val grid = map.grid
-        val cell = tree.cell(node)
-        val column = cell % grid.columns
-        val row = cell / grid.columns
-        shuffleDirections()
-        for (direction in directions) {
-            val toColumn = column + COLUMN_STEPS[direction]
-            val toRow = row + ROW_STEPS[direction]
-            val inGrid = toColumn >= 0 && toColumn < grid.columns && toRow >= 0 && toRow < grid.rows
-            if (inGrid) enter(map, node, toRow * grid.columns + toColumn)
-        }
-    }
-
-    /** Fisher and Yates: every order is as likely. */
-    private fun shuffleDirections() {
-        for (last in directions.lastIndex downTo 1) {
-            val other = random.nextInt(last + 1)
-            val direction = directions[last]
-            directions[last] = directions[other]
-            directions[other] = direction
-        }
+        neighbours.forEach(map.grid, tree.cell(node)) { cell -> enter(map, node, cell) }
     }
 
     private fun enter(map: FieldMap, from: Int, cell: Int) {
@@ -196,10 +177,6 @@ public class BoundedPlanner(
         const val ROOT = 0
         const val EDGES = 4
         const val MOST_CHILDREN = 8
-
-        // West, east, south, north; then the corners.
-        val COLUMN_STEPS = intArrayOf(-1, 1, 0, 0, -1, -1, 1, 1)
-        val ROW_STEPS = intArrayOf(0, 0, -1, 1, -1, 1, -1, 1)
         const val MAX_INITIAL_NODES = 1L shl 16
     }
 }
