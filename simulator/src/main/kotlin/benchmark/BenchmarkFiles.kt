@@ -47,6 +47,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
                     summary.standardError,
                     summary.p10,
                     summary.p90,
+                    curve.boats,
                 )
             }
         }
@@ -99,6 +100,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
             "standard_error",
             "p10",
             "p90",
+            "boats",
         )
     }
 }

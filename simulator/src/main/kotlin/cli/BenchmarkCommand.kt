@@ -16,10 +16,12 @@ import stillwater.benchmark.BenchmarkJson
 import stillwater.benchmark.BenchmarkTable
 import stillwater.benchmark.ReportClaims
 import stillwater.model.Grid
+import stillwater.model.WaterArea
 import stillwater.plan.Lawnmower
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
 import stillwater.report.toTerminal
+import stillwater.run.BudgetKind
 import stillwater.run.Checkpoints
 import stillwater.run.Experiment
 import stillwater.run.ExperimentResult
@@ -108,6 +110,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     private val filterOptions by BoundedFilterOptions()
     private val lagOptions by LagFilterOptions()
     private val plannerOptions by PlannerOptions()
+    private val fleetOptions by FleetOptions()
     private val seed by option(
         "--seed",
         metavar = "N",
@@ -191,11 +194,14 @@ class BenchmarkCommand : CliktCommand("benchmark") {
 
     private fun settings(): ExperimentSettings {
         val base = preset.settings()
-        val trialMoves = moves ?: checkpoints?.last() ?: base.moves
+        val budget = fleetOptions.budget()
+        val budgetMoves = budget?.takeIf { it.kind == BudgetKind.MOVES }?.limit?.toInt()?.takeIf { it <= MOST_MOVES }
+        val trialMoves = moves ?: checkpoints?.last() ?: budgetMoves ?: base.moves
         checkpoints?.last()?.let {
             if (it > trialMoves) throw BadFlag("--checkpoints", "moves within 1..$trialMoves", "$it")
         }
-        val cells = grid?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) } ?: base.grid
+        val area = fleetOptions.area()
+        val cells = grid(area) ?: base.grid
         val chosenPlanners = plannerOptions.applied(base.plannerSettings)
         if (PlannerKind.LAWNMOWER in (planners ?: base.planners) && !Lawnmower.fits(cells, chosenPlanners.pattern)) {
             throw BadFlag(
@@ -205,6 +211,9 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 "${cells.columns}x${cells.rows}",
             )
         }
+        val chosenBoats = fleetOptions.boats() ?: base.boats
+        if (chosenBoats.max() > cells.size) throw BadFlag("--boats", "at most ${cells.size}, one a cell", "${chosenBoats.max()}")
+        requireInPlane(planners ?: base.planners)
         return try {
             base.copy(
                 fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
@@ -223,10 +232,27 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 samplesPerMove = samples ?: base.samplesPerMove,
                 period = period ?: base.period,
                 seed = seed,
+                boats = chosenBoats,
+                budget = budget,
+                area = area,
+                speed = fleetOptions.speed(),
             )
         } catch (unfit: IllegalArgumentException) {
             throw CliktError("stillwater benchmark: ${unfit.message}", statusCode = BAD_INPUT)
         }
+    }
+
+    private fun grid(area: WaterArea?): Grid? {
+        val size = grid
+        if (area != null && size != null) throw BadFlag("--grid", "--cell with --area", "--grid")
+        return area?.let { fleetOptions.grid(it) } ?: size?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) }
+    }
+
+    private fun requireInPlane(planners: List<PlannerKind>) {
+        val others = planners.filterNot { it.inPlane }
+        if (!fleetOptions.hasArea || others.isEmpty()) return
+        val inPlane = PlannerKind.entries.filter { it.inPlane }.joinToString(", ") { it.label }
+        throw BadFlag("--planner", "with --area one that keeps to the water ($inPlane)", "${others.first().label}")
     }
 
     private fun commandLine(): String {
@@ -245,7 +271,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             "--period" to period,
             "--seed" to seed,
         )
-        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags()
+        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags() +
+            fleetOptions.flags()
         return commandLineText("stillwater benchmark", null, own + grouped)
     }
 
