@@ -25,12 +25,21 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
         directory.stream("extremes.csv") { out -> CsvTable(out, EXTREMES_COLUMNS).use(::extremes) }
         directory.stream("bounds.csv") { out -> CsvTable(out, BOUNDS_COLUMNS).use(::bounds) }
         directory.write("sensor.json", result.settings.sensor.toJson() + "\n")
-        directory.retire(BenchmarkFigures.names.flatMap { listOf("$it.svg", "$it.png") })
+        val budgets = BudgetTable.rows(result)
+        if (budgets.isNotEmpty()) {
+            directory.stream("budget.csv") { out ->
+                CsvTable(out, BudgetTable.COLUMNS).use { table -> for (row in budgets) table.row(*row.toTypedArray()) }
+            }
+        }
+        val names = BenchmarkFigures.names + FleetFigures.names + VoyageFigures.names
+        directory.retire(names.flatMap { listOf("$it.svg", "$it.png") } + "budget.csv")
         val figures = BenchmarkFigures.of(result)
-        val drawn: List<Figure> = figures.map { it.drawing }.drawAll()
-        val warnings = directory.writeFigures(figures.map { it.name }.zip(drawn))
-        directory.write("report.html", BenchmarkReport(result, figures.map { it.field }.zip(drawn), command).render())
-        return warnings
+        val more = FleetFigures.of(result) + VoyageFigures.of(result)
+        val drawn: List<Figure> = (figures.map { it.drawing } + more.map { it.second }).drawAll()
+        val warnings = directory.writeFigures((figures.map { it.name } + more.map { it.first }).zip(drawn))
+        val ofFields = figures.map { it.field }.zip(drawn)
+        directory.write("report.html", BenchmarkReport(result, ofFields, command, drawn.drop(figures.size)).render())
+        return warnings + BudgetTable.warnings(result)
     }
 
     private fun rows(table: CsvTable) {

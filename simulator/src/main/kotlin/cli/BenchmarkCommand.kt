@@ -14,6 +14,8 @@ import kotlinx.coroutines.runBlocking
 import stillwater.benchmark.BenchmarkFiles
 import stillwater.benchmark.BenchmarkJson
 import stillwater.benchmark.BenchmarkTable
+import stillwater.benchmark.BudgetTable
+import stillwater.benchmark.FleetFigures
 import stillwater.benchmark.ReportClaims
 import stillwater.model.Grid
 import stillwater.model.WaterArea
@@ -185,6 +187,15 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             terminal.println()
             val bounds = BenchmarkTable.bounds(result, field) ?: continue
             terminal.println(bounds.toTerminal("Share of cells whose bounds hold the truth, field $field, by moves"))
+            terminal.println()
+        }
+        for (field in result.settings.fields.keys) {
+            val table = FleetFigures.table(result, field) ?: continue
+            terminal.println(table.toTerminal("What more boats gain, field $field"))
+            terminal.println()
+        }
+        BudgetTable.of(result)?.let {
+            terminal.println(it.toTerminal("Used of the budget, ${result.settings.budget?.limit}"))
             terminal.println()
         }
         for (claim in ReportClaims(result).all()) {

@@ -75,7 +75,7 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
         }
         val tracks = List(order.count) { ArrayList<Position>() }
         if (isRecorded) boats.forEachIndexed { i, boat -> boat.onSample = { x, y -> tracks[i] += Position(x, y) } }
-        val sharing = if (regions.isEmpty()) null else RegionSharing(regions, site?.water)
+        val sharing = if (regions.isEmpty()) null else RegionSharing(regions, grid, site?.water)
         val score = MapScore(extremes, site?.water)
         val errors = Fleet(field, boats, order.filters.map { it.fusion }, score, sharing)
             .run(settings.checkpoints.toIntArray())
