@@ -41,7 +41,7 @@ public fun interface WayHome {
  * A waypoint is kept only if what was used, the way to it and the way home from it are within the budget together; what
  * comes after the first that is not is dropped. Where none is kept the way home is planned, and [PlanOutcome.BudgetSpent]
  * is said once the boat is there. So, if home was within the budget when the boat set out and travel costs what [cost]
- * says, the boat never uses more than [limit] and ends at home. Wind, current and detours cost more: [reserve] is kept
+ * says, the boat never uses more than [limit] (but for rounding) and ends at home. Wind, current and detours cost more: [reserve] is kept
  * back for them. Where no way home is known the boat goes nowhere.
  *
  * No allocation once the buffers have grown, if the other planner and the way home have none. Confined to one thread.
@@ -81,7 +81,7 @@ public class BudgetedPlanner(
         val outcome = planner.plan(map, from, sensorValue, stop, plan)
         val left = limit - meter.used()
         if (plan.size == 0) {
-            val canWait = cost.perWaypoint > 0 && cost.perWaypoint + costHome(from.x, from.y) <= left
+            val canWait = cost.perWaypoint > 0 && cost.perWaypoint + costHome(from.x, from.y) <= left + ROUNDING * limit
             return if (canWait) outcome else goHome(from, plan)
         }
         plan.truncate(affordable(from, plan, left))
@@ -98,7 +98,7 @@ public class BudgetedPlanner(
             x = plan.x(waypoint)
             y = plan.y(waypoint)
             // Written so that what is not a number is not affordable.
-            if (!(spent + costHome(x, y) <= left * (1 - ROUNDING))) return waypoint
+            if (!(spent + costHome(x, y) <= left + ROUNDING * limit)) return waypoint
         }
         return plan.size
     }
@@ -130,7 +130,7 @@ public class BudgetedPlanner(
         cost.perMetre * hypot(toX - fromX, toY - fromY) + cost.perWaypoint
 
     private companion object {
-        /** Sums along the way round otherwise than the meter. */
-        const val ROUNDING = 1e-9
+        /** Share of the limit by which sums along the way may round otherwise than the meter. */
+        const val ROUNDING = 1e-12
     }
 }

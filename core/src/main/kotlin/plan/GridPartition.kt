@@ -55,13 +55,20 @@ public object GridPartition {
             into += whole
             return
         }
-        val first = boats / 2
-        val cut = cuts(whole).filter { (a, b) -> a.size >= first && b.size >= boats - first }.minWith(
-            compareBy({ (a, b) -> imbalance(sum(a, weight), sum(b, weight), first, boats) }, { (a, b) -> border(a, b) }),
+        val (one, other) = cuts(whole).minWith(
+            compareBy(
+                { (a, b) -> imbalance(sum(a, weight), sum(b, weight), first(boats, a, b), boats) },
+                { (a, b) -> border(a, b) },
+            ),
         )
-        divide(cut.first, first, into, weight)
-        divide(cut.second, boats - first, into, weight)
+        val first = first(boats, one, other)
+        divide(one, first, into, weight)
+        divide(other, boats - first, into, weight)
     }
+
+    /** Half of the boats for [one], as far as both parts have a cell for each of theirs. */
+    private fun first(boats: Int, one: GridRegion, other: GridRegion) =
+        (boats / 2).coerceIn(maxOf(1, boats - other.size), minOf(boats - 1, one.size))
 
     private fun cuts(whole: GridRegion): List<Pair<GridRegion, GridRegion>> {
         val byColumn = (1 until whole.columns).map { n ->

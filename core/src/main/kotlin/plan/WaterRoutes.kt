@@ -132,7 +132,7 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         if (distances[point] == Double.POSITIVE_INFINITY) return
         gather(point)
         // Gathered backwards, from the point to the start.
-        straighten(plan, scratch.size - 1 downTo 0, startX, startY)
+        straighten(plan, scratch.size - 1, -1, startX, startY)
     }
 
     /**
@@ -159,7 +159,7 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         if (best == START) return
         gather(best)
         scratch.add(startX, startY)
-        straighten(plan, 0 until scratch.size, x, y)
+        straighten(plan, 0, 1, x, y)
     }
 
     /** The points from [point] to the start's nearest, into [scratch]. */
@@ -172,13 +172,13 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         }
     }
 
-    /** Leaves out each point of [scratch] whose neighbours a clear leg joins. */
-    private fun straighten(plan: Plan, order: IntProgression, fromX: Double, fromY: Double) {
+    /** From [first] of [scratch] on, forwards or backwards by [step]; each point that clear legs make needless is left out. */
+    private fun straighten(plan: Plan, first: Int, step: Int, fromX: Double, fromY: Double) {
         var x = fromX
         var y = fromY
-        var place = order.first
-        while (place != order.last) {
-            val next = place + order.step
+        var place = first
+        while (place + step in 0 until scratch.size) {
+            val next = place + step
             if (!isLeg(x, y, scratch.x(next), scratch.y(next))) {
                 x = scratch.x(place)
                 y = scratch.y(place)
