@@ -8,8 +8,8 @@ import stillwater.report.writeFigures
 import stillwater.run.ExperimentResult
 
 /**
- * Writes what an experiment found: results.csv, extremes.csv, bounds.csv, sensor.json, a figure a field (SVG and PNG)
- * and report.html.
+ * Writes what an experiment found: results.csv, extremes.csv, bounds.csv, sensor.json, figures (SVG and PNG) and
+ * report.html; with a budget budget.csv too.
  *
  * @param result what was found.
  * @param command the command as typed, for the report.
@@ -72,6 +72,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
                     move,
                     result.extremeCells.getValue(curve.field),
                     summary.shareInExtremes,
+                    curve.boats,
                 )
             }
         }
@@ -89,6 +90,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
                     bounds.coverage,
                     bounds.standardError,
                     bounds.meanWidth,
+                    curve.boats,
                 )
             }
         }
@@ -96,8 +98,9 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
 
     private companion object {
         val BOUNDS_COLUMNS =
-            listOf("field", "filter", "planner", "move", "coverage", "standard_error", "mean_width")
-        val EXTREMES_COLUMNS = listOf("field", "filter", "planner", "move", "share_of_cells", "share_of_error")
+            listOf("field", "filter", "planner", "move", "coverage", "standard_error", "mean_width", "boats")
+        val EXTREMES_COLUMNS =
+            listOf("field", "filter", "planner", "move", "share_of_cells", "share_of_error", "boats")
         val COLUMNS = listOf(
             "field",
             "filter",

@@ -4,6 +4,7 @@ import kotlinx.coroutines.runBlocking
 import stillwater.estimate.BoundedFilter
 import stillwater.field.CellField
 import stillwater.model.Grid
+import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.BoundedPlanner
 import stillwater.world.RandomField
 import stillwater.world.Seeds
@@ -21,6 +22,8 @@ class ExperimentTest {
     /** Small, and with noise, so that a stream that is not a combination's own would show. */
     private val settings = Preset.NOISY.settings().copy(
         filters = FilterKind.entries,
+        planners = PlannerKind.entries,
+        plannerSettings = PlannerSettings(polygonRrt = PolygonRrtSettings(iterations = 20)),
         grid = Grid.unit(4, 4),
         environments = 5,
         moves = 60,
@@ -75,6 +78,14 @@ class ExperimentTest {
                 assertEquals(all.filterKeys { it == Triple("gaussian", planner, filter) }, alone)
             }
         }
+    }
+
+    @Test
+    fun moreBoatsLeaveTheCurveOfOneAsItWas() {
+        val alone = run(settings).curves.map { it.summaries }
+        val fleets = run(settings.copy(boats = listOf(3, 1)))
+        assertEquals(alone, fleets.curves.filter { it.boats == 1 }.map { it.summaries })
+        assertNotEquals(alone, fleets.curves.filter { it.boats == 3 }.map { it.summaries })
     }
 
     @Test

@@ -39,7 +39,7 @@ class PresetTest {
     fun theReportsComparisonIsAsRead() {
         assertEquals(mapOf("uniform" to UniformField, "gaussian" to GaussianMixtureField), report.fields)
         assertEquals(setOf(FilterKind.BOUNDED, FilterKind.AVERAGING), report.filters.toSet())
-        assertEquals(PlannerKind.entries, report.planners)
+        assertEquals(PlannerKind.OF_THE_REPORT, report.planners)
         assertEquals(listOf(10, 10), listOf(report.grid.columns, report.grid.rows))
         assertEquals(Interval(0.0, 1.0), report.prior)
         assertEquals(listOf(100, 2000, 10), listOf(report.environments, report.moves, report.samplesPerMove))
@@ -128,6 +128,9 @@ class PresetTest {
             listOf("averaging", "exponential", "bounded", "interval", "self-calibrating"),
             FilterKind.entries.map { it.label },
         )
-        assertEquals(listOf("random-walk", "lawnmower", "bounded"), PlannerKind.entries.map { it.label })
+        assertEquals(
+            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt"),
+            PlannerKind.entries.map { it.label },
+        )
     }
 }
