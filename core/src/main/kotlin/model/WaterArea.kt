@@ -102,7 +102,11 @@ public class WaterArea(shore: List<Position>, keepOuts: List<List<Position>> = e
             val bx = endX[edge]
             val by = endY[edge]
             val apart = maxOf(ax, bx) < left || minOf(ax, bx) > right || maxOf(ay, by) < bottom || minOf(ay, by) > top
-            if (!apart && Segments.squaredDistance(fromX, fromY, toX, toY, ax, ay, bx, by) <= margin * margin) return false
+            if (!apart &&
+                Segments.squaredDistance(fromX, fromY, toX, toY, ax, ay, bx, by) <= margin * margin
+            ) {
+                return false
+            }
         }
         return contains(fromX, fromY)
     }
@@ -140,7 +144,14 @@ public class WaterArea(shore: List<Position>, keepOuts: List<List<Position>> = e
             maxOf(startY[one], endY[one]) < minOf(startY[other], endY[other]) ||
             minOf(startY[one], endY[one]) > maxOf(startY[other], endY[other])
         return !apart && Segments.squaredDistance(
-            startX[one], startY[one], endX[one], endY[one], startX[other], startY[other], endX[other], endY[other],
+            startX[one],
+            startY[one],
+            endX[one],
+            endY[one],
+            startX[other],
+            startY[other],
+            endX[other],
+            endY[other],
         ) == 0.0
     }
 

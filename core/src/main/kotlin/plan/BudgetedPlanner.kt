@@ -15,7 +15,9 @@ import kotlin.math.hypot
 public data class TravelCost(val perMetre: Double, val perWaypoint: Double) {
     init {
         require(perMetre >= 0 && perMetre.isFinite()) { "perMetre ($perMetre) must be at least 0 and finite" }
-        require(perWaypoint >= 0 && perWaypoint.isFinite()) { "perWaypoint ($perWaypoint) must be at least 0 and finite" }
+        require(perWaypoint >= 0 && perWaypoint.isFinite()) {
+            "perWaypoint ($perWaypoint) must be at least 0 and finite"
+        }
         require(perMetre > 0 || perWaypoint > 0) { "perMetre and perWaypoint must not both be 0" }
     }
 }

@@ -139,7 +139,13 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
         /** Each pass ends in the first cell, where the other begins. */
         private fun fourDirections(grid: Grid): IntArray {
             val byColumns = serpentine(grid.columns, grid.rows) { column, row -> row * grid.columns + column }
-            return if (grid.rows == 1 || grid.columns == 1) backAndForth(grid) else backAndForth(grid) + thereAndBack(byColumns)
+            return if (grid.rows == 1 ||
+                grid.columns == 1
+            ) {
+                backAndForth(grid)
+            } else {
+                backAndForth(grid) + thereAndBack(byColumns)
+            }
         }
 
         /**

@@ -71,10 +71,23 @@ public class RegionPlanner(private val planner: Planner, private val inPlane: Bo
         builtAs = region
         val columns = own.grid.columns
         for (to in 0 until own.grid.size) {
-            val from = if (inPlane) to else (region.row + to / columns) * map.grid.columns + region.column + to % columns
+            val from = if (inPlane) {
+                to
+            } else {
+                (region.row + to / columns) * map.grid.columns + region.column +
+                    to % columns
+            }
             val isIn = !inPlane || region.contains(to % columns, to / columns)
             own.setValue(to, map.value(from))
-            if (isIn) own.setBounds(to, map.lower(from), map.upper(from)) else own.setBounds(to, map.value(from), map.value(from))
+            if (isIn) {
+                own.setBounds(
+                    to,
+                    map.lower(from),
+                    map.upper(from),
+                )
+            } else {
+                own.setBounds(to, map.value(from), map.value(from))
+            }
             while (own.visits(to) < map.visits(from)) own.countVisit(to)
         }
         return own

@@ -82,7 +82,11 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
             val toRow = row + ROW_STEPS[step]
             if (toColumn !in 0 until columns || toRow !in 0 until rows) continue
             val to = toRow * columns + toColumn
-            if (isOpen || (clear[to] && area.isClear(x(point), y(point), x(to), y(to), margin))) bits = bits or (1 shl step)
+            if (isOpen ||
+                (clear[to] && area.isClear(x(point), y(point), x(to), y(to), margin))
+            ) {
+                bits = bits or (1 shl step)
+            }
         }
         ways[point] = bits.toByte()
     }

@@ -149,15 +149,26 @@ class AllocationTest {
             "polygon-rrt" to PolygonRrt(Random(1), null, rrt),
             "polygon-rrt over water" to PolygonRrt(Random(1), water, rrt),
             "budgeted" to BudgetedPlanner(
-                RandomWalk(Random(1)), 1e9, TravelCost(1.0, 0.0), { 0.0 }, CellsHome(grid, 0), home,
+                RandomWalk(Random(1)),
+                1e9,
+                TravelCost(1.0, 0.0),
+                { 0.0 },
+                CellsHome(grid, 0),
+                home,
             ),
             "budgeted, home through the water" to BudgetedPlanner(
-                PolygonRrt(Random(1), water, rrt), 1e9, TravelCost(1.0, 0.0), { 0.0 },
-                WaterHome(WaterRoutes(water, 0.0, 1.0), grid.center(0)), home,
+                PolygonRrt(Random(1), water, rrt),
+                1e9,
+                TravelCost(1.0, 0.0),
+                { 0.0 },
+                WaterHome(WaterRoutes(water, 0.0, 1.0), grid.center(0)),
+                home,
             ),
             "in a region" to RegionPlanner(RandomWalk(Random(1))).apply { region = GridRegion(2, 3, 5, 4) },
         )
-        return (planners + decorated).map { (name, planner) -> dynamicTest(name) { assertDecisionsAllocateNothing(name, planner) } }
+        return (planners + decorated).map { (name, planner) ->
+            dynamicTest(name) { assertDecisionsAllocateNothing(name, planner) }
+        }
     }
 
     private fun Grid.outline() =

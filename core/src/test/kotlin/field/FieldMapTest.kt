@@ -74,7 +74,10 @@ class FieldMapTest {
         val sum = FieldMap(grid, prior)
         repeat(2) { sum.addCounts(map) }
         for (cell in 0 until grid.size) {
-            assertEquals(listOf(2 * cell, 4 * cell, 6 * cell), listOf(sum.visits(cell), sum.readings(cell), sum.conflicts(cell)))
+            assertEquals(
+                listOf(2 * cell, 4 * cell, 6 * cell),
+                listOf(sum.visits(cell), sum.readings(cell), sum.conflicts(cell)),
+            )
             assertEquals(80.0, sum.value(cell), 0.0)
         }
         assertEquals(listOf(2L, 2L), listOf(sum.outside, sum.rejected))

@@ -111,11 +111,17 @@ class WaterAreaTest {
         assertTrue("the shore crosses or touches itself: edge 1" in refusal(bow + Position(-5.0, 3.0)), refusal(bow))
         assertEquals("the shore encloses no area", refusal(bow))
         assertEquals("the shore has 2 different corners; it needs 3", refusal(ring(0.0 to 0.0, 1.0 to 0.0, 0.0 to 0.0)))
-        assertEquals("the shore has a corner that is not finite", refusal(ring(0.0 to 0.0, 1.0 to 0.0, Double.NaN to 1.0)))
+        assertEquals(
+            "the shore has a corner that is not finite",
+            refusal(ring(0.0 to 0.0, 1.0 to 0.0, Double.NaN to 1.0)),
+        )
         val spike = ring(0.0 to 0.0, 10.0 to 0.0, 10.0 to 10.0, 10.0 to 5.0, 0.0 to 10.0)
         assertTrue("crosses or touches itself" in refusal(spike), refusal(spike))
         val away = island.map { it.moved(20.0, 0.0) }
-        assertEquals("keep-out 2, which starts at (24.0 m, 4.0 m), lies outside the shore", refusal(square, island, away))
+        assertEquals(
+            "keep-out 2, which starts at (24.0 m, 4.0 m), lies outside the shore",
+            refusal(square, island, away),
+        )
         val all = ring(-1.0 to -1.0, 11.0 to -1.0, 11.0 to 11.0, -1.0 to 11.0)
         assertEquals(
             "keep-out 1, which starts at (-1.0 m, -1.0 m), leaves no water inside the shore",

@@ -83,7 +83,11 @@ class BudgetedPlannerTest {
         val limit = random.between(10.0, 300.0)
         val trip = Trip(lake.map, home, TravelCost(1.0, 0.0), random)
         val planner = PolygonRrt(random, lake.area, settings)
-        trip.run(BudgetedPlanner(planner, limit, trip.cost, { trip.spent }, WaterHome(routes, home), home)) { from, plan ->
+        trip.run(
+            BudgetedPlanner(planner, limit, trip.cost, {
+                trip.spent
+            }, WaterHome(routes, home), home),
+        ) { from, plan ->
             assertClear(lake.area, lake.margin, from, plan)
         }
         assertTrue(trip.spent <= limit * (1 + 1e-9), "used ${trip.spent} of $limit")
@@ -122,7 +126,12 @@ class BudgetedPlannerTest {
         val map = flatMap(5, 5)
         val plan = Plan()
         val planner = BudgetedPlanner(
-            RandomWalk(Random(1)), 2.0, TravelCost(0.0, 1.0), { 0.0 }, CellsHome(map.grid, 0), map.grid.center(0),
+            RandomWalk(Random(1)),
+            2.0,
+            TravelCost(0.0, 1.0),
+            { 0.0 },
+            CellsHome(map.grid, 0),
+            map.grid.center(0),
         )
         assertEquals(PlanOutcome.Planned, planner.plan(map, map.grid.center(24), 0.5, StopCondition.NEVER, plan))
         assertEquals(8, plan.size)

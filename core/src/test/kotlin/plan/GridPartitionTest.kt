@@ -13,7 +13,8 @@ import kotlin.test.assertTrue
 
 class GridPartitionTest {
     private class Case(random: Random) {
-        val grid = Grid(Position(random.between(-9.0, 9.0), 3.0), random.nextInt(1, 13), random.nextInt(1, 13), 2.0, 3.0, 0.7)
+        val grid =
+            Grid(Position(random.between(-9.0, 9.0), 3.0), random.nextInt(1, 13), random.nextInt(1, 13), 2.0, 3.0, 0.7)
         val boats = random.nextInt(1, minOf(grid.size, 12) + 1)
         val weights = DoubleArray(grid.size) { if (random.nextInt(4) == 0) 0.0 else random.nextDouble() }
 

@@ -44,7 +44,9 @@ internal class Lake(random: Random) {
     }
 
     /** A place on the water, farther from land than the margin; null where chance finds none. */
-    fun place(random: Random): Position? = List(200) { Position(random.between(-30.0, 30.0), random.between(-30.0, 30.0)) }
+    fun place(
+        random: Random,
+    ): Position? = List(200) { Position(random.between(-30.0, 30.0), random.between(-30.0, 30.0)) }
         .find { area.isClear(it.x, it.y, margin) }
 
     private fun star(random: Random, middle: Position, radius: Double): List<Position> {
@@ -63,7 +65,10 @@ internal fun assertClear(area: WaterArea, margin: Double, from: Position, plan: 
     var x = from.x
     var y = from.y
     for (i in 0 until plan.size) {
-        assertTrue(area.isClear(x, y, plan.x(i), plan.y(i), margin), "leg ${i + 1} from ($x, $y) to (${plan.x(i)}, ${plan.y(i)})")
+        assertTrue(
+            area.isClear(x, y, plan.x(i), plan.y(i), margin),
+            "leg ${i + 1} from ($x, $y) to (${plan.x(i)}, ${plan.y(i)})",
+        )
         x = plan.x(i)
         y = plan.y(i)
     }

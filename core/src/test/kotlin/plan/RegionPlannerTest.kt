@@ -61,7 +61,11 @@ class RegionPlannerTest {
             { own, _, _, _, _ ->
                 for (cell in 0 until own.grid.size) {
                     val isIn = region.contains(cell % 8, cell / 8)
-                    assertEquals(if (isIn) map.upper(cell) - map.lower(cell) else 0.0, own.upper(cell) - own.lower(cell), 0.0)
+                    assertEquals(
+                        if (isIn) map.upper(cell) - map.lower(cell) else 0.0,
+                        own.upper(cell) - own.lower(cell),
+                        0.0,
+                    )
                 }
                 PlanOutcome.NothingToGain
             },

@@ -114,8 +114,8 @@ internal class BenchmarkReport(
 
     private companion object {
         const val BOUNDS_CAPTION =
-            "Share of the visited cells whose bounds hold the truth, and at the last move the bounds' mean width; all " +
-                "moves are in bounds.csv"
+            "Share of the visited cells whose bounds hold the truth, and at the last move the bounds' mean width; " +
+                "all moves are in bounds.csv"
         const val CAPTION =
             "The report draws this comparison as its Figure 6 (uniform field) and Figure 7 (Gaussian). " +
                 "Planners by colour, filters by line, bands of one standard error of the mean either way."

@@ -29,7 +29,9 @@ object BenchmarkTable {
         if (bounding.isEmpty()) return null
         val coverage = table(result, bounding) { "%.3f".format(Locale.ROOT, it.bounds?.coverage) }
         val format = SignificantDigits(DIGITS)
-        val widths = bounding.map { curve -> curve.summaries.last().bounds?.let { format.format(it.meanWidth) }.orEmpty() }
+        val widths = bounding.map { curve ->
+            curve.summaries.last().bounds?.let { format.format(it.meanWidth) }.orEmpty()
+        }
         return Table(
             columns = coverage.columns + TableColumn("width", Align.RIGHT),
             rows = coverage.rows.zip(widths) { row, width -> row + width },

@@ -44,7 +44,9 @@ object BudgetTable {
         val home = result.curves.minOf(::home)
         if (home == 1.0) return emptyList()
         return listOf(
-            "as few as ${percent(home)} of the boats were home after ${result.settings.moves} moves; more --moves let " +
+            "as few as ${percent(
+                home,
+            )} of the boats were home after ${result.settings.moves} moves; more --moves let " +
                 "them use up ${budget.limit} ${budget.kind.unit}",
         )
     }

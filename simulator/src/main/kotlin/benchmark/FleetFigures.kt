@@ -30,7 +30,13 @@ object FleetFigures {
         return LinePlot(
             title = "Error against boats at equal time, field $field",
             subtitle = "Mean over ${result.settings.environments} environments, bands of one standard error" +
-                if (moves.size == 1) ", move ${moves.single()}" else combinations(result, field).keys.single().let { ", $it" },
+                if (moves.size ==
+                    1
+                ) {
+                    ", move ${moves.single()}"
+                } else {
+                    combinations(result, field).keys.single().let { ", $it" }
+                },
             series = combinations(result, field).flatMap { (name, curves) ->
                 moves.map { move ->
                     series(if (moves.size == 1) name else "move $move", curves.sortedBy { it.boats }, move)
@@ -68,7 +74,13 @@ object FleetFigures {
             val goal = curves.minBy { it.boats }.at(last).mean
             curves.sortedBy { it.boats }.map { curve ->
                 val reached = curve.checkpoints.firstOrNull { curve.at(it).mean <= goal }
-                listOf(curve.planner.label, curve.filter.label, "${curve.boats}", format.format(curve.at(last).mean), reached?.toString() ?: "later")
+                listOf(
+                    curve.planner.label,
+                    curve.filter.label,
+                    "${curve.boats}",
+                    format.format(curve.at(last).mean),
+                    reached?.toString() ?: "later",
+                )
             }
         }
         return Table(

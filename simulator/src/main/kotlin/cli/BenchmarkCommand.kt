@@ -223,7 +223,11 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             )
         }
         val chosenBoats = fleetOptions.boats() ?: base.boats
-        if (chosenBoats.max() > cells.size) throw BadFlag("--boats", "at most ${cells.size}, one a cell", "${chosenBoats.max()}")
+        if (chosenBoats.max() >
+            cells.size
+        ) {
+            throw BadFlag("--boats", "at most ${cells.size}, one a cell", "${chosenBoats.max()}")
+        }
         requireInPlane(planners ?: base.planners)
         return try {
             base.copy(
@@ -256,7 +260,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     private fun grid(area: WaterArea?): Grid? {
         val size = grid
         if (area != null && size != null) throw BadFlag("--grid", "--cell with --area", "--grid")
-        return area?.let { fleetOptions.grid(it) } ?: size?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) }
+        return area?.let { fleetOptions.grid(it) }
+            ?: size?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) }
     }
 
     private fun requireInPlane(planners: List<PlannerKind>) {

@@ -114,7 +114,9 @@ object AreaFile {
     private fun rings(element: JsonElement?, where: String): List<List<Pair<Double, Double>>> {
         val rings = list(element, "coordinates of $where").mapIndexed { ring, corners ->
             list(corners, "ring ${ring + 1} of $where").mapIndexed { index, corner ->
-                val numbers = (corner as? JsonArray)?.map { (it as? JsonPrimitive)?.doubleOrNull ?: Double.NaN }.orEmpty()
+                val numbers = (corner as? JsonArray)?.map {
+                    (it as? JsonPrimitive)?.doubleOrNull ?: Double.NaN
+                }.orEmpty()
                 if (numbers.size < 2 || numbers.take(2).any { !it.isFinite() }) {
                     throw AreaException("two numbers", "$corner as corner ${index + 1} of ring ${ring + 1} of $where")
                 }
@@ -126,9 +128,15 @@ object AreaFile {
     }
 
     private fun list(element: JsonElement?, what: String): JsonArray =
-        element as? JsonArray ?: throw AreaException("a list as $what", if (element == null) "none" else "something else")
+        element as? JsonArray
+            ?: throw AreaException("a list as $what", if (element == null) "none" else "something else")
 
-    private fun placer(shore: List<Pair<Double, Double>>, units: AreaUnits, name: String): (Pair<Double, Double>) -> Position {
+    /** How corners in [units] become places in the local frame. */
+    private fun placer(
+        shore: List<Pair<Double, Double>>,
+        units: AreaUnits,
+        name: String,
+    ): (Pair<Double, Double>) -> Position {
         if (units == AreaUnits.METRES) return { (x, y) -> Position(x, y) }
         val latLon = { corner: Pair<Double, Double> ->
             val (longitude, latitude) = corner

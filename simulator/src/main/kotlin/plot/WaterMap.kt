@@ -93,7 +93,11 @@ public class WaterMap(
         y = "north"
         color = "name"
     } + geomPoint(
-        mapOf("east" to listOf(track.east.first()), "north" to listOf(track.north.first()), "name" to listOf(track.name)),
+        mapOf(
+            "east" to listOf(track.east.first()),
+            "north" to listOf(track.north.first()),
+            "name" to listOf(track.name),
+        ),
         size = 4.0,
         sampling = samplingNone,
         showLegend = false,

@@ -130,7 +130,12 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
     }
 
     private fun wayHome(start: Position, kind: PlannerKind): WayHome = when {
-        !kind.inPlane -> CellsHome(grid, grid.cellAt(start).also { check(it != Grid.OUTSIDE) { "$start off the grid" } })
+        !kind.inPlane -> CellsHome(
+            grid,
+            grid.cellAt(start).also {
+                check(it != Grid.OUTSIDE) { "$start off the grid" }
+            },
+        )
         site == null -> StraightHome(start)
         else -> WaterHome(site.routes(), start)
     }

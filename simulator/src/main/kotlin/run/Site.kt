@@ -23,7 +23,11 @@ class Site(val area: WaterArea, val grid: Grid, private val settings: PolygonRrt
     val starts: List<Position>
 
     init {
-        require(water.any { it }) { "no centre of the ${grid.columns} x ${grid.rows} cells is on the water; take more cells" }
+        require(
+            water.any {
+                it
+            },
+        ) { "no centre of the ${grid.columns} x ${grid.rows} cells is on the water; take more cells" }
         starts = largestWater(routes())
         require(starts.isNotEmpty()) {
             "no water is left ${settings.margin} m away from land; take a smaller margin or a finer resolution"

@@ -94,7 +94,10 @@ class BenchmarkFilesTest {
             "field,filter,planner,move,share_of_cells,share_of_error,boats",
             out.resolve("extremes.csv").readLines()[0],
         )
-        assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.4375", "0.5", "1"), rows("extremes.csv").first())
+        assertEquals(
+            listOf("uniform", "bounded", "random-walk", "50", "0.4375", "0.5", "1"),
+            rows("extremes.csv").first(),
+        )
     }
 
     @Test

@@ -220,7 +220,10 @@ class BenchmarkBadInputTest {
             flag("--budget-time: expected a number of seconds above 0, found '-1'", "--budget-time", "-1"),
             flag(
                 "--budget-distance: expected one budget, found --budget-moves too",
-                "--budget-moves", "5", "--budget-distance", "5",
+                "--budget-moves",
+                "5",
+                "--budget-distance",
+                "5",
             ),
             flag("--cell: expected an --area to go with it, found none", "--cell", "5"),
             flag("--area: expected a GeoJSON file, found no file DIR/none.json", "--area", "DIR/none.json"),

@@ -57,7 +57,12 @@ class BenchmarkCommandTest {
         assertEquals(listOf("lawnmower", "bounded"), column("planner"))
         assertEquals(
             listOf(
-                "bounds.csv", "extremes.csv", "figure-7.png", "figure-7.svg", "report.html", "results.csv",
+                "bounds.csv",
+                "extremes.csv",
+                "figure-7.png",
+                "figure-7.svg",
+                "report.html",
+                "results.csv",
                 "sensor.json",
             ),
             out.listDirectoryEntries().map { it.name }.sorted(),

@@ -66,7 +66,8 @@ class BenchmarkFleetTest {
     fun boatsOnALakeAreDrawnAndLandDoesNotCount() {
         val file = out.resolve("lake.geojson").apply { writeText(lake) }
         val flags = arrayOf("--area", "$file", "--area-units", "metres", "--planner", "polygon-rrt", "--margin", "0.2")
-        runSmallBenchmark(out, *flags, "--field", "gaussian", "--boats", "2", "--moves", "120", "--filter", "self-calibrating")
+        val fleet = arrayOf("--boats", "2", "--moves", "120", "--filter", "self-calibrating")
+        runSmallBenchmark(out, *flags, *fleet, "--field", "gaussian")
         val svg = out.resolve("voyage-gaussian.svg").readText()
         assertContains(svg, "boat 2")
         // Were the island's cells counted, with their prior of 0.5, they alone would leave a larger error.

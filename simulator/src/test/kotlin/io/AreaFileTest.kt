@@ -14,7 +14,8 @@ class AreaFileTest {
 
     @Test
     fun holesAreIslandsAndMarkedPolygonsAreKeptOutOf() {
-        val lake = feature("[[0,0],[10,0],[10,10],[0,10],[0,0]], [[4,4],[4,6],[6,6],[6,4],[4,4]]", """{"name": "lake"}""")
+        val lake =
+            feature("[[0,0],[10,0],[10,10],[0,10],[0,0]], [[4,4],[4,6],[6,6],[6,4],[4,4]]", """{"name": "lake"}""")
         val zone = feature("[[8,8],[12,8],[12,12],[8,12],[8,8]]", """{"keep-out": true}""")
         val text = """{"type": "FeatureCollection", "features": [$zone, $lake]}"""
         val area = AreaFile.parse(text, "lake.geojson", AreaUnits.METRES)

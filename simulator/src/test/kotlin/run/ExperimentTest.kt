@@ -4,8 +4,8 @@ import kotlinx.coroutines.runBlocking
 import stillwater.estimate.BoundedFilter
 import stillwater.field.CellField
 import stillwater.model.Grid
-import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.BoundedPlanner
+import stillwater.plan.PolygonRrtSettings
 import stillwater.world.RandomField
 import stillwater.world.Seeds
 import stillwater.world.UniformField

@@ -52,7 +52,11 @@ class FleetTest {
     fun aBoatInThePlaneSamplesEveryStepOfItsSpeedRoundCorners() {
         val planner = Waypoints(Position(2.5, 0.5), Position(2.5, 2.5))
         val boat = Boat(
-            Position(0.5, 0.5), perfect, planner, listOf(RecordingEstimator(grid)), Travel(4, period = 0.5, speed = 1.0),
+            Position(0.5, 0.5),
+            perfect,
+            planner,
+            listOf(RecordingEstimator(grid)),
+            Travel(4, period = 0.5, speed = 1.0),
         )
         val along = places(boat, 4).map { it.x + it.y }
         // The first move stays at the start; then half a metre a sample, and 4 m to go in all.
@@ -66,7 +70,11 @@ class FleetTest {
     fun itWaitsAtTheEndOfAPlanForTheNextSample() {
         val planner = Waypoints(Position(1.2, 0.5), Position(3.5, 0.5))
         val boat = Boat(
-            Position(0.5, 0.5), perfect, planner, listOf(RecordingEstimator(grid)), Travel(1, period = 1.0, speed = 1.0),
+            Position(0.5, 0.5),
+            perfect,
+            planner,
+            listOf(RecordingEstimator(grid)),
+            Travel(1, period = 1.0, speed = 1.0),
         )
         val found = places(boat, 5).map { it.x }
         // 0.7 m to the first waypoint take a whole second.
@@ -77,7 +85,11 @@ class FleetTest {
     fun readingsInTheDistanceAreTakenInTheCellsPassed() {
         val seen = RecordingEstimator(grid)
         val boat = Boat(
-            Position(0.5, 0.5), perfect, Waypoints(Position(5.5, 0.5)), listOf(seen), Travel(2, period = 1.0, speed = 0.5),
+            Position(0.5, 0.5),
+            perfect,
+            Waypoints(Position(5.5, 0.5)),
+            listOf(seen),
+            Travel(2, period = 1.0, speed = 0.5),
         )
         places(boat, 6)
         assertEquals(listOf(0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5).drop(1), seen.records.map { it.cell }.drop(1))
@@ -119,7 +131,12 @@ class FleetTest {
         val travel = Travel(3, 1.0)
         val cost = BudgetKind.MOVES.cost(travel)
         val planner = BudgetedPlanner(
-            Waypoints(grid.center(1), grid.center(2)), 3.0, cost, { odometer.moves }, StraightHome(home), home,
+            Waypoints(grid.center(1), grid.center(2)),
+            3.0,
+            cost,
+            { odometer.moves },
+            StraightHome(home),
+            home,
         )
         val seen = RecordingEstimator(grid)
         val boat = Boat(home, perfect, planner, listOf(seen), travel, odometer)

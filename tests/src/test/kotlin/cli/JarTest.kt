@@ -75,7 +75,10 @@ class JarTest {
         assertContains(run.out, "Mean absolute error, field uniform, by moves")
         val written = directory.resolve("bench").list().orEmpty().sorted()
         val figures = listOf("figure-6.png", "figure-6.svg", "figure-7.png", "figure-7.svg")
-        assertEquals(listOf("bounds.csv", "extremes.csv") + figures + listOf("report.html", "results.csv", "sensor.json"), written)
+        assertEquals(
+            listOf("bounds.csv", "extremes.csv") + figures + listOf("report.html", "results.csv", "sensor.json"),
+            written,
+        )
         assertFalse(
             "development" in directory.resolve("bench/report.html").readText(),
             "the report names the version that the jar's manifest has",
