@@ -103,7 +103,7 @@ public class WaterArea(shore: List<Position>, keepOuts: List<List<Position>> = e
             val by = endY[edge]
             val apart = maxOf(ax, bx) < left || minOf(ax, bx) > right || maxOf(ay, by) < bottom || minOf(ay, by) > top
             if (!apart &&
-                Segments.squaredDistance(fromX, fromY, toX, toY, ax, ay, bx, by) <= margin * margin
+                squaredDistance(fromX, fromY, toX, toY, edge) <= margin * margin
             ) {
                 return false
             }
@@ -143,16 +143,32 @@ public class WaterArea(shore: List<Position>, keepOuts: List<List<Position>> = e
             minOf(startX[one], endX[one]) > maxOf(startX[other], endX[other]) ||
             maxOf(startY[one], endY[one]) < minOf(startY[other], endY[other]) ||
             minOf(startY[one], endY[one]) > maxOf(startY[other], endY[other])
-        return !apart && Segments.squaredDistance(
-            startX[one],
-            startY[one],
-            endX[one],
-            endY[one],
-            startX[other],
-            startY[other],
-            endX[other],
-            endY[other],
-        ) == 0.0
+        return !apart && squaredDistance(startX[one], startY[one], endX[one], endY[one], other) == 0.0
+    }
+
+    /** Squared distance between the segment from a to b and [edge], m²; exactly 0 where they meet. */
+    private fun squaredDistance(ax: Double, ay: Double, bx: Double, by: Double, edge: Int): Double {
+        val cx = startX[edge]
+        val cy = startY[edge]
+        val dx = endX[edge]
+        val dy = endY[edge]
+        val c = Segments.side(ax, ay, bx, by, cx, cy)
+        val d = Segments.side(ax, ay, bx, by, dx, dy)
+        val a = Segments.side(cx, cy, dx, dy, ax, ay)
+        val b = Segments.side(cx, cy, dx, dy, bx, by)
+        // Both ends of either lie on different sides of the other, or on it; all on one line are left to the distances.
+        val isOneLine = c == 0.0 && d == 0.0 && a == 0.0 && b == 0.0
+        if (!isOneLine && c * d <= 0 && a * b <= 0) return 0.0
+        return minOf(
+            minOf(
+                Segments.squaredDistance(cx, cy, ax, ay, bx, by),
+                Segments.squaredDistance(dx, dy, ax, ay, bx, by),
+            ),
+            minOf(
+                Segments.squaredDistance(ax, ay, cx, cy, dx, dy),
+                Segments.squaredDistance(bx, by, cx, cy, dx, dy),
+            ),
+        )
     }
 
     /** Whether of two edges that share a corner one lies upon the other. */

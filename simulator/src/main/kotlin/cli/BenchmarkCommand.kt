@@ -135,13 +135,16 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), bounds.csv " +
             "(how often bounds hold the truth, how wide they are), figure-6 and figure-7 (SVG and PNG), sensor.json " +
-            "and report.html into DIR; nothing at all when something is wrong.",
+            "and report.html into DIR; with several --boats boats-FIELD, with polygon-rrt voyage-FIELD (SVG and PNG), " +
+            "with a budget budget.csv; nothing at all when something is wrong.",
         listOf(
             "stillwater benchmark",
             "stillwater benchmark --preset noisy --out noisy",
             "stillwater benchmark --field uniform --filter bounded --moves 6000",
             "stillwater benchmark --preset original --choice best --seed 7",
             "stillwater benchmark --sensor my-probe.json --environments 20 --json",
+            "stillwater benchmark --preset noisy --planner lawnmower --filter self-calibrating --boats 1,2,4,8",
+            "stillwater benchmark --preset noisy --filter self-calibrating --area lake.geojson --margin 3 --boats 2",
         ),
     )
 
@@ -213,8 +216,9 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         }
         val area = fleetOptions.area()
         val cells = grid(area) ?: base.grid
+        val comparedPlanners = comparedPlanners(base.planners)
         val chosenPlanners = plannerOptions.applied(base.plannerSettings)
-        if (PlannerKind.LAWNMOWER in (planners ?: base.planners) && !Lawnmower.fits(cells, chosenPlanners.pattern)) {
+        if (PlannerKind.LAWNMOWER in comparedPlanners && !Lawnmower.fits(cells, chosenPlanners.pattern)) {
             throw BadFlag(
                 "--grid",
                 "an even number of rows or columns and two of each at least for the lawnmower's hamiltonian-cycle, " +
@@ -228,12 +232,11 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         ) {
             throw BadFlag("--boats", "at most ${cells.size}, one a cell", "${chosenBoats.max()}")
         }
-        requireInPlane(planners ?: base.planners)
         return try {
             base.copy(
                 fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
                 filters = filters ?: base.filters,
-                planners = planners ?: base.planners,
+                planners = comparedPlanners,
                 sensor = sensorOptions.applied(base.sensor, period ?: base.period),
                 boundedFilter = filterOptions.applied(
                     base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
@@ -264,11 +267,13 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             ?: size?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) }
     }
 
-    private fun requireInPlane(planners: List<PlannerKind>) {
-        val others = planners.filterNot { it.inPlane }
-        if (!fleetOptions.hasArea || others.isEmpty()) return
-        val inPlane = PlannerKind.entries.filter { it.inPlane }.joinToString(", ") { it.label }
-        throw BadFlag("--planner", "with --area one that keeps to the water ($inPlane)", "${others.first().label}")
+    /** With an area only planners that keep to the water can be compared, and all of them are unless some are named. */
+    private fun comparedPlanners(ofPreset: List<PlannerKind>): List<PlannerKind> {
+        if (!fleetOptions.hasArea) return planners ?: ofPreset
+        val inPlane = PlannerKind.entries.filter { it.inPlane }
+        val other = planners?.firstOrNull { !it.inPlane } ?: return planners ?: inPlane
+        val expected = "with --area one that keeps to the water (${inPlane.joinToString(", ") { it.label }})"
+        throw BadFlag("--planner", expected, other.label)
     }
 
     private fun commandLine(): String {

@@ -29,7 +29,8 @@ enum class AreaUnits(val label: String) {
 }
 
 /** An area that cannot be used. */
-class AreaException(val expected: String, val found: String) : RuntimeException("expected $expected, found $found")
+class AreaException(val expected: String, val found: String, cause: Throwable? = null) :
+    RuntimeException("expected $expected, found $found", cause)
 
 /**
  * Reads the water a boat may be on from GeoJSON (RFC 7946).
@@ -47,12 +48,12 @@ object AreaFile {
     fun read(path: Path, units: AreaUnits): WaterArea {
         val text = try {
             path.readText()
-        } catch (_: NoSuchFileException) {
-            throw AreaException("a GeoJSON file", "no file $path")
-        } catch (_: CharacterCodingException) {
-            throw AreaException("GeoJSON in UTF-8", "other bytes in $path")
+        } catch (missing: NoSuchFileException) {
+            throw AreaException("a GeoJSON file", "no file $path", missing)
+        } catch (wrong: CharacterCodingException) {
+            throw AreaException("GeoJSON in UTF-8", "other bytes in $path", wrong)
         } catch (failed: IOException) {
-            throw AreaException("a GeoJSON file that can be read", "$path (${failed.javaClass.simpleName})")
+            throw AreaException("a GeoJSON file that can be read", "$path (${failed.javaClass.simpleName})", failed)
         }
         return parse(text, path.toString(), units)
     }
@@ -62,7 +63,7 @@ object AreaFile {
         val root = try {
             Json.parseToJsonElement(text)
         } catch (wrong: SerializationException) {
-            throw AreaException("GeoJSON", "$name: ${wrong.message.orEmpty().lineSequence().first()}")
+            throw AreaException("GeoJSON", "$name: ${wrong.message.orEmpty().lineSequence().first()}", wrong)
         }
         val polygons = ArrayList<Polygon>()
         collect(root, isKeepOut = false, name, name, polygons)
@@ -80,7 +81,7 @@ object AreaFile {
         return try {
             WaterArea(shore.map(place), (islands + keepOuts).map { ring -> ring.map(place) })
         } catch (wrong: IllegalArgumentException) {
-            throw AreaException("a shore and keep-outs that fit", "$name: ${wrong.message}")
+            throw AreaException("a shore and keep-outs that fit", "$name: ${wrong.message}", wrong)
         }
     }
 

@@ -66,7 +66,7 @@ class Boat(
             odometer.moves++
             return
         }
-        for (i in 0 until travel.samplesPerMove) {
+        repeat(travel.samplesPerMove) {
             if (!isFirst) sail(travel.speed * travel.period, map)
             if (isDone) return
             sample(field)

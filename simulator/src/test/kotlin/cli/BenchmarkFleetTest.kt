@@ -65,7 +65,7 @@ class BenchmarkFleetTest {
     @Test
     fun boatsOnALakeAreDrawnAndLandDoesNotCount() {
         val file = out.resolve("lake.geojson").apply { writeText(lake) }
-        val flags = arrayOf("--area", "$file", "--area-units", "metres", "--planner", "polygon-rrt", "--margin", "0.2")
+        val flags = arrayOf("--area", "$file", "--area-units", "metres", "--margin", "0.2")
         val fleet = arrayOf("--boats", "2", "--moves", "120", "--filter", "self-calibrating")
         runSmallBenchmark(out, *flags, *fleet, "--field", "gaussian")
         val svg = out.resolve("voyage-gaussian.svg").readText()
