@@ -135,8 +135,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), bounds.csv " +
             "(how often bounds hold the truth, how wide they are), figure-6 and figure-7 (SVG and PNG), sensor.json " +
-            "and report.html into DIR; with several --boats boats-FIELD, with polygon-rrt voyage-FIELD (SVG and PNG), " +
-            "with a budget budget.csv; nothing at all when something is wrong.",
+            "and report.html into DIR; with several --boats boats-FIELD, with polygon-rrt voyage-FIELD (SVG and " +
+            "PNG), with a budget budget.csv; nothing at all when something is wrong.",
         listOf(
             "stillwater benchmark",
             "stillwater benchmark --preset noisy --out noisy",
