@@ -83,6 +83,26 @@ public class FieldMap(public val grid: Grid, public val prior: Interval) {
         rejected++
     }
 
+    /** Forgets all counts, of cells and of readings that lay in none or could not be used. */
+    public fun clearCounts() {
+        visitCounts.fill(0)
+        readingCounts.fill(0)
+        conflictCounts.fill(0)
+        outside = 0
+        rejected = 0
+    }
+
+    /** Adds all counts of [other], a map of as many cells. */
+    public fun addCounts(other: FieldMap) {
+        for (cell in visitCounts.indices) {
+            visitCounts[cell] += other.visitCounts[cell]
+            readingCounts[cell] += other.readingCounts[cell]
+            conflictCounts[cell] += other.conflictCounts[cell]
+        }
+        outside += other.outside
+        rejected += other.rejected
+    }
+
     /** A map of the same content that later updates of this one do not change. */
     public fun copy(): FieldMap {
         val copy = FieldMap(grid, prior)

@@ -22,6 +22,12 @@ public enum class LawnmowerPattern {
      */
     ROWS_THEN_COLUMNS,
 
+    /**
+     * Back and forth through the rows and the same way back, then so through the columns: in one period every cell is
+     * entered from each of its neighbours, so that no bound of a slow sensor is only ever approached from one side.
+     */
+    FOUR_DIRECTIONS,
+
     /** Every row in the same direction, jumping back to the start of the next, then to the first: the original. */
     RASTER,
 }
@@ -96,6 +102,7 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
                 LawnmowerPattern.HAMILTONIAN_CYCLE -> hamiltonianCycle(grid)
                 LawnmowerPattern.BACK_AND_FORTH -> backAndForth(grid)
                 LawnmowerPattern.ROWS_THEN_COLUMNS -> rowsThenColumns(grid)
+                LawnmowerPattern.FOUR_DIRECTIONS -> fourDirections(grid)
                 LawnmowerPattern.RASTER -> IntArray(grid.size) { it }
             }
         }
@@ -123,9 +130,22 @@ public class Lawnmower(public val pattern: LawnmowerPattern) : Planner {
             }
 
         /** There and back; the turning cells are not visited twice in a row. */
-        private fun backAndForth(grid: Grid): IntArray {
-            val there = serpentine(grid.rows, grid.columns) { row, column -> row * grid.columns + column }
-            return (there + there.asReversed().drop(1).dropLast(1)).toIntArray()
+        private fun backAndForth(grid: Grid): IntArray =
+            thereAndBack(serpentine(grid.rows, grid.columns) { row, column -> row * grid.columns + column })
+
+        private fun thereAndBack(there: List<Int>): IntArray =
+            (there + there.asReversed().drop(1).dropLast(1)).toIntArray()
+
+        /** Each pass ends in the first cell, where the other begins. */
+        private fun fourDirections(grid: Grid): IntArray {
+            val byColumns = serpentine(grid.columns, grid.rows) { column, row -> row * grid.columns + column }
+            return if (grid.rows == 1 ||
+                grid.columns == 1
+            ) {
+                backAndForth(grid)
+            } else {
+                backAndForth(grid) + thereAndBack(byColumns)
+            }
         }
 
         /**

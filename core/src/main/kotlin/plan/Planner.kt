@@ -17,6 +17,12 @@ public sealed interface PlanOutcome {
 
     /** The boat is not on the map; the plan is empty. */
     public data object OffMap : PlanOutcome
+
+    /** The boat is on the map but not on the water, or no way leads it out of the margin; the plan is empty. */
+    public data object OffWater : PlanOutcome
+
+    /** The budget allows no more; the plan is empty. The boat is home, unless home could never be reached. */
+    public data object BudgetSpent : PlanOutcome
 }
 
 /** Tells a planner to make do with what it has: time is up, or the boat needs an answer. */

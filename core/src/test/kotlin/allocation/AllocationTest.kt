@@ -13,6 +13,7 @@ import stillwater.estimate.ExponentialFilter
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.IntervalFilter
 import stillwater.estimate.IntervalFilterSettings
+import stillwater.estimate.MapFusion
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.model.BoatTime
@@ -21,18 +22,28 @@ import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.model.Position
+import stillwater.model.WaterArea
 import stillwater.plan.BoundedExtendedPlanner
 import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.BoundedPlanner
 import stillwater.plan.BoundedPlannerSettings
+import stillwater.plan.BudgetedPlanner
+import stillwater.plan.CellsHome
 import stillwater.plan.Execution
+import stillwater.plan.GridRegion
 import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.PathChoice
 import stillwater.plan.Planner
+import stillwater.plan.PolygonRrt
+import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.RandomWalk
+import stillwater.plan.RegionPlanner
 import stillwater.plan.StopCondition
+import stillwater.plan.TravelCost
 import stillwater.plan.WalkSteps
+import stillwater.plan.WaterHome
+import stillwater.plan.WaterRoutes
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.random.Random
@@ -134,9 +145,55 @@ class AllocationTest {
             }
         }
         val planners = WalkSteps.entries.map { "walk, $it" to RandomWalk(Random(1), it) } +
-            LawnmowerPattern.entries.map { "lawnmower, $it" to Lawnmower(it) } + bounded +
-            ("bounded-extended" to BoundedExtendedPlanner(Random(1), BoundedExtendedPlannerSettings(6, 40)))
-        return planners.map { (name, planner) -> dynamicTest(name) { assertDecisionsAllocateNothing(name, planner) } }
+            LawnmowerPattern.entries.map { "lawnmower, $it" to Lawnmower(it) } + bounded
+        val water = WaterArea(grid.outline(), listOf(listOf(grid.center(44), grid.center(45), grid.center(55))))
+        val rrt = PolygonRrtSettings(iterations = 20)
+        val home = grid.center(0)
+        val decorated = listOf<Pair<String, Planner>>(
+            "polygon-rrt" to PolygonRrt(Random(1), null, rrt),
+            "polygon-rrt over water" to PolygonRrt(Random(1), water, rrt),
+            "budgeted" to BudgetedPlanner(
+                RandomWalk(Random(1)),
+                1e9,
+                TravelCost(1.0, 0.0),
+                { 0.0 },
+                CellsHome(grid, 0),
+                home,
+            ),
+            "budgeted, home through the water" to BudgetedPlanner(
+                PolygonRrt(Random(1), water, rrt),
+                1e9,
+                TravelCost(1.0, 0.0),
+                { 0.0 },
+                WaterHome(WaterRoutes(water, 0.0, 1.0), grid.center(0)),
+                home,
+            ),
+            "bounded-extended" to BoundedExtendedPlanner(Random(1), BoundedExtendedPlannerSettings(6, 40)),
+            "in a region" to RegionPlanner(RandomWalk(Random(1))).apply { region = GridRegion(2, 3, 5, 4) },
+        )
+        return (planners + decorated).map { (name, planner) ->
+            dynamicTest(name) { assertDecisionsAllocateNothing(name, planner) }
+        }
+    }
+
+    private fun Grid.outline() =
+        listOf(corners(0)[0], corners(columns - 1)[1], corners(size - 1)[2], corners(size - columns)[3])
+
+    @TestFactory
+    fun fusion(): List<DynamicTest> {
+        val random = Random(4)
+        val maps = Array(3) { FieldMap(grid, Interval.UNIT) }
+        for (map in maps) {
+            for (cell in 0 until grid.size) {
+                map.setBounds(cell, 0.4 * random.nextDouble(), 0.6 + 0.4 * random.nextDouble())
+                repeat(cell % 3) { map.countReading(cell) }
+            }
+        }
+        val into = FieldMap(grid, Interval.UNIT)
+        return listOf(MapFusion.INTERSECTION, MapFusion.INVERSE_VARIANCE, MapFusion.MEAN_OF_READINGS)
+            .mapIndexed { index, fusion ->
+                dynamicTest("fusion $index") { AllocationMeter.assertNone("fusion") { fusion.fuse(maps, into) } }
+            }
     }
 
     private fun assertDecisionsAllocateNothing(name: String, planner: Planner) {

@@ -65,6 +65,26 @@ class FieldMapTest {
         assertEquals(before, content(copy))
     }
 
+    @Test
+    fun countsAreClearedAndAdded() {
+        val map = FieldMap(grid, prior)
+        for (cell in 0 until grid.size) fill(map, cell)
+        map.countOutside()
+        map.countRejected()
+        val sum = FieldMap(grid, prior)
+        repeat(2) { sum.addCounts(map) }
+        for (cell in 0 until grid.size) {
+            assertEquals(
+                listOf(2 * cell, 4 * cell, 6 * cell),
+                listOf(sum.visits(cell), sum.readings(cell), sum.conflicts(cell)),
+            )
+            assertEquals(80.0, sum.value(cell), 0.0)
+        }
+        assertEquals(listOf(2L, 2L), listOf(sum.outside, sum.rejected))
+        sum.clearCounts()
+        assertEquals(content(FieldMap(grid, prior)), content(sum))
+    }
+
     private fun fill(map: FieldMap, cell: Int) {
         map.setValue(cell, 100.0 + cell)
         map.setBounds(cell, 200.0 + cell, -300.0 - cell)

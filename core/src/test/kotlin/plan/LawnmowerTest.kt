@@ -39,6 +39,14 @@ class LawnmowerTest {
     }
 
     @Test
+    fun fourDirectionsEntersEveryCellFromEachOfItsNeighbours() {
+        forEveryTour(LawnmowerPattern.FOUR_DIRECTIONS) { grid, _, moves ->
+            val all = (0 until grid.size).flatMap { cell -> neighbours(grid, cell).map { it to cell } }
+            assertEquals(all.toSet(), moves.toSet(), "${grid.columns} x ${grid.rows}")
+        }
+    }
+
+    @Test
     fun everyMoveIsAnEdgeStepButTheRastersJumps() {
         for (pattern in LawnmowerPattern.entries - LawnmowerPattern.RASTER) {
             forEveryTour(pattern) { grid, tour, moves ->

@@ -38,13 +38,13 @@ object BenchmarkFigures {
                 subtitle = "Mean over ${result.settings.environments} environments" +
                     (if (result.settings.environments > 1) ", bands of one standard error" else "") +
                     ", sensor ${result.settings.sensor.name}",
-                curves = result.curves.filter { it.field == field }.map(::curve),
+                curves = result.curves.filter { it.field == field }.map { curve(it, result.settings.boats) },
             ),
         )
     }
 
-    private fun curve(curve: Curve) = ErrorCurve(
-        planner = curve.planner.label,
+    private fun curve(curve: Curve, boats: List<Int>) = ErrorCurve(
+        planner = curve.planner.label + if (boats.size > 1) ", ${curve.boats} boats" else "",
         filter = curve.filter.label,
         move = DoubleArray(curve.checkpoints.size) { curve.checkpoints[it].toDouble() },
         error = curve.doubles { mean },

@@ -8,8 +8,8 @@ import stillwater.report.writeFigures
 import stillwater.run.ExperimentResult
 
 /**
- * Writes what an experiment found: results.csv, extremes.csv, bounds.csv, sensor.json, a figure a field (SVG and PNG)
- * and report.html.
+ * Writes what an experiment found: results.csv, extremes.csv, bounds.csv, sensor.json, figures (SVG and PNG) and
+ * report.html; with a budget budget.csv too.
  *
  * @param result what was found.
  * @param command the command as typed, for the report.
@@ -25,12 +25,21 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
         directory.stream("extremes.csv") { out -> CsvTable(out, EXTREMES_COLUMNS).use(::extremes) }
         directory.stream("bounds.csv") { out -> CsvTable(out, BOUNDS_COLUMNS).use(::bounds) }
         directory.write("sensor.json", result.settings.sensor.toJson() + "\n")
-        directory.retire(BenchmarkFigures.names.flatMap { listOf("$it.svg", "$it.png") })
+        val budgets = BudgetTable.rows(result)
+        if (budgets.isNotEmpty()) {
+            directory.stream("budget.csv") { out ->
+                CsvTable(out, BudgetTable.COLUMNS).use { table -> for (row in budgets) table.row(*row.toTypedArray()) }
+            }
+        }
+        val names = BenchmarkFigures.names + FleetFigures.names + VoyageFigures.names
+        directory.retire(names.flatMap { listOf("$it.svg", "$it.png") } + "budget.csv")
         val figures = BenchmarkFigures.of(result)
-        val drawn: List<Figure> = figures.map { it.drawing }.drawAll()
-        val warnings = directory.writeFigures(figures.map { it.name }.zip(drawn))
-        directory.write("report.html", BenchmarkReport(result, figures.map { it.field }.zip(drawn), command).render())
-        return warnings
+        val more = FleetFigures.of(result) + VoyageFigures.of(result)
+        val drawn: List<Figure> = (figures.map { it.drawing } + more.map { it.second }).drawAll()
+        val warnings = directory.writeFigures((figures.map { it.name } + more.map { it.first }).zip(drawn))
+        val ofFields = figures.map { it.field }.zip(drawn)
+        directory.write("report.html", BenchmarkReport(result, ofFields, command, drawn.drop(figures.size)).render())
+        return warnings + BudgetTable.warnings(result)
     }
 
     private fun rows(table: CsvTable) {
@@ -47,6 +56,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
                     summary.standardError,
                     summary.p10,
                     summary.p90,
+                    curve.boats,
                 )
             }
         }
@@ -62,6 +72,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
                     move,
                     result.extremeCells.getValue(curve.field),
                     summary.shareInExtremes,
+                    curve.boats,
                 )
             }
         }
@@ -79,6 +90,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
                     bounds.coverage,
                     bounds.standardError,
                     bounds.meanWidth,
+                    curve.boats,
                 )
             }
         }
@@ -86,8 +98,9 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
 
     private companion object {
         val BOUNDS_COLUMNS =
-            listOf("field", "filter", "planner", "move", "coverage", "standard_error", "mean_width")
-        val EXTREMES_COLUMNS = listOf("field", "filter", "planner", "move", "share_of_cells", "share_of_error")
+            listOf("field", "filter", "planner", "move", "coverage", "standard_error", "mean_width", "boats")
+        val EXTREMES_COLUMNS =
+            listOf("field", "filter", "planner", "move", "share_of_cells", "share_of_error", "boats")
         val COLUMNS = listOf(
             "field",
             "filter",
@@ -99,6 +112,7 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
             "standard_error",
             "p10",
             "p90",
+            "boats",
         )
     }
 }

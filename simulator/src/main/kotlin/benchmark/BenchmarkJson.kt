@@ -32,6 +32,7 @@ object BenchmarkJson {
                         put("field", curve.field)
                         put("filter", curve.filter.label)
                         put("planner", curve.planner.label)
+                        put("boats", curve.boats)
                         put("move", move)
                         put("mean_abs_error", number(summary.mean))
                         put("standard_error", number(summary.standardError))
@@ -39,6 +40,15 @@ object BenchmarkJson {
                         put("p90", number(summary.p90))
                         put("coverage", number(summary.bounds?.coverage ?: Double.NaN))
                         put("mean_width", number(summary.bounds?.meanWidth ?: Double.NaN))
+                    }
+                }
+            }
+        }
+        putJsonArray("budgets") {
+            for (row in BudgetTable.rows(result)) {
+                addJsonObject {
+                    BudgetTable.COLUMNS.zip(row) { name, cell ->
+                        if (cell is Number) put(name, number(cell.toDouble())) else put(name, cell.toString())
                     }
                 }
             }

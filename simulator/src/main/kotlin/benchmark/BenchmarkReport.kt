@@ -13,11 +13,13 @@ import stillwater.run.ExperimentResult
  * @param result what was found.
  * @param figures the figure of each field, by the field's name.
  * @param command the command as typed.
+ * @param more figures of boats and their voyages.
  */
 internal class BenchmarkReport(
     private val result: ExperimentResult,
     private val figures: List<Pair<String, Figure>>,
     private val command: String,
+    private val more: List<Figure> = emptyList(),
 ) {
     private val settings = result.settings
 
@@ -38,6 +40,7 @@ internal class BenchmarkReport(
                 BenchmarkTable.bounds(result, field)?.let { table(it, BOUNDS_CAPTION) }
             }
         }
+        boats(page)
         val claims = ReportClaims(result).all()
         if (claims.isNotEmpty()) {
             page.section("The report's claims") {
@@ -60,6 +63,18 @@ internal class BenchmarkReport(
             details("The sensor as JSON") { code(settings.sensor.toJson()) }
         }
         return page.render()
+    }
+
+    /** What several boats gain, where they went, and what they used of their budget. */
+    private fun boats(page: HtmlReport) {
+        for (figure in more) page.section(figure.title) { figure(figure, "") }
+        for (field in settings.fields.keys) {
+            val table = FleetFigures.table(result, field) ?: continue
+            page.section("What more boats gain, field $field") { table(table) }
+        }
+        val budget = BudgetTable.of(result) ?: return
+        val limit = settings.budget
+        page.section("Budget") { table(budget, "Of ${limit?.limit} ${limit?.kind?.unit}, by the boat that used most") }
     }
 
     private fun claimsTable(claims: List<Claim>) = Table.of(claims) {

@@ -41,11 +41,14 @@ object BenchmarkTable {
     private fun table(result: ExperimentResult, curves: List<Curve>, text: (ErrorSummary) -> String): Table {
         val taken = result.settings.checkpoints
         val shown = (Checkpoints.NAMED + taken.last()).filter { it in taken }.distinct()
+        val isFleet = result.settings.boats != listOf(1)
         return Table(
             columns = listOf(TableColumn("planner", Align.LEFT), TableColumn("filter", Align.LEFT)) +
+                (if (isFleet) listOf(TableColumn("boats", Align.RIGHT)) else emptyList()) +
                 shown.map { TableColumn("$it", Align.RIGHT) },
             rows = curves.map { curve ->
-                listOf(curve.planner.label, curve.filter.label) + shown.map { text(curve.at(it)) }
+                listOf(curve.planner.label, curve.filter.label) +
+                    (if (isFleet) listOf("${curve.boats}") else emptyList()) + shown.map { text(curve.at(it)) }
             },
         )
     }

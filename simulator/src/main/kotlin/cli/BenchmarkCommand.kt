@@ -14,12 +14,16 @@ import kotlinx.coroutines.runBlocking
 import stillwater.benchmark.BenchmarkFiles
 import stillwater.benchmark.BenchmarkJson
 import stillwater.benchmark.BenchmarkTable
+import stillwater.benchmark.BudgetTable
+import stillwater.benchmark.FleetFigures
 import stillwater.benchmark.ReportClaims
 import stillwater.model.Grid
+import stillwater.model.WaterArea
 import stillwater.plan.Lawnmower
 import stillwater.report.OutputDirectory
 import stillwater.report.OutputException
 import stillwater.report.toTerminal
+import stillwater.run.BudgetKind
 import stillwater.run.Checkpoints
 import stillwater.run.Experiment
 import stillwater.run.ExperimentResult
@@ -108,6 +112,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     private val filterOptions by BoundedFilterOptions()
     private val lagOptions by LagFilterOptions()
     private val plannerOptions by PlannerOptions()
+    private val fleetOptions by FleetOptions()
     private val seed by option(
         "--seed",
         metavar = "N",
@@ -130,13 +135,16 @@ class BenchmarkCommand : CliktCommand("benchmark") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), bounds.csv " +
             "(how often bounds hold the truth, how wide they are), figure-6 and figure-7 (SVG and PNG), sensor.json " +
-            "and report.html into DIR; nothing at all when something is wrong.",
+            "and report.html into DIR; with several --boats boats-FIELD, with polygon-rrt voyage-FIELD (SVG and " +
+            "PNG), with a budget budget.csv; nothing at all when something is wrong.",
         listOf(
             "stillwater benchmark",
             "stillwater benchmark --preset noisy --out noisy",
             "stillwater benchmark --field uniform --filter bounded --moves 6000",
             "stillwater benchmark --preset original --choice best --seed 7",
             "stillwater benchmark --sensor my-probe.json --environments 20 --json",
+            "stillwater benchmark --preset noisy --planner lawnmower --filter self-calibrating --boats 1,2,4,8",
+            "stillwater benchmark --preset noisy --filter self-calibrating --area lake.geojson --margin 3 --boats 2",
         ),
     )
 
@@ -184,6 +192,15 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             terminal.println(bounds.toTerminal("Share of cells whose bounds hold the truth, field $field, by moves"))
             terminal.println()
         }
+        for (field in result.settings.fields.keys) {
+            val table = FleetFigures.table(result, field) ?: continue
+            terminal.println(table.toTerminal("What more boats gain, field $field"))
+            terminal.println()
+        }
+        BudgetTable.of(result)?.let {
+            terminal.println(it.toTerminal("Used of the budget, ${result.settings.budget?.limit}"))
+            terminal.println()
+        }
         for (claim in ReportClaims(result).all()) {
             echo("${claim.verdict.label}: ${claim.text} (${claim.detail})")
         }
@@ -191,13 +208,17 @@ class BenchmarkCommand : CliktCommand("benchmark") {
 
     private fun settings(): ExperimentSettings {
         val base = preset.settings()
-        val trialMoves = moves ?: checkpoints?.last() ?: base.moves
+        val budget = fleetOptions.budget()
+        val budgetMoves = budget?.takeIf { it.kind == BudgetKind.MOVES }?.limit?.toInt()?.takeIf { it <= MOST_MOVES }
+        val trialMoves = moves ?: checkpoints?.last() ?: budgetMoves ?: base.moves
         checkpoints?.last()?.let {
             if (it > trialMoves) throw BadFlag("--checkpoints", "moves within 1..$trialMoves", "$it")
         }
-        val cells = grid?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) } ?: base.grid
+        val area = fleetOptions.area()
+        val cells = grid(area) ?: base.grid
+        val comparedPlanners = comparedPlanners(base.planners)
         val chosenPlanners = plannerOptions.applied(base.plannerSettings)
-        if (PlannerKind.LAWNMOWER in (planners ?: base.planners) && !Lawnmower.fits(cells, chosenPlanners.pattern)) {
+        if (PlannerKind.LAWNMOWER in comparedPlanners && !Lawnmower.fits(cells, chosenPlanners.pattern)) {
             throw BadFlag(
                 "--grid",
                 "an even number of rows or columns and two of each at least for the lawnmower's hamiltonian-cycle, " +
@@ -205,11 +226,17 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 "${cells.columns}x${cells.rows}",
             )
         }
+        val chosenBoats = fleetOptions.boats() ?: base.boats
+        if (chosenBoats.max() >
+            cells.size
+        ) {
+            throw BadFlag("--boats", "at most ${cells.size}, one a cell", "${chosenBoats.max()}")
+        }
         return try {
             base.copy(
                 fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
                 filters = filters ?: base.filters,
-                planners = planners ?: base.planners,
+                planners = comparedPlanners,
                 sensor = sensorOptions.applied(base.sensor, period ?: base.period),
                 boundedFilter = filterOptions.applied(
                     base.boundedFilter.copy(epsilon = epsilon ?: base.boundedFilter.epsilon),
@@ -223,10 +250,30 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 samplesPerMove = samples ?: base.samplesPerMove,
                 period = period ?: base.period,
                 seed = seed,
+                boats = chosenBoats,
+                budget = budget,
+                area = area,
+                speed = fleetOptions.speed(),
             )
         } catch (unfit: IllegalArgumentException) {
             throw CliktError("stillwater benchmark: ${unfit.message}", statusCode = BAD_INPUT)
         }
+    }
+
+    private fun grid(area: WaterArea?): Grid? {
+        val size = grid
+        if (area != null && size != null) throw BadFlag("--grid", "--cell with --area", "--grid")
+        return area?.let { fleetOptions.grid(it) }
+            ?: size?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) }
+    }
+
+    /** With an area only planners that keep to the water can be compared, and all of them are unless some are named. */
+    private fun comparedPlanners(ofPreset: List<PlannerKind>): List<PlannerKind> {
+        if (!fleetOptions.hasArea) return planners ?: ofPreset
+        val inPlane = PlannerKind.entries.filter { it.inPlane }
+        val other = planners?.firstOrNull { !it.inPlane } ?: return planners ?: inPlane
+        val expected = "with --area one that keeps to the water (${inPlane.joinToString(", ") { it.label }})"
+        throw BadFlag("--planner", expected, other.label)
     }
 
     private fun commandLine(): String {
@@ -245,7 +292,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             "--period" to period,
             "--seed" to seed,
         )
-        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags()
+        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags() +
+            fleetOptions.flags()
         return commandLineText("stillwater benchmark", null, own + grouped)
     }
 

@@ -8,6 +8,7 @@ import stillwater.plan.Execution
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Neighbours
 import stillwater.plan.PathChoice
+import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.Priority
 import stillwater.plan.WalkSteps
 import stillwater.run.PlannerSettings
@@ -18,6 +19,7 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         .oneOf(WALKS)
     private val pattern by option(
         "--pattern",
+        "--lawnmower",
         metavar = "NAME",
         help = "lawnmower: ${PATTERNS.keys.joinToString(", ")}",
     ).oneOf(PATTERNS)
@@ -60,8 +62,31 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         help = "bounded planner: expand the highest value-per-move first, or value as the original code did",
     ).oneOf(PRIORITIES)
 
+    private val rrtIterations by option(
+        "--rrt-iterations",
+        metavar = "N",
+        help = "polygon-rrt: points drawn for a plan",
+    ).wholeNumber("a whole number within 1..${PolygonRrtSettings.MAX_ITERATIONS}") {
+        it in 1..PolygonRrtSettings.MAX_ITERATIONS
+    }
+    private val rrtHorizon by option("--rrt-horizon", metavar = "CELLS", help = "polygon-rrt: longest path, in cells")
+        .number("a number of cells above 0") { it > 0 }
+    private val rrtReach by option("--rrt-reach", metavar = "CELLS", help = "polygon-rrt: longest leg, in cells")
+        .number("a number of cells above 0") { it > 0 }
+    private val margin by option(
+        "--margin",
+        metavar = "METRES",
+        help = "polygon-rrt: smallest distance from land and keep-outs",
+    ).number("a number of metres of at least 0") { it >= 0 }
+    private val resolution by option(
+        "--resolution",
+        metavar = "METRES",
+        help = "polygon-rrt: distance of the points among which ways through narrow water are sought; half a cell " +
+            "unless given",
+    ).number("a number of metres above 0") { it > 0 }
+
     /** [settings] with what was given on the command line in their place. */
-    fun applied(settings: PlannerSettings): PlannerSettings = PlannerSettings(
+    fun applied(settings: PlannerSettings): PlannerSettings = settings.copy(
         walk = walk ?: settings.walk,
         pattern = pattern ?: settings.pattern,
         bounded = settings.bounded.copy(
@@ -73,6 +98,13 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             choice = choice ?: settings.bounded.choice,
             neighbours = neighbours ?: settings.bounded.neighbours,
             priority = priority ?: settings.bounded.priority,
+        ),
+        polygonRrt = settings.polygonRrt.copy(
+            iterations = rrtIterations ?: settings.polygonRrt.iterations,
+            horizon = rrtHorizon ?: settings.polygonRrt.horizon,
+            reach = rrtReach ?: settings.polygonRrt.reach,
+            margin = margin ?: settings.polygonRrt.margin,
+            resolution = resolution ?: settings.polygonRrt.resolution,
         ),
         boundedExtended = BoundedExtendedPlannerSettings(
             horizon = horizon ?: settings.boundedExtended.horizon,
@@ -93,6 +125,11 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         "--choice" to CHOICES.nameOf(choice),
         "--neighbours" to NEIGHBOURS.nameOf(neighbours),
         "--priority" to PRIORITIES.nameOf(priority),
+        "--rrt-iterations" to rrtIterations,
+        "--rrt-horizon" to rrtHorizon,
+        "--rrt-reach" to rrtReach,
+        "--margin" to margin,
+        "--resolution" to resolution,
     )
 
     private fun <T> Map<String, T>.nameOf(value: T?): String? = entries.find { it.value == value }?.key
@@ -107,6 +144,7 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             "hamiltonian-cycle" to LawnmowerPattern.HAMILTONIAN_CYCLE,
             "back-and-forth" to LawnmowerPattern.BACK_AND_FORTH,
             "rows-then-columns" to LawnmowerPattern.ROWS_THEN_COLUMNS,
+            "four-directions" to LawnmowerPattern.FOUR_DIRECTIONS,
             "raster" to LawnmowerPattern.RASTER,
         )
         val EXECUTIONS = mapOf("whole-path" to Execution.WHOLE_PATH, "single-step" to Execution.SINGLE_STEP)

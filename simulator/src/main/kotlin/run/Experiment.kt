@@ -18,6 +18,8 @@ import stillwater.world.Seeds
  */
 class Experiment(val settings: ExperimentSettings) {
     private val seeds = Seeds(settings.seed)
+    private val site = settings.area?.let { Site(it, settings.grid, settings.plannerSettings.polygonRrt) }
+    private val fleets = FleetBuilder(settings, site)
 
     /** Pieces of work that [run] does and reports: environments of every field. */
     val size: Int get() = settings.fields.size * settings.environments
@@ -38,54 +40,69 @@ class Experiment(val settings: ExperimentSettings) {
         }
         val environments = work.associate { (name, pieces) -> name to pieces.awaitAll() }
         val curves = environments.flatMap { (name, pieces) ->
-            combinations().mapIndexed { index, (planner, filter) ->
-                Curve(name, filter, planner, settings.checkpoints, pieces.map { it.errors[index] })
+            combinations().mapIndexed { index, (planner, boats, filter) ->
+                Curve(
+                    name,
+                    filter,
+                    planner,
+                    settings.checkpoints,
+                    pieces.map { it.errors[index] },
+                    boats,
+                    pieces.mapNotNull { it.budgets[index] },
+                )
             }
         }
-        val cells = settings.environments.toDouble() * settings.grid.size
+        val counted = site?.water?.count { it } ?: settings.grid.size
+        val cells = settings.environments.toDouble() * counted
         ExperimentResult(
             settings,
             curves,
             environments.mapValues { (_, pieces) ->
                 pieces.sumOf { it.extremes } / cells
             },
+            environments.values.flatMap { pieces -> pieces.first().voyages },
         )
     }
 
-    /** Errors of all combinations in one environment, one row each, and how many of its cells are local extremes. */
-    private class Environment(val errors: List<TrialErrors>, val extremes: Int)
+    /** What came of all combinations in one environment, one row each, and how many of its cells are local extremes. */
+    private class Environment(
+        val errors: List<TrialErrors>,
+        val budgets: List<BudgetUse?>,
+        val extremes: Int,
+        val voyages: List<Voyage>,
+    )
 
-    private fun combinations() = settings.planners.flatMap { planner -> settings.filters.map { planner to it } }
+    private fun combinations() = settings.planners.flatMap { planner ->
+        settings.boats.flatMap { boats -> settings.filters.map { Triple(planner, boats, it) } }
+    }
 
     private fun environment(name: String, kind: RandomField, environment: Int): Environment {
         val field = kind.draw(settings.grid, seeds.random("field $name", environment))
         val extremes = LocalExtremes.of(field)
-        val checkpoints = settings.checkpoints.toIntArray()
-        val rows = settings.planners.flatMap { planner ->
-            val start = if (planner.startsAtFirstCell) 0 else startCell(name, environment)
-            val errors = HashMap<FilterKind, TrialErrors>()
-            for (group in pathGroups(planner)) {
-                val stream = "$name ${planner.label} ${group.leader.label}"
-                val trial = Trial(
-                    field = field,
-                    sensor = settings.sensor.build(field.truth(start), seeds.random("noise $stream", environment)),
-                    planner = planner.planner(seeds.random("planner $stream", environment), settings.plannerSettings),
-                    estimators = group.filters.map {
-                        it.estimator(settings.grid, settings.prior, settings.boundedFilter, settings.lagFilters)
-                    },
-                    samplesPerMove = settings.samplesPerMove,
-                    period = settings.period,
-                    extremes = extremes,
-                )
-                group.filters.zip(trial.run(start, checkpoints)).toMap(errors)
+        val errors = ArrayList<TrialErrors>()
+        val budgets = ArrayList<BudgetUse?>()
+        val voyages = ArrayList<Voyage>()
+        for (planner in settings.planners) {
+            for (boats in settings.boats) {
+                val ofFilter = HashMap<FilterKind, Pair<TrialErrors, BudgetUse?>>()
+                for (group in pathGroups(planner)) {
+                    val order = FleetBuilder.Order(name, environment, planner, group.leader, group.filters, boats)
+                    val outcome = fleets.run(order, field, extremes)
+                    group.filters.zip(outcome.errors) { filter, error -> ofFilter[filter] = error to outcome.budget }
+                    outcome.voyage?.let { voyages += it }
+                }
+                errors += settings.filters.map { ofFilter.getValue(it).first }
+                budgets += settings.filters.map { ofFilter.getValue(it).second }
             }
-            settings.filters.map { errors.getValue(it) }
         }
-        return Environment(rows, extremes.count { it })
+        val counted = site?.water
+        return Environment(
+            errors,
+            budgets,
+            extremes.indices.count { extremes[it] && (counted == null || counted[it]) },
+            voyages,
+        )
     }
-
-    private fun startCell(name: String, environment: Int) =
-        seeds.random("start $name", environment).nextInt(settings.grid.size)
 
     /** Filters that share a path, drawn from the stream of [leader]; a planner plans on the map of the first. */
     private class PathGroup(val leader: FilterKind, val filters: List<FilterKind>)

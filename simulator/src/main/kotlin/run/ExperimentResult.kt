@@ -11,6 +11,8 @@ import kotlin.math.sqrt
  * @property planner the planner.
  * @property checkpoints moves at which the errors were taken.
  * @param errors errors in each environment. Retained.
+ * @property boats number of boats, which share one map.
+ * @property budgets what the boats used of their budget in each environment; empty where they had none.
  */
 class Curve(
     val field: String,
@@ -18,6 +20,8 @@ class Curve(
     val planner: PlannerKind,
     val checkpoints: List<Int>,
     private val errors: List<TrialErrors>,
+    val boats: Int = 1,
+    val budgets: List<BudgetUse> = emptyList(),
 ) {
     /** Summary over the environments at each of [checkpoints]. */
     val summaries: List<ErrorSummary> by lazy { checkpoints.indices.map { summary(it) } }
@@ -119,15 +123,17 @@ data class ErrorDifference(val mean: Double, val standardError: Double) {
  * What an [Experiment] found.
  *
  * @property settings what was compared.
- * @property curves one per field, planner and filter, in that order.
+ * @property curves one per field, planner, number of boats and filter, in that order.
  * @property extremeCells share of the cells that are local extremes, by field, dimensionless.
+ * @property voyages where boats went in the plane in the first environment.
  */
 class ExperimentResult(
     val settings: ExperimentSettings,
     val curves: List<Curve>,
     val extremeCells: Map<String, Double>,
+    val voyages: List<Voyage> = emptyList(),
 ) {
-    /** The curve of a combination, or null where it was not run. */
-    fun curve(field: String, planner: PlannerKind, filter: FilterKind): Curve? =
-        curves.find { it.field == field && it.planner == planner && it.filter == filter }
+    /** The curve of a combination, of the first number of boats unless one is given, or null where it was not run. */
+    fun curve(field: String, planner: PlannerKind, filter: FilterKind, boats: Int = settings.boats.first()): Curve? =
+        curves.find { it.field == field && it.planner == planner && it.filter == filter && it.boats == boats }
 }

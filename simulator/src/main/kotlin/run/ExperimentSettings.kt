@@ -3,6 +3,7 @@ package stillwater.run
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.model.Grid
 import stillwater.model.Interval
+import stillwater.model.WaterArea
 import stillwater.plan.Lawnmower
 import stillwater.sensor.SensorSpec
 import stillwater.world.RandomField
@@ -25,6 +26,11 @@ import stillwater.world.RandomField
  * @property samplesPerMove readings in a cell, at least 1.
  * @property period time between readings, s, above 0.
  * @property seed where all chance comes from.
+ * @property boats numbers of boats under comparison, each 1 to the number of cells.
+ * @property budget what each boat may use before it has to be home; null for no end.
+ * @property area the water, in the frame of [grid]; cells whose centre is not on it do not count. Null where all is water.
+ *   Only planners in the plane keep to it.
+ * @property speed of boats that go along waypoints in the plane, m/s; null for a cell's length a move.
  * @throws IllegalArgumentException if a number is out of its range or nothing is compared.
  */
 data class ExperimentSettings(
@@ -43,6 +49,10 @@ data class ExperimentSettings(
     val samplesPerMove: Int = 10,
     val period: Double = 1.0,
     val seed: Long = 1,
+    val boats: List<Int> = listOf(1),
+    val budget: Budget? = null,
+    val area: WaterArea? = null,
+    val speed: Double? = null,
 ) {
     init {
         require(fields.isNotEmpty()) { "fields must not be empty" }
@@ -56,6 +66,12 @@ data class ExperimentSettings(
         require(checkpoints.zipWithNext().all { (a, b) -> a < b }) { "checkpoints ($checkpoints) must ascend" }
         require(checkpoints.first() >= 1 && checkpoints.last() <= moves) {
             "checkpoints ($checkpoints) must lie within 1..$moves"
+        }
+        require(boats.isNotEmpty() && boats.distinct() == boats && boats.all { it in 1..grid.size }) {
+            "boats ($boats) must be different numbers within 1..${grid.size}, the number of cells"
+        }
+        require(area == null || planners.all { it.inPlane }) {
+            "only planners in the plane keep to the water, not ${planners.filterNot { it.inPlane }.map { it.label }}"
         }
         require(PlannerKind.LAWNMOWER !in planners || Lawnmower.fits(grid, plannerSettings.pattern)) {
             "the Hamiltonian cycle needs an even number of rows or columns and two of each at least, " +

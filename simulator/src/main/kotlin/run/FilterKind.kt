@@ -8,6 +8,7 @@ import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.ExponentialFilter
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.IntervalFilter
+import stillwater.estimate.MapFusion
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -38,6 +39,14 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
     /** The bounded filter grown up: noise and distances per slope learned from the readings. */
     BOUNDED_EXTENDED("bounded-extended", givesBounds = true),
     ;
+
+    /** How the maps of several boats become one: by what this filter's bounds mean. */
+    val fusion: MapFusion
+        get() = when {
+            !givesBounds -> MapFusion.MEAN_OF_READINGS
+            valueIsMidpoint -> MapFusion.INTERSECTION
+            else -> MapFusion.INVERSE_VARIANCE
+        }
 
     /** A filter of this kind over [grid]; [settings] count for the bounded one, [lag] for those after it. */
     fun estimator(

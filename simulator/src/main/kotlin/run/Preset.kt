@@ -43,7 +43,7 @@ enum class Preset(val label: String, val describes: String) {
     private fun report(sensor: SensorSpec, epsilon: Double, readingError: Double) = ExperimentSettings(
         fields = mapOf(UNIFORM to UniformField, GAUSSIAN to GaussianMixtureField),
         filters = listOf(FilterKind.BOUNDED, FilterKind.AVERAGING),
-        planners = REPORTED,
+        planners = PlannerKind.OF_THE_REPORT,
         sensor = sensor,
         boundedFilter = BoundedFilterSettings(epsilon),
         // Three times the sensor's time constant, about.
@@ -54,7 +54,7 @@ enum class Preset(val label: String, val describes: String) {
     private fun original() = ExperimentSettings(
         fields = mapOf(UNIFORM to UniformField, GAUSSIAN to OriginalGaussianField),
         filters = listOf(FilterKind.BOUNDED, FilterKind.EXPONENTIAL),
-        planners = REPORTED,
+        planners = PlannerKind.OF_THE_REPORT,
         sensor = SensorSpec("slew-limit", listOf(SensorStage.Slew(rate = 0.01))),
         boundedFilter = BoundedFilterSettings(epsilon = 0.0, medianWindow = 1, slopeWindow = 2, clearOnEntry = false),
         // 0.01 a second and at most 1 to go: never slower than a lag of 100 s.
@@ -82,9 +82,6 @@ enum class Preset(val label: String, val describes: String) {
 
         /** Name of the field that is a mixture of Gaussians. */
         const val GAUSSIAN = "gaussian"
-
-        /** The planners that the report compares. */
-        private val REPORTED = listOf(PlannerKind.RANDOM_WALK, PlannerKind.LAWNMOWER, PlannerKind.BOUNDED)
 
         private val LAG = SensorStage.Lag(FirstOrderLag.timeConstant(alpha = 0.1, period = 1.0))
         private val NOISE = SensorStage.Noise(standardDeviation = 0.002)

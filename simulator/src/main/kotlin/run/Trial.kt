@@ -1,20 +1,14 @@
 package stillwater.run
 
 import stillwater.estimate.FieldEstimator
+import stillwater.estimate.MapFusion
 import stillwater.field.CellField
-import stillwater.model.BoatTime
-import stillwater.model.Conditions
-import stillwater.model.Plan
-import stillwater.model.Position
-import stillwater.plan.PlanOutcome
 import stillwater.plan.Planner
-import stillwater.plan.StopCondition
 import stillwater.sensor.SensorModel
-import kotlin.math.abs
 
 /**
- * One boat in one field: it moves from cell to cell as its planner says, takes the same number of samples in each,
- * and several estimators read them.
+ * One boat in one field: it moves as its planner says, takes the same number of samples in every move, and several
+ * estimators read them.
  *
  * The first move is the stay in the start cell. Where the planner sees nothing to gain the boat stays for a move.
  *
@@ -22,9 +16,10 @@ import kotlin.math.abs
  * @property sensor the boat's sensor, settled at the start cell's truth.
  * @property planner where to go.
  * @property estimators each gets every reading. The planner plans on the map of the first.
- * @property samplesPerMove readings taken in a cell before moving on.
+ * @property samplesPerMove readings taken in a move.
  * @property period time between readings, s.
  * @property extremes for each cell of [field] whether it is a local extreme of it. Not modified.
+ * @property speed how fast it goes along its waypoints, m/s; null where it goes to one waypoint a move. See [Travel].
  */
 class Trial(
     private val field: CellField,
@@ -34,10 +29,8 @@ class Trial(
     private val samplesPerMove: Int,
     private val period: Double,
     private val extremes: BooleanArray = LocalExtremes.of(field),
+    private val speed: Double? = null,
 ) {
-    private var samples = 0L
-    private var reading = 0.0
-
     /**
      * Runs the boat from [start].
      *
@@ -46,77 +39,11 @@ class Trial(
      * @return the errors of each estimator, in their order.
      */
     fun run(start: Int, checkpoints: IntArray): List<TrialErrors> {
-        val errors = estimators.map { TrialErrors(checkpoints.size) }
-        val grid = field.grid
-        val plan = Plan()
-        var waypoint = 0
-        var x = grid.centerX(start)
-        var y = grid.centerY(start)
-        var checkpoint = 0
-        for (move in 1..checkpoints.last()) {
-            if (move > 1) {
-                if (waypoint == plan.size) {
-                    val outcome = planner.plan(
-                        estimators.first().map,
-                        Position(x, y),
-                        reading,
-                        StopCondition.NEVER,
-                        plan,
-                    )
-                    check(outcome == PlanOutcome.Planned || plan.size == 0) { "$outcome with ${plan.size} waypoints" }
-                    waypoint = 0
-                }
-                if (waypoint < plan.size) {
-                    x = plan.x(waypoint)
-                    y = plan.y(waypoint)
-                    waypoint++
-                }
-            }
-            stay(x, y)
-            if (move == checkpoints[checkpoint]) {
-                for (i in estimators.indices) take(errors[i], checkpoint, estimators[i])
-                checkpoint++
-            }
-        }
-        return errors
-    }
-
-    private fun stay(x: Double, y: Double) {
-        repeat(samplesPerMove) {
-            val time = BoatTime(++samples * period)
-            reading = sensor.step(field.truth(x, y, time), period, Conditions.NONE)
-            for (estimator in estimators) estimator.update(time, x, y, reading, Conditions.NONE)
-        }
-    }
-
-    private fun take(errors: TrialErrors, checkpoint: Int, estimator: FieldEstimator) {
-        val cells = field.grid.size
-        val map = estimator.map
-        val rounding = ROUNDING * map.prior.width
-        var all = 0.0
-        var inExtremes = 0.0
-        var visited = 0
-        var covered = 0
-        var width = 0.0
-        for (cell in 0 until cells) {
-            val truth = field.truth(cell)
-            val error = abs(map.value(cell) - truth)
-            all += error
-            if (extremes[cell]) inExtremes += error
-            if (map.readings(cell) == 0) continue
-            visited++
-            if (truth >= map.lower(cell) - rounding && truth <= map.upper(cell) + rounding) covered++
-            width += map.upper(cell) - map.lower(cell)
-        }
-        errors.mean[checkpoint] = all / cells
-        errors.inExtremes[checkpoint] = inExtremes / cells
-        errors.coverage[checkpoint] = covered.toDouble() / visited
-        errors.width[checkpoint] = width / visited
-    }
-
-    private companion object {
-        /** What a bound may miss the truth by for the numbers' own rounding, in widths of the prior. */
-        const val ROUNDING = 1e-12
+        val travel = Travel(samplesPerMove, period, speed)
+        val boat = Boat(field.grid.center(start), sensor, planner, estimators, travel)
+        // A single boat's map is taken as it is.
+        val fusions = estimators.map { MapFusion.INTERSECTION }
+        return Fleet(field, listOf(boat), fusions, MapScore(extremes)).run(checkpoints)
     }
 }
 

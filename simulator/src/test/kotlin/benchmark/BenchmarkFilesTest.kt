@@ -72,7 +72,7 @@ class BenchmarkFilesTest {
         write(result)
         val header = out.resolve("results.csv").readLines().first()
         assertEquals(
-            "field,filter,planner,sensor,move,environments,mean_abs_error,standard_error,p10,p90",
+            "field,filter,planner,sensor,move,environments,mean_abs_error,standard_error,p10,p90,boats",
             header,
         )
         val rows = rows("results.csv")
@@ -83,29 +83,33 @@ class BenchmarkFilesTest {
         )
         // Two environments, 1/1024 either side of the mean: the standard error is 1/1024, the percentiles are the ends.
         assertEquals(1.0 / 1024, rows.first()[7].toDouble(), 1e-18, "rounding of two roots")
-        assertEquals(listOf(0.25 - 1.0 / 1024, 0.25 + 1.0 / 1024), rows.first().drop(8).map { it.toDouble() })
+        assertEquals(listOf(0.25 - 1.0 / 1024, 0.25 + 1.0 / 1024), rows.first().drop(8).take(2).map { it.toDouble() })
+        assertEquals("1", rows.first()[10], "boats")
     }
 
     @Test
     fun extremesTellTheShareOfCellsAndOfError() {
         write(result)
         assertEquals(
-            "field,filter,planner,move,share_of_cells,share_of_error",
+            "field,filter,planner,move,share_of_cells,share_of_error,boats",
             out.resolve("extremes.csv").readLines()[0],
         )
-        assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.4375", "0.5"), rows("extremes.csv").first())
+        assertEquals(
+            listOf("uniform", "bounded", "random-walk", "50", "0.4375", "0.5", "1"),
+            rows("extremes.csv").first(),
+        )
     }
 
     @Test
     fun boundsTellHowOftenTheyHoldAndHowWideTheyAreForFiltersThatGiveThem() {
         write(result)
         assertEquals(
-            "field,filter,planner,move,coverage,standard_error,mean_width",
+            "field,filter,planner,move,coverage,standard_error,mean_width,boats",
             out.resolve("bounds.csv").readLines()[0],
         )
         val rows = rows("bounds.csv")
         // Two environments, 0.75 and 1: mean 0.875, standard error 0.125.
-        assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.875", "0.125", "0.25"), rows.first())
+        assertEquals(listOf("uniform", "bounded", "random-walk", "50", "0.875", "0.125", "0.25", "1"), rows.first())
         assertEquals(setOf("bounded"), rows.map { it[1] }.toSet(), "averaging gives none")
         assertContains(out.resolve("report.html").readText(), "0.875")
         val first = json(result).getValue("results").jsonArray.map { it.jsonObject }
@@ -139,7 +143,7 @@ class BenchmarkFilesTest {
             assertEquals(row[1], item.getValue("filter").jsonPrimitive.content)
             assertEquals(row[2], item.getValue("planner").jsonPrimitive.content)
             assertEquals(row[4].toInt(), item.getValue("move").jsonPrimitive.int)
-            val numbers = listOf("mean_abs_error", "standard_error", "p10", "p90")
+            val numbers = listOf("mean_abs_error", "standard_error", "p10", "p90", "boats")
             assertEquals(row.drop(6).map { it.toDouble() }, numbers.map { item.getValue(it).jsonPrimitive.double })
         }
         assertEquals(rows.map { it[3] }.distinct(), listOf(json.getValue("sensor").jsonPrimitive.content))

@@ -27,7 +27,7 @@ class BenchmarkBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badFlags", "badModelFlags", "badSensors")
+    @MethodSource("badFlags", "badModelFlags", "badFleets", "badSensors")
     fun isRefusedInOneLineAndWritesNothing(case: Case) {
         assertEquals(case.message, refusal(case))
         val left = Files.list(directory).use { files -> files.map { it.fileName.toString() }.toList() }
@@ -35,7 +35,7 @@ class BenchmarkBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badFlags", "badModelFlags", "badSensors")
+    @MethodSource("badFlags", "badModelFlags", "badFleets", "badSensors")
     fun leavesEarlierResultsAsTheyWere(case: Case) {
         val out = directory.out().createDirectory()
         val earlier = out.resolve("results.csv").apply { writeText("earlier") }
@@ -115,7 +115,8 @@ class BenchmarkBadInputTest {
             "--filter: expected some of averaging, exponential, bounded, interval, self-calibrating, " +
                 "bounded-extended, separated by commas"
         private const val PLANNERS =
-            "--planner: expected some of random-walk, lawnmower, bounded, bounded-extended, separated by commas"
+            "--planner: expected some of random-walk, lawnmower, bounded, polygon-rrt, " +
+                "bounded-extended, separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
         private const val GRID = "--grid: expected COLSxROWS such as 10x10, both whole numbers above 0"
         private const val CYCLE =
@@ -176,7 +177,8 @@ class BenchmarkBadInputTest {
             flag("--crossing: expected one of plain, soft, reset, found 'hard'", "--crossing", "hard"),
             flag("--walk: expected one of edge, diagonal, found 'king'", "--walk", "king"),
             flag(
-                "--pattern: expected one of hamiltonian-cycle, back-and-forth, rows-then-columns, raster, found 'spiral'",
+                "--pattern: expected one of hamiltonian-cycle, back-and-forth, rows-then-columns, " +
+                    "four-directions, raster, found 'spiral'",
                 "--pattern",
                 "spiral",
             ),
@@ -205,6 +207,62 @@ class BenchmarkBadInputTest {
             flag("--sensor: expected a sensor spec in DIR, found a directory", "--sensor", "DIR"),
         )
 
+        private fun area(found: String, json: String, expected: String = "GeoJSON") =
+            Case("--area: expected $expected, found $found", listOf("--area", "SPEC"), json.toByteArray())
+
+        private const val BOATS = "--boats: expected different numbers of boats within 1..10000 such as 1,2,4,8"
+
+        @JvmStatic
+        fun badFleets() = listOf(
+            flag("$BOATS, found '0'", "--boats", "0"),
+            flag("$BOATS, found '1,,2'", "--boats", "1,,2"),
+            flag("$BOATS, found '2,2'", "--boats", "2,2"),
+            flag("--boats: expected at most 100, one a cell, found 101", "--boats", "4,101"),
+            flag("--budget-moves: expected a whole number above 0, found '0'", "--budget-moves", "0"),
+            flag("--budget-time: expected a number of seconds above 0, found '-1'", "--budget-time", "-1"),
+            flag(
+                "--budget-distance: expected one budget, found --budget-moves too",
+                "--budget-moves",
+                "5",
+                "--budget-distance",
+                "5",
+            ),
+            flag("--cell: expected an --area to go with it, found none", "--cell", "5"),
+            flag("--area: expected a GeoJSON file, found no file DIR/none.json", "--area", "DIR/none.json"),
+            flag("--speed: expected a number above 0, found '0'", "--speed", "0"),
+            flag("--margin: expected a number of metres of at least 0, found '-1'", "--margin", "-1"),
+            area("0 in DIR/spec.json", """{"type": "FeatureCollection", "features": []}""", WATER),
+            area("LineString at DIR/spec.json", """{"type": "LineString"}""", "Polygon or MultiPolygon"),
+            area(
+                "the corner (500.0, 0.0) in DIR/spec.json",
+                """{"type": "Polygon", "coordinates": [[[500, 0], [501, 0], [501, 1]]]}""",
+                "longitude and latitude in degrees, or --area-units metres",
+            ),
+            area(
+                "[1,\"a\"] as corner 2 of ring 1 of DIR/spec.json",
+                """{"type": "Polygon", "coordinates": [[[0, 0], [1, "a"], [1, 1]]]}""",
+                "two numbers",
+            ),
+            Case(
+                "--area: expected a shore and keep-outs that fit, found DIR/spec.json: the shore crosses or touches " +
+                    "itself: edge 1 (0.0 m, 0.0 m) to (4.0 m, 4.0 m) meets edge 3 (4.0 m, 0.0 m) to (0.0 m, 3.0 m)",
+                listOf("--area", "SPEC", "--area-units", "metres"),
+                """{"type": "Polygon", "coordinates": [[[0, 0], [4, 4], [4, 0], [0, 3]]]}""".toByteArray(),
+            ),
+            Case(
+                "--planner: expected with --area one that keeps to the water (polygon-rrt), found random-walk",
+                listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt,random-walk"),
+                """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
+            ),
+            Case(
+                "--grid: expected --cell with --area, found --grid",
+                listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt", "--grid", "4x4"),
+                """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
+            ),
+        )
+
+        private const val WATER = "one Polygon of water without \"keep-out\": true"
+
         @JvmStatic
         fun badSensors() = listOf(
             sensor(
@@ -216,7 +274,9 @@ class BenchmarkBadInputTest {
                 """{"name": "x"}""",
             ),
             sensor(
-                "a stage must have a type, one of first-order-lag, noise, quantisation, slew-limit at path: \$.stages[0]",
+                "a stage must have a type, one of asymmetric-lag, cross-sensitivity, dead-time, drift, first-order-lag, " +
+                    "flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, outliers, quantisation, saturation, " +
+                    "slew-limit, temperature-dependent-lag, two-path-lag at path: \$.stages[0]",
                 """{"name": "x", "stages": [{"type": "magic"}]}""",
             ),
             sensor(

@@ -5,6 +5,7 @@ import stillwater.estimate.BoundedFilter
 import stillwater.field.CellField
 import stillwater.model.Grid
 import stillwater.plan.BoundedPlanner
+import stillwater.plan.PolygonRrtSettings
 import stillwater.world.RandomField
 import stillwater.world.Seeds
 import stillwater.world.UniformField
@@ -22,6 +23,7 @@ class ExperimentTest {
     private val settings = Preset.NOISY.settings().copy(
         filters = FilterKind.entries,
         planners = PlannerKind.entries,
+        plannerSettings = PlannerSettings(polygonRrt = PolygonRrtSettings(iterations = 20)),
         grid = Grid.unit(4, 4),
         environments = 5,
         moves = 60,
@@ -76,6 +78,14 @@ class ExperimentTest {
                 assertEquals(all.filterKeys { it == Triple("gaussian", planner, filter) }, alone)
             }
         }
+    }
+
+    @Test
+    fun moreBoatsLeaveTheCurveOfOneAsItWas() {
+        val alone = run(settings).curves.map { it.summaries }
+        val fleets = run(settings.copy(boats = listOf(3, 1)))
+        assertEquals(alone, fleets.curves.filter { it.boats == 1 }.map { it.summaries })
+        assertNotEquals(alone, fleets.curves.filter { it.boats == 3 }.map { it.summaries })
     }
 
     @Test

@@ -39,10 +39,7 @@ class PresetTest {
     fun theReportsComparisonIsAsRead() {
         assertEquals(mapOf("uniform" to UniformField, "gaussian" to GaussianMixtureField), report.fields)
         assertEquals(setOf(FilterKind.BOUNDED, FilterKind.AVERAGING), report.filters.toSet())
-        assertEquals(
-            listOf(PlannerKind.RANDOM_WALK, PlannerKind.LAWNMOWER, PlannerKind.BOUNDED),
-            report.planners,
-        )
+        assertEquals(PlannerKind.OF_THE_REPORT, report.planners)
         assertEquals(listOf(10, 10), listOf(report.grid.columns, report.grid.rows))
         assertEquals(Interval(0.0, 1.0), report.prior)
         assertEquals(listOf(100, 2000, 10), listOf(report.environments, report.moves, report.samplesPerMove))
@@ -132,7 +129,7 @@ class PresetTest {
             FilterKind.entries.map { it.label },
         )
         assertEquals(
-            listOf("random-walk", "lawnmower", "bounded", "bounded-extended"),
+            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt", "bounded-extended"),
             PlannerKind.entries.map { it.label },
         )
     }

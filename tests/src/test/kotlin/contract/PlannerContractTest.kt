@@ -15,6 +15,7 @@ import stillwater.plan.LawnmowerPattern
 import stillwater.plan.PathChoice
 import stillwater.plan.PlanOutcome
 import stillwater.plan.Planner
+import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.StopCondition
 import stillwater.plan.WalkSteps
 import stillwater.run.PlannerKind
@@ -34,6 +35,7 @@ class PlannerContractTest {
             PlannerKind.RANDOM_WALK -> settings.walk == WalkSteps.EDGE
             PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
             PlannerKind.BOUNDED, PlannerKind.BOUNDED_EXTENDED -> true
+            PlannerKind.POLYGON_RRT -> false
         }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
@@ -44,6 +46,8 @@ class PlannerContractTest {
             PlannerKind.RANDOM_WALK -> WalkSteps.entries.map { Subject(kind, PlannerSettings(walk = it), it) }
             PlannerKind.LAWNMOWER -> LawnmowerPattern.entries.map { Subject(kind, PlannerSettings(pattern = it), it) }
             PlannerKind.BOUNDED -> boundedSettings().map { Subject(kind, PlannerSettings(bounded = it), it) }
+            PlannerKind.POLYGON_RRT -> listOf(1, 30).map { PolygonRrtSettings(it) }
+                .map { Subject(kind, PlannerSettings(polygonRrt = it), it) }
             PlannerKind.BOUNDED_EXTENDED -> listOf(1 to 1, 3 to 30, 10 to 200)
                 .map { (horizon, expansions) -> BoundedExtendedPlannerSettings(horizon, expansions) }
                 .map { Subject(kind, PlannerSettings(boundedExtended = it), it) }
@@ -139,6 +143,7 @@ class PlannerContractTest {
         for (i in 0 until plan.size) {
             val to = grid.cellAt(plan.x(i), plan.y(i))
             assertTrue(to != Grid.OUTSIDE, "waypoint $i (${plan.x(i)}, ${plan.y(i)}) is off the grid")
+            if (subject.kind.inPlane) continue
             assertEquals(grid.center(to), Position(plan.x(i), plan.y(i)), "waypoint $i is no cell's centre")
             if (subject.movesByEdges) {
                 val columns = abs(from % grid.columns - to % grid.columns)

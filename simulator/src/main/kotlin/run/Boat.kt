@@ -1,0 +1,121 @@
+package stillwater.run
+
+import stillwater.estimate.FieldEstimator
+import stillwater.field.Field
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Plan
+import stillwater.model.Position
+import stillwater.plan.PlanOutcome
+import stillwater.plan.Planner
+import stillwater.plan.StopCondition
+import stillwater.sensor.SensorModel
+import kotlin.math.hypot
+
+/**
+ * One boat of a trial: it goes where its planner says and several estimators read its sensor.
+ *
+ * @param start where it begins.
+ * @property sensor the boat's sensor, settled at the start's truth.
+ * @property planner where to go.
+ * @property estimators each gets every reading of this boat.
+ * @property travel how it moves and samples.
+ * @property odometer counts what it spends. Modified.
+ */
+class Boat(
+    start: Position,
+    private val sensor: SensorModel,
+    private val planner: Planner,
+    val estimators: List<FieldEstimator>,
+    private val travel: Travel,
+    val odometer: Odometer = Odometer(),
+) {
+    private val plan = Plan()
+    private var waypoint = 0
+    private var samples = 0L
+    private var reading = 0.0
+
+    /** Where it is, local frame, m. */
+    var x: Double = start.x
+        private set
+
+    /** Where it is, local frame, m. */
+    var y: Double = start.y
+        private set
+
+    /** Whether its budget is spent; it neither moves nor samples any more. */
+    var isDone: Boolean = false
+        private set
+
+    /** Called with every place a sample is taken at. */
+    var onSample: (Double, Double) -> Unit = { _, _ -> }
+
+    /**
+     * Makes a move: from the second on, to the next waypoint or along the waypoints; then or meanwhile, samples.
+     *
+     * @param field the truth.
+     * @param map what the planner plans on, asked for only where it is about to plan.
+     */
+    fun move(field: Field, map: () -> FieldMap) {
+        val isFirst = samples == 0L
+        if (travel.speed == null) {
+            if (!isFirst) step(map)
+            if (isDone) return
+            repeat(travel.samplesPerMove) { sample(field) }
+            odometer.moves++
+            return
+        }
+        repeat(travel.samplesPerMove) {
+            if (!isFirst) sail(travel.speed * travel.period, map)
+            if (isDone) return
+            sample(field)
+            odometer.moves = samples.toDouble() / travel.samplesPerMove
+        }
+    }
+
+    /** To the next waypoint at once. */
+    private fun step(map: () -> FieldMap) {
+        if (waypoint == plan.size) ask(map)
+        if (waypoint < plan.size) {
+            odometer.metres += hypot(plan.x(waypoint) - x, plan.y(waypoint) - y)
+            x = plan.x(waypoint)
+            y = plan.y(waypoint)
+            waypoint++
+        }
+    }
+
+    /** On by [distance] m along the waypoints; it waits at the last one for the time that is left. */
+    private fun sail(distance: Double, map: () -> FieldMap) {
+        if (waypoint == plan.size) ask(map)
+        var left = distance
+        while (left > 0 && waypoint < plan.size) {
+            val leg = hypot(plan.x(waypoint) - x, plan.y(waypoint) - y)
+            if (leg <= left) {
+                x = plan.x(waypoint)
+                y = plan.y(waypoint)
+                waypoint++
+            } else {
+                x += left / leg * (plan.x(waypoint) - x)
+                y += left / leg * (plan.y(waypoint) - y)
+            }
+            odometer.metres += minOf(leg, left)
+            left -= leg
+        }
+    }
+
+    private fun ask(map: () -> FieldMap) {
+        val outcome = planner.plan(map(), Position(x, y), reading, StopCondition.NEVER, plan)
+        check(outcome == PlanOutcome.Planned || plan.size == 0) { "$outcome with ${plan.size} waypoints" }
+        waypoint = 0
+        isDone = outcome == PlanOutcome.BudgetSpent
+    }
+
+    private fun sample(field: Field) {
+        val time = BoatTime(++samples * travel.period)
+        reading = sensor.step(field.truth(x, y, time), travel.period, Conditions.NONE)
+        for (estimator in estimators) estimator.update(time, x, y, reading, Conditions.NONE)
+        odometer.seconds = time.seconds
+        onSample(x, y)
+    }
+}
