@@ -275,8 +275,8 @@ class BenchmarkBadInputTest {
             ),
             sensor(
                 "a stage must have a type, one of asymmetric-lag, cross-sensitivity, dead-time, drift, first-order-lag, " +
-                    "flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, outliers, quantisation, saturation, " +
-                    "slew-limit, temperature-dependent-lag, two-path-lag at path: \$.stages[0]",
+                    "flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, outliers, quantisation, " +
+                    "saturation, slew-limit, temperature-dependent-lag, two-path-lag at path: \$.stages[0]",
                 """{"name": "x", "stages": [{"type": "magic"}]}""",
             ),
             sensor(
