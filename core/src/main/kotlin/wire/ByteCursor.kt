@@ -24,13 +24,13 @@ internal class ByteCursor {
         this.end = end
     }
 
-    fun skipBlanks() {
-        while (at < end && (bytes[at] == BLANK || bytes[at] == TAB)) at++
-    }
-
     /** The byte at the cursor after blanks, or 0 at the end. */
     fun peek(): Byte {
-        skipBlanks()
+        if (at < end) {
+            val next = bytes[at]
+            if (next != BLANK && next != TAB) return next
+        }
+        while (at < end && (bytes[at] == BLANK || bytes[at] == TAB)) at++
         return if (at < end) bytes[at] else 0
     }
 
@@ -44,30 +44,35 @@ internal class ByteCursor {
     /** Reads a string; its content lies from [start] until [stop]. */
     fun string(): Boolean {
         if (!pass(QUOTE)) return false
-        start = at
-        while (at < end) {
-            val byte = bytes[at]
+        val text = bytes
+        val last = end
+        var here = at
+        start = here
+        while (here < last) {
+            val byte = text[here]
             if (byte == QUOTE) {
-                stop = at++
+                stop = here
+                at = here + 1
                 return true
             }
-            at += if (byte == BACKSLASH) 2 else 1
+            here += if (byte == BACKSLASH) 2 else 1
         }
-        at = end
+        at = last
         return false
     }
 
     /** Reads a word that is no string: a number, true, false or null. */
     fun word(): Boolean {
-        skipBlanks()
-        start = at
-        while (at < end && isWord(bytes[at])) at++
-        stop = at
-        return stop > start
+        peek()
+        val text = bytes
+        val last = end
+        var here = at
+        start = here
+        while (here < last && text[here] >= 0 && WORD[text[here].toInt()]) here++
+        stop = here
+        at = here
+        return here > start
     }
-
-    private fun isWord(byte: Byte): Boolean = byte in 'a'.code..'z'.code || byte in '0'.code..'9'.code ||
-        byte == MINUS || byte == '+'.code.toByte() || byte == '.'.code.toByte() || byte == 'E'.code.toByte()
 
     /** Passes any value: a string, a word, an object or an array, to a depth of [MAX_DEPTH]. */
     fun skipValue(): Boolean {
@@ -116,7 +121,10 @@ internal class ByteCursor {
         const val CLOSE: Byte = 125
         const val COLON: Byte = 58
         const val COMMA: Byte = 44
-        const val MINUS: Byte = 45
         private const val MAX_DEPTH = 8
+        private val WORD = BooleanArray(128) {
+            val char = it.toChar()
+            char in 'a'..'z' || char in '0'..'9' || char == '-' || char == '+' || char == '.' || char == 'E'
+        }
     }
 }

@@ -24,25 +24,25 @@ internal object Decimal {
         var mantissa = 0L
         var digits = 0
         var significant = 0
-        var decimals = 0
-        var pointSeen = false
+        var point = -1
         while (at < end) {
-            val digit = bytes[at] - ZERO
+            val byte = bytes[at].toInt()
+            val digit = byte - ZERO
             if (digit in 0..9) {
                 digits++
-                if (significant > 0 || digit > 0) significant++
+                if (mantissa > 0 || digit > 0) significant++
                 if (significant <= EXACT_DIGITS) mantissa = 10 * mantissa + digit
-                if (pointSeen) decimals++
-            } else if (bytes[at] == '.'.code.toByte() && !pointSeen) {
-                pointSeen = true
+            } else if (byte == POINT && point < 0) {
+                point = digits
             } else {
                 break
             }
             at++
         }
+        val decimals = if (point < 0) 0 else digits - point
         if (digits == 0) return Double.NaN
         if (at < end || significant > EXACT_DIGITS || decimals >= POWERS.size) return parseSlowly(bytes, start, at, end)
-        val magnitude = mantissa / POWERS[decimals]
+        val magnitude = if (mantissa == 0L) 0.0 else mantissa / POWERS[decimals]
         return if (negative) -magnitude else magnitude
     }
 
@@ -60,4 +60,5 @@ internal object Decimal {
     }
 
     private const val ZERO = '0'.code
+    private const val POINT = '.'.code
 }

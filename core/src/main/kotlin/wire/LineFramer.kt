@@ -51,7 +51,7 @@ public class LineFramer(private val sink: LineSink, public val longest: Int = 10
         var start = offset
         for (at in offset until end) {
             val byte = bytes[at]
-            if (byte == LF || byte == CR) {
+            if (byte <= CR && (byte == LF || byte == CR)) {
                 finish(bytes, start, at)
                 start = at + 1
             }
