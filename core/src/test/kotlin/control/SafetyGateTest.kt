@@ -91,10 +91,12 @@ class SafetyGateTest {
     @Test
     fun aBatteryThatSagsForAMomentIsNotLowAndOneThatIsLowStaysSo() {
         val gate = gate()
-        fun at(second: Int, volts: Double) = gate.assess(sound().apply {
-            seconds = second.toDouble()
-            this.volts = volts
-        })
+        fun at(second: Int, volts: Double) = gate.assess(
+            sound().apply {
+                seconds = second.toDouble()
+                this.volts = volts
+            },
+        )
         for (second in 0..9) assertEquals(Ruling.GoOn, at(second, 10.5))
         assertEquals(Ruling.GoOn, at(10, 11.5))
         for (second in 11..20) assertEquals(Ruling.GoOn, at(second, 10.5))

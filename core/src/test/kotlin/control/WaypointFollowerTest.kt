@@ -98,8 +98,9 @@ class WaypointFollowerTest {
             val runs = (301..320).map { run(it, mixing, currentX = 0.0, currentY = 0.3) }
             val whole = runs.maxOf { it.rms }
             val legs = runs.maxOf { it.onLegs }
-            val text = "$mixing: RMS of the whole path ${runs.map { it.rms }.average()} m on average, $whole m at worst; " +
-                "of the legs without their ends ${runs.map { it.onLegs }.average()} m, $legs m"
+            val text =
+                "$mixing: RMS of the whole path ${runs.map { it.rms }.average()} m on average, $whole m at worst; " +
+                    "of the legs without their ends ${runs.map { it.onLegs }.average()} m, $legs m"
             if (java.lang.Boolean.getBoolean("stillwater.show")) println(text)
             assertTrue(runs.all { it.finished }, "$mixing: every run ends")
             // The bar. A swivelled thruster turns in a bow only, which counts for its corners, not its legs.

@@ -23,7 +23,8 @@ class LineFramerTest {
 
     @Test
     fun anyCutGivesTheSameLines() {
-        val text = "first\r\n\u0000\u00ffbinary\n" + "x".repeat(21) + "\nexactly twenty bytes\r" + "y".repeat(99) + "\nend\n"
+        val text =
+            "first\r\n\u0000\u00ffbinary\n" + "x".repeat(21) + "\nexactly twenty bytes\r" + "y".repeat(99) + "\nend\n"
         feed(text)
         val whole = lines.toList()
         val random = Random(5)

@@ -57,7 +57,11 @@ class WireFuzzTest {
         2 -> (line() + "\n").encodeToByteArray().also { it[random.nextInt(it.size)] = random.nextInt().toByte() }
         3 -> line().let { it.substring(random.nextInt(it.length)) }.encodeToByteArray()
         4 -> line().let { it.substring(0, random.nextInt(it.length)) }.encodeToByteArray()
-        else -> String(CharArray(random.nextInt(1, 40)) { ALPHABET[random.nextInt(ALPHABET.length)] }).encodeToByteArray()
+        else -> String(
+            CharArray(random.nextInt(1, 40)) {
+                ALPHABET[random.nextInt(ALPHABET.length)]
+            },
+        ).encodeToByteArray()
     }
 
     private fun line(): String = "{" + List(random.nextInt(1, 4)) { pair(0) }.joinToString(",") + "}"
@@ -81,6 +85,7 @@ class WireFuzzTest {
         const val MARKED_PORT = 7
         const val ALPHABET = "{}[]\":,.0123456789eE+-msv\u0012\u0013\n\r\\\t nul"
         val KEYS = listOf("m0", "m1", "s1", "s4", "e", "error", "args", "type", "data", "v", "c", "p", "depth", "")
-        val TYPES = listOf("atlas_do", "es2", "hds", "gps", "imu", "state", "battery", "\$SDDBT,1,f,2,M", "\\\"", "winch")
+        val TYPES =
+            listOf("atlas_do", "es2", "hds", "gps", "imu", "state", "battery", "\$SDDBT,1,f,2,M", "\\\"", "winch")
     }
 }
