@@ -185,7 +185,8 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
             notFinite++
             return Drive.NONE
         }
-        if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.STOP || isBlind(situation)) return Drive.NONE
+        val stopped = ruling is Ruling.Fall && ruling.failsafe == Failsafe.STOP
+        if (stopped || isBlind(situation)) return Drive.NONE
         val forward = drive.forward.coerceIn(-1.0, 1.0)
         val turn = drive.turn.coerceIn(-1.0, 1.0)
         val distance = fence.distance(situation.x, situation.y)

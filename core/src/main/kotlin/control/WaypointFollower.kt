@@ -119,7 +119,8 @@ public class WaypointFollower(public val settings: FollowerSettings) {
         val alongY = if (length > 0) (toY - fromY) / length else north / distance.coerceAtLeast(TINY)
         val ahead = east * alongX + north * alongY
         crossTrack = alongY * east - alongX * north
-        if (distance <= settings.arrival || ahead <= 0 && length > 0 && distance <= PASSED * settings.arrival) {
+        val passed = ahead <= 0 && length > 0 && distance <= PASSED * settings.arrival
+        if (distance <= settings.arrival || passed) {
             arrived = true
             return Drive.NONE
         }

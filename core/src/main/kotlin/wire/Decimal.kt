@@ -20,7 +20,7 @@ internal object Decimal {
         if (end - start > LONGEST) return Double.NaN
         var at = start
         val negative = at < end && bytes[at] == '-'.code.toByte()
-        if (negative || at < end && bytes[at] == '+'.code.toByte()) at++
+        if (negative || (at < end && bytes[at] == '+'.code.toByte())) at++
         var mantissa = 0L
         var digits = 0
         var significant = 0

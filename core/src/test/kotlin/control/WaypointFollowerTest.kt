@@ -53,7 +53,7 @@ class WaypointFollowerTest {
             speed += 0.1 / 2.0 * (hull.topSpeed * sqrt(maxOf(0.0, drive.forward)) - speed)
             track.advance(0.1, compass, speed)
             if (tick % 10 == 0) track.fix(boat.x + noise(fixNoise), boat.y + noise(fixNoise))
-            if (tick == 300 || tick > 300 && follower.arrived) {
+            if (tick == 300 || (tick > 300 && follower.arrived)) {
                 if (++leg == path.size) return Run(sqrt(squares / steps), sqrt(legSquares / legSteps), true)
                 val after = path.getOrNull(leg + 1)
                 follower.leg(
