@@ -1,0 +1,242 @@
+package stillwater.control
+
+import stillwater.model.Drive
+import kotlin.math.abs
+import kotlin.math.cos
+import kotlin.math.hypot
+import kotlin.math.sign
+import kotlin.math.sin
+
+/** What the boat does when it may not go on. */
+public enum class Failsafe {
+    /** Stays where it is, under power. */
+    HOLD,
+
+    /** Goes home. */
+    RETURN_HOME,
+
+    /** Rests its motors and drifts. */
+    STOP,
+}
+
+/** Why the boat may not go on, the gravest first. */
+public enum class Danger {
+    /** A person said so. */
+    OPERATOR_STOP,
+
+    /** Nothing was heard from the board for too long. */
+    LINK_LOST,
+
+    /** No fix for too long, or none ever. */
+    FIX_STALE,
+
+    /** Fixes lie where the boat cannot be. */
+    FIX_JUMPING,
+
+    /** The boat is beyond the fence. */
+    FENCE,
+
+    /** The battery was low for too long. */
+    BATTERY_LOW,
+
+    /** The mission is over. */
+    MISSION_END,
+}
+
+/**
+ * Limits and answers of a [SafetyGate].
+ *
+ * @property longestSilence of the board, s, above 0; it speaks at about 10 Hz.
+ * @property oldestFix s, above 0.
+ * @property mostJumps fixes refused in a row that are borne, at least 0.
+ * @property fenceMargin how far beyond the fence the boat may be led back under power, m, at least 0; farther out the
+ *   motors rest.
+ * @property stopTime time constant with which the boat loses its way, motors at rest, s, at least 0.
+ * @property reaction time from a decision to its effect on the motors, s, at least 0.
+ * @property deviations standard deviations of the position that are kept from the fence on top, at least 0.
+ * @property lowestVolts below which the battery is low, V; 0 where none is measured.
+ * @property lowFor the battery is low after so long below, s, at least 0: thrust makes the voltage sag.
+ * @property answers what to do in each danger; what is not among them is [Failsafe.STOP].
+ * @throws IllegalArgumentException if a number is out of its range.
+ */
+public data class SafetySettings(
+    val longestSilence: Double = 0.5,
+    val oldestFix: Double = 3.0,
+    val mostJumps: Int = 2,
+    val fenceMargin: Double = 5.0,
+    val stopTime: Double = 3.0,
+    val reaction: Double = 0.7,
+    val deviations: Double = 3.0,
+    val lowestVolts: Double = 0.0,
+    val lowFor: Double = 10.0,
+    val answers: Map<Danger, Failsafe> = mapOf(
+        Danger.BATTERY_LOW to Failsafe.RETURN_HOME,
+        Danger.FENCE to Failsafe.RETURN_HOME,
+        Danger.MISSION_END to Failsafe.RETURN_HOME,
+    ),
+) {
+    init {
+        require(longestSilence > 0 && longestSilence.isFinite()) {
+            "longestSilence ($longestSilence s) must be above 0 and finite"
+        }
+        require(oldestFix > 0 && oldestFix.isFinite()) { "oldestFix ($oldestFix s) must be above 0 and finite" }
+        require(mostJumps >= 0) { "mostJumps ($mostJumps fixes) must be at least 0" }
+        for ((name, value) in listOf(
+            "fenceMargin (m)" to fenceMargin,
+            "stopTime (s)" to stopTime,
+            "reaction (s)" to reaction,
+            "deviations" to deviations,
+            "lowestVolts (V)" to lowestVolts,
+            "lowFor (s)" to lowFor,
+        )) {
+            require(value >= 0 && value.isFinite()) { "$name ($value) must be at least 0 and finite" }
+        }
+    }
+}
+
+/**
+ * What the gate looks at; one object, refilled each step.
+ *
+ * Before anything is known it describes a boat that may not move. What is NaN counts as unknown, which is a danger.
+ */
+public class Situation {
+    /** Now, s, on the boat's clock. */
+    public var seconds: Double = 0.0
+
+    /** Time since the board was last understood, s. */
+    public var linkAge: Double = Double.POSITIVE_INFINITY
+
+    /** Time since a fix was last used, s. */
+    public var fixAge: Double = Double.POSITIVE_INFINITY
+
+    /** Fixes refused in a row. */
+    public var jumps: Int = 0
+
+    /** Believed position, east, m. */
+    public var x: Double = Double.NaN
+
+    /** Believed position, north, m. */
+    public var y: Double = Double.NaN
+
+    /** Standard deviation of the position, m. */
+    public var deviation: Double = Double.POSITIVE_INFINITY
+
+    /** Believed velocity over ground, east, m/s. */
+    public var velocityX: Double = 0.0
+
+    /** Believed velocity over ground, north, m/s. */
+    public var velocityY: Double = 0.0
+
+    /** Heading, rad, counter-clockwise from east. */
+    public var heading: Double = Double.NaN
+
+    /** Battery, V; NaN where it has not been heard of. */
+    public var volts: Double = Double.NaN
+
+    /** Whether a person wants the boat to stop. */
+    public var operatorStop: Boolean = false
+
+    /** Whether the mission has nothing left to do. */
+    public var missionEnded: Boolean = false
+}
+
+/** What the gate wants. */
+public sealed interface Ruling {
+    /** Nothing is wrong. */
+    public data object GoOn : Ruling
+
+    /** [danger] is there, and the boat is to do [failsafe]. */
+    public data class Fall(val danger: Danger, val failsafe: Failsafe) : Ruling
+}
+
+/**
+ * Has the last word on every drive, in every state of a mission.
+ *
+ * [assess] says whether the boat may go on and what to do otherwise; [permit] lets through of a drive what is safe,
+ * whoever asks for it. A boat that holds or returns needs the link and its place: without one of them its motors rest,
+ * whatever the policy. Near the fence, nearer than it takes to stop, only thrust and turns that lead inwards pass; beyond
+ * the margin none does. So a fence wants to lie that distance outside of what is surveyed. A boat that drifts is carried on
+ * by the water: that, too, is for the fence to allow.
+ *
+ * Derivation of the stopping distance: core/docs/SafetyGate.md. Never throws on data. Confined to one thread.
+ *
+ * @property settings limits and answers.
+ * @property fence what to stay within. Retained.
+ */
+public class SafetyGate(public val settings: SafetySettings, public val fence: Fence) {
+    private var lowSince = Double.NaN
+    private var batteryLow = false
+
+    /** Drives refused because they were not finite. */
+    public var notFinite: Long = 0
+        private set
+
+    /** What to do in [situation]. A low battery stays low. */
+    public fun assess(situation: Situation): Ruling {
+        watchBattery(situation)
+        val danger = danger(situation) ?: return Ruling.GoOn
+        val wanted = settings.answers[danger] ?: Failsafe.STOP
+        return Ruling.Fall(danger, if (isBlind(situation)) Failsafe.STOP else wanted)
+    }
+
+    /** What of [drive] passes in [situation] under [ruling]. */
+    public fun permit(drive: Drive, situation: Situation, ruling: Ruling): Drive {
+        if (!drive.forward.isFinite() || !drive.turn.isFinite()) {
+            notFinite++
+            return Drive.NONE
+        }
+        val stopped = ruling is Ruling.Fall && ruling.failsafe == Failsafe.STOP
+        if (stopped || isBlind(situation)) return Drive.NONE
+        val forward = drive.forward.coerceIn(-1.0, 1.0)
+        val turn = drive.turn.coerceIn(-1.0, 1.0)
+        val distance = fence.distance(situation.x, situation.y)
+        if (distance < -settings.fenceMargin) return Drive.NONE
+        if (distance > stoppingDistance(situation)) return Drive(forward, turn)
+        val pushX = sign(forward) * cos(situation.heading)
+        val pushY = sign(forward) * sin(situation.heading)
+        val inwards = fence.leadsInwards(situation.x, situation.y, stoppingDistance(situation), pushX, pushY)
+        // Way that is left goes where the bow goes: near the fence it is turned inwards only, by the shorter side.
+        val cross = cos(situation.heading) * fence.inwardY - sin(situation.heading) * fence.inwardX
+        return Drive(if (inwards) forward else 0.0, if (cross < 0) -abs(turn) else abs(turn))
+    }
+
+    /**
+     * How near the fence the boat may come before thrust outwards ends, m.
+     *
+     * d = v (t + T) + k σ, v the speed over ground, t the reaction, T the stop time, σ the position's standard deviation:
+     * the longest way a boat can go whose motors rest, whichever way it turns meanwhile.
+     */
+    public fun stoppingDistance(situation: Situation): Double = settings.deviations * situation.deviation +
+        hypot(situation.velocityX, situation.velocityY) * (settings.reaction + settings.stopTime)
+
+    private fun watchBattery(situation: Situation) {
+        if (!(situation.volts < settings.lowestVolts)) {
+            lowSince = Double.NaN
+            return
+        }
+        if (lowSince.isNaN()) lowSince = situation.seconds
+        if (situation.seconds - lowSince >= settings.lowFor) batteryLow = true
+    }
+
+    private fun danger(situation: Situation): Danger? = when {
+        situation.operatorStop -> Danger.OPERATOR_STOP
+        !(situation.linkAge <= settings.longestSilence) -> Danger.LINK_LOST
+        isLost(situation) -> Danger.FIX_STALE
+        situation.jumps > settings.mostJumps -> Danger.FIX_JUMPING
+        fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
+        batteryLow -> Danger.BATTERY_LOW
+        situation.missionEnded -> Danger.MISSION_END
+        else -> null
+    }
+
+    private fun isLost(situation: Situation) = !(situation.fixAge <= settings.oldestFix) ||
+        !situation.x.isFinite() ||
+        !situation.y.isFinite() ||
+        !situation.heading.isFinite() ||
+        !situation.deviation.isFinite()
+
+    /** Whether a boat under power would not know what it does. */
+    private fun isBlind(situation: Situation) = !(situation.linkAge <= settings.longestSilence) ||
+        isLost(situation) ||
+        situation.jumps > settings.mostJumps
+}
