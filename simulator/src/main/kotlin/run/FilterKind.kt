@@ -1,6 +1,7 @@
 package stillwater.run
 
 import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedFilter
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.ExponentialFilter
@@ -33,6 +34,9 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
 
     /** Learns the time constant on the way; its bounds are credible at 95 %. */
     SELF_CALIBRATING("self-calibrating", givesBounds = true),
+
+    /** A Gaussian process over the cells on top of the one before: unseen cells too have a value and bounds. */
+    BAYESIAN("bayesian", givesBounds = true),
     ;
 
     /** How the maps of several boats become one: by what this filter's bounds mean. */
@@ -55,5 +59,6 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
         BOUNDED -> BoundedFilter(grid, prior, settings)
         INTERVAL -> IntervalFilter(grid, prior, lag.interval)
         SELF_CALIBRATING -> SelfCalibratingEstimator(grid, prior, lag.selfCalibrating)
+        BAYESIAN -> BayesianMap(grid, prior, SelfCalibratingEstimator(grid, prior, lag.selfCalibrating))
     }
 }

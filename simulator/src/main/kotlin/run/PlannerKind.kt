@@ -3,6 +3,8 @@ package stillwater.run
 import stillwater.model.WaterArea
 import stillwater.plan.BoundedPlanner
 import stillwater.plan.BoundedPlannerSettings
+import stillwater.plan.InformationPlanner
+import stillwater.plan.InformationPlannerSettings
 import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Planner
@@ -19,12 +21,14 @@ import kotlin.random.Random
  * @property pattern order of the lawnmower.
  * @property bounded horizon, expansions and choices of the bounded planner.
  * @property polygonRrt iterations, lengths and margin of the planner in the plane.
+ * @property information horizon and times of the information planner.
  */
 data class PlannerSettings(
     val walk: WalkSteps = WalkSteps.EDGE,
     val pattern: LawnmowerPattern = LawnmowerPattern.HAMILTONIAN_CYCLE,
     val bounded: BoundedPlannerSettings = BoundedPlannerSettings(),
     val polygonRrt: PolygonRrtSettings = PolygonRrtSettings(),
+    val information: InformationPlannerSettings = InformationPlannerSettings(),
 )
 
 /**
@@ -52,6 +56,8 @@ enum class PlannerKind(
 
     /** A tree of paths in the plane that keeps to the water. */
     POLYGON_RRT("polygon-rrt", usesMap = true, startsAtFirstCell = false, inPlane = true),
+    /** To where the map's uncertainty falls most per second. */
+    INFORMATION("information", usesMap = true, startsAtFirstCell = false),
     ;
 
     /** A fresh planner of this kind that draws from [random]; [area] is the water, null where all of the map is. */
@@ -60,6 +66,7 @@ enum class PlannerKind(
         LAWNMOWER -> Lawnmower(settings.pattern)
         BOUNDED -> BoundedPlanner(random, settings.bounded)
         POLYGON_RRT -> PolygonRrt(random, area, settings.polygonRrt)
+        INFORMATION -> InformationPlanner(random, settings.information)
     }
 
     companion object {

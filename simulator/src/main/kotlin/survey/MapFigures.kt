@@ -110,6 +110,9 @@ class MapFigures(private val map: SurveyMap) {
                 "Midpoint of the bounds that hold for every sensor no slower than was said, in each visited cell."
             FilterKind.SELF_CALIBRATING ->
                 "The water's value in each visited cell at the time constant that explains all readings best."
+            FilterKind.BAYESIAN ->
+                "The water's most likely value: in visited cells from their own readings and their neighbours', in " +
+                    "others from those around, where these narrow it to half of the range taken for the water."
         }
         val value: (Int) -> Double = { field.measuredValue(kind, it) }
         val figure = if (map.log.oneDimensional) {
