@@ -41,7 +41,7 @@ public data class InformationPlannerSettings(
  * read, travel and settling counted, and T the horizon's time.
  *
  * Compares all paths of one turn (straight ahead, then at right angles) of [InformationPlannerSettings.horizon] cells, and
- * the way to every cell farther off as if it went on as well there. Of equal paths one is drawn at random. Bounds that
+ * the way to every cell farther off for that cell alone. Of equal paths one is drawn at random. Bounds that
  * crossed have no width. Plans for the cell grid of the map; no allocation once warm. O(horizon²) and a look at every
  * cell.
  *
@@ -147,30 +147,21 @@ public class InformationPlanner(
         return if (sign > 0) count - 1 - at else at
     }
 
-    /** The way to the cells beyond the horizon, taken as if it went on there as it does in the first. */
+    /** The ways to the cells beyond the horizon, for what each of them has itself. */
     private fun farther(grid: Grid, start: Int) {
         val row = start / grid.columns
         val column = start % grid.columns
-        val mean = sqrt(discounts[0] * discounts[1])
-        var goingOn = 0.0
-        var factor = 1.0
-        repeat(settings.horizon) {
-            goingOn += factor
-            factor *= mean
-        }
-        val most = gains.widest * goingOn
         for (r in 0 until grid.rows) {
             val rows = r - row
-            // Discounts of a whole row at once: nothing there can be better than this.
             val byRows = power(discounts[1], abs(rows))
-            if (most * byRows <= bestValue) continue
+            // No cell of the row can be better than this.
+            if (gains.widest * byRows <= bestValue) continue
             for (c in 0 until grid.columns) {
                 val columns = c - column
                 if (abs(rows) + abs(columns) <= settings.horizon) continue
-                val width = gains.width(r * grid.columns + c)
-                if (width * goingOn * byRows <= bestValue) continue
-                val value = width * goingOn * byRows * power(discounts[0], abs(columns) - 1)
-                offer(value, columns, rows, rowsFirst = false)
+                val most = gains.width(r * grid.columns + c) * byRows
+                if (most <= bestValue) continue
+                offer(most * power(discounts[0], abs(columns)), columns, rows, rowsFirst = false)
             }
         }
     }
