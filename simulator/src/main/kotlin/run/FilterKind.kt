@@ -18,8 +18,14 @@ import stillwater.model.Interval
  * @property label name on the command line and in files.
  * @property givesBounds whether its map has bounds that a planner can plan on.
  * @property valueIsMidpoint whether its value is no more than the midpoint of its bounds.
+ * @property seesUnvisited whether it says something of cells the boat never entered.
  */
-enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMidpoint: Boolean = false) {
+enum class FilterKind(
+    val label: String,
+    val givesBounds: Boolean,
+    val valueIsMidpoint: Boolean = false,
+    val seesUnvisited: Boolean = false,
+) {
     /** The mean of a cell's readings. */
     AVERAGING("averaging", givesBounds = false),
 
@@ -36,7 +42,7 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
     SELF_CALIBRATING("self-calibrating", givesBounds = true),
 
     /** A Gaussian process over the cells on top of the one before: unseen cells too have a value and bounds. */
-    BAYESIAN("bayesian", givesBounds = true),
+    BAYESIAN("bayesian", givesBounds = true, seesUnvisited = true),
     ;
 
     /** How the maps of several boats become one: by what this filter's bounds mean. */

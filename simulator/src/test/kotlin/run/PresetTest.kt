@@ -125,11 +125,11 @@ class PresetTest {
     fun namesAreThoseOfTheCommandLine() {
         assertEquals(listOf("report", "noisy", "original"), Preset.entries.map { it.label })
         assertEquals(
-            listOf("averaging", "exponential", "bounded", "interval", "self-calibrating"),
+            listOf("averaging", "exponential", "bounded", "interval", "self-calibrating", "bayesian"),
             FilterKind.entries.map { it.label },
         )
         assertEquals(
-            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt"),
+            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt", "information"),
             PlannerKind.entries.map { it.label },
         )
     }

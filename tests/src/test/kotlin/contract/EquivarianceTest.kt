@@ -65,7 +65,7 @@ class EquivarianceTest {
 
         // Bounds that are readings are exact.
         val boundTolerance = when (kind) {
-            FilterKind.INTERVAL, FilterKind.SELF_CALIBRATING -> valueTolerance
+            FilterKind.INTERVAL, FilterKind.SELF_CALIBRATING, FilterKind.BAYESIAN -> valueTolerance
             else -> 0.0
         }
 

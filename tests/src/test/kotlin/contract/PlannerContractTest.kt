@@ -10,6 +10,7 @@ import stillwater.model.Plan
 import stillwater.model.Position
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Execution
+import stillwater.plan.InformationPlannerSettings
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.PathChoice
 import stillwater.plan.PlanOutcome
@@ -33,8 +34,8 @@ class PlannerContractTest {
         val movesByEdges = when (kind) {
             PlannerKind.RANDOM_WALK -> settings.walk == WalkSteps.EDGE
             PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
-            PlannerKind.BOUNDED -> true
             PlannerKind.POLYGON_RRT -> false
+            PlannerKind.BOUNDED, PlannerKind.INFORMATION -> true
         }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
@@ -47,8 +48,15 @@ class PlannerContractTest {
             PlannerKind.BOUNDED -> boundedSettings().map { Subject(kind, PlannerSettings(bounded = it), it) }
             PlannerKind.POLYGON_RRT -> listOf(1, 30).map { PolygonRrtSettings(it) }
                 .map { Subject(kind, PlannerSettings(polygonRrt = it), it) }
+            PlannerKind.INFORMATION -> informationSettings().map { Subject(kind, PlannerSettings(information = it), it) }
         }
     }
+
+    private fun informationSettings() = listOf(
+        InformationPlannerSettings(),
+        InformationPlannerSettings(horizon = 1, settling = 0.0),
+        InformationPlannerSettings(horizon = 3, moves = 2, speed = 0.01),
+    )
 
     private fun boundedSettings() = Execution.entries.flatMap { execution ->
         PathChoice.entries.flatMap { choice ->
