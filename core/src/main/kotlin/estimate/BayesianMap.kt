@@ -19,8 +19,9 @@ import kotlin.math.sqrt
  * averaged over; a field without any correlation is one of the candidates. What [cells] says of a visited cell counts as
  * a measurement of it, with a quarter of its bounds' width, about, as standard deviation and independent of the others;
  * so whatever [cells] learns of the sensor (time constant, noise, kind) holds here. A cell's value is its posterior's
- * median, its bounds are credible at 95 %, both cut to the prior. Where the bounds of [cells] are the prior's it does
- * not know how sure it is: its values are taken as they are and the bounds here are the prior's, too.
+ * median, its bounds are credible at 95 %, both cut to the prior. Where [cells] finds that its own
+ * model of the sensor does not explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure
+ * it is: then its values are taken as they are and all bounds here are the prior's, see [isExplained].
  *
  * The posterior is brought up to date when [map] is asked for, not at a reading: ask for it after updates rather than
  * keeping it. That costs O(1) for each cell entered since it was last asked for, apart from a look at every visited
@@ -92,6 +93,10 @@ public class BayesianMap(
         return believed
     }
 
+    /** Whether [cells] knows how sure it is of the cells; where not, all bounds are the prior's. As [map] last had it. */
+    public var isExplained: Boolean = true
+        private set
+
     /** Most likely correlation length of the smooth part, m. */
     public val correlationLength: Double get() =
         covariances.length(covariances.kept[0]) * sqrt(grid.cellWidth) * sqrt(grid.cellHeight)
@@ -149,6 +154,7 @@ public class BayesianMap(
 
     private fun refresh() {
         isCurrent = true
+        explain()
         for (k in 0 until visitedCount) read(visited[k])
         if (visitedCount >= nextFit) {
             nextFit = visitedCount + maxOf(1, visitedCount / 4)
@@ -168,6 +174,14 @@ public class BayesianMap(
         for (k in 0 until visitedCount) write(visited[k])
     }
 
+    private fun explain() {
+        var open = 0
+        for (k in 0 until visitedCount) if (isOpen(visited[k])) open++
+        val isSo = (cells as? SelfCalibratingEstimator)?.isExplained != false && 2 * open <= visitedCount
+        if (isSo != isExplained) blocks.allStale()
+        isExplained = isSo
+    }
+
     /** Reads what [cells] says of [cell]. */
     private fun read(cell: Int) {
         val value = (source.value(cell) - middle) / scale
@@ -175,10 +189,10 @@ public class BayesianMap(
         val deviation = reach / scale / TruncatedNormal.NORMAL
         if (!value.isFinite() || !deviation.isFinite()) return
         values[cell] = value.coerceIn(-LARGEST, LARGEST)
-        variances[cell] = if (isOpen(cell)) 0.0 else minOf(deviation * deviation, LARGEST)
+        variances[cell] = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
     }
 
-    /** Whether [cells] does not know how sure it is of [cell]. */
+    /** Whether the bounds of [cell] by itself are the prior's. */
     private fun isOpen(cell: Int) =
         source.lower(cell) <= source.prior.lower && source.upper(cell) >= source.prior.upper
 
@@ -316,7 +330,10 @@ public class BayesianMap(
         val own = variances[cell]
         val other = outerVariances[cell]
         val isPlain = !(abs(values[cell]) < LARGEST) || !(own < LARGEST) || !other.isFinite()
-        if (isPlain || isOpen(cell)) {
+        if (!isExplained) {
+            believed.setValue(cell, source.value(cell))
+            believed.setBounds(cell, believed.prior.lower, believed.prior.upper)
+        } else if (isPlain) {
             believed.setValue(cell, source.value(cell))
             believed.setBounds(cell, source.lower(cell), source.upper(cell))
         } else {
@@ -334,7 +351,11 @@ public class BayesianMap(
         cut.cut(middle + scale * mean, scale * sqrt(uncut), prior.lower, prior.upper)
         if (!cut.lower.isFinite() || !cut.upper.isFinite()) return
         believed.setValue(cell, cut.median)
-        believed.setBounds(cell, cut.lower, cut.upper)
+        if (isExplained) {
+            believed.setBounds(cell, cut.lower, cut.upper)
+        } else {
+            believed.setBounds(cell, prior.lower, prior.upper)
+        }
     }
 
     private companion object {

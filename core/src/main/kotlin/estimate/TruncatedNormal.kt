@@ -9,7 +9,7 @@ import kotlin.math.sqrt
  * Median and central 95 % of a normal distribution cut to a range: what is left of a belief about a value when the value
  * cannot lie beyond the range. A reusable buffer; no allocation.
  *
- * Where less than [LEAST_MASS] of the distribution lies in the range, what was measured contradicts the range and the
+ * Where its mean lies outside and less than [LEAST_MASS] of it inside, what was measured contradicts the range and the
  * distribution is taken uncut.
  */
 internal class TruncatedNormal {
@@ -34,7 +34,8 @@ internal class TruncatedNormal {
         val mirrored = a > 0
         val low = cumulative(if (mirrored) -b else a)
         val mass = cumulative(if (mirrored) -a else b) - low
-        if (!(mass > LEAST_MASS)) return uncut(mean, deviation)
+        val isInside = a <= 0 && b >= 0
+        if (!isInside && !(mass > LEAST_MASS)) return uncut(mean, deviation)
         val sign = if (mirrored) -1 else 1
         val first = (mean + sign * deviation * quantile(low + TAIL * mass)).coerceIn(from, to)
         val last = (mean + sign * deviation * quantile(low + (1 - TAIL) * mass)).coerceIn(from, to)
