@@ -110,9 +110,9 @@ class InformationPlannerTest {
                 planner.plan(map, map.grid.center(at), 0.5, StopCondition.NEVER, plan)
                 at = map.grid.cellAt(plan.x(0), plan.y(0))
                 moves++
-                assertTrue(moves <= 500)
+                // Found: 106 to 153, 124 on average. What it leaves behind costs a way back.
+                assertTrue(moves <= 170, "seed $seed: ${(0 until 100).filter { map.visits(it) == 0 }} unseen")
             }
-            println("moves $seed $moves")
         }
     }
 
