@@ -118,7 +118,7 @@ internal class CellBlocks(private val grid: Grid) {
         for (k in 0 until count) {
             val cell = cells[k]
             val ring = distance(block, cell)
-            val isTaken = ring < last || ring == last && seen * room / inLast != ++seen * room / inLast
+            val isTaken = ring < last || (ring == last && seen * room / inLast != ++seen * room / inLast)
             if (isTaken) regression.add(cell, values[cell], variances[cell])
         }
     }

@@ -78,7 +78,8 @@ internal class CellRegression(private val grid: Grid, private val covariances: F
             val row = i * stride
             for (j in 0 until i) {
                 val sum = dot(factors, row, factors, j * stride, j)
-                factors[row + j] = (correlation(columns[i] - columns[j], rows[i] - rows[j]) - sum) / factors[j * stride + j]
+                factors[row + j] =
+                    (correlation(columns[i] - columns[j], rows[i] - rows[j]) - sum) / factors[j * stride + j]
             }
             val diagonal = 1 + FieldCovariances.LEVEL + maxOf(errors[i] / amplitude, LEAST_ERROR) -
                 dot(factors, row, factors, row, i)

@@ -35,7 +35,13 @@ internal class FieldCovariances(grid: Grid) {
     /** What is believed of each candidate before data: the logarithm of a weight. */
     private val logPrior = DoubleArray(size) { candidate ->
         // One length unit of the logarithm about two cells; without a smooth part as likely as any length.
-        if (candidate == size - 1) ln(NUGGETS.size.toDouble() * FAMILIES) else -ln(length(candidate) / 2).let { it * it } / 2
+        if (candidate ==
+            size - 1
+        ) {
+            ln(NUGGETS.size.toDouble() * FAMILIES)
+        } else {
+            -ln(length(candidate) / 2).let { it * it } / 2
+        }
     }
 
     /** Weight of each candidate; those that are held for possible, at most [MOST_KEPT], add up to 1. */
@@ -96,7 +102,9 @@ internal class FieldCovariances(grid: Grid) {
             var likeliest = -1
             for (i in 0 until size) {
                 if (weights[i] > 0 || !logLikelihoods[i].isFinite()) continue
-                if (likeliest < 0 || logLikelihoods[i] + logPrior[i] > logLikelihoods[likeliest] + logPrior[likeliest]) {
+                if (likeliest < 0 ||
+                    logLikelihoods[i] + logPrior[i] > logLikelihoods[likeliest] + logPrior[likeliest]
+                ) {
                     likeliest = i
                 }
             }

@@ -65,7 +65,11 @@ class TruncatedNormalTest {
             val x = i / 10.0
             // Near 1 the probability itself has no more digits: only the lower half is exact.
             val tolerance = if (x > 0) 1e-16 * exp(x * x / 2) * 10 + 1e-8 else 2e-8
-            if (x <= 5) assertEquals(x, TruncatedNormal.quantile(TruncatedNormal.cumulative(x)), tolerance * (1 + abs(x)))
+            if (x <=
+                5
+            ) {
+                assertEquals(x, TruncatedNormal.quantile(TruncatedNormal.cumulative(x)), tolerance * (1 + abs(x)))
+            }
             assertEquals(1.0, TruncatedNormal.cumulative(x) + TruncatedNormal.cumulative(-x), 1e-15)
         }
         // Φ'(0) = 1/√(2π), by a difference over 2e-3: off by less than a part in a million.

@@ -24,7 +24,7 @@ class EstimatorContractTest {
 
         /** What is learned of the sensor changes the values of all cells, and none of their counts. */
         fun assertUntouched(before: CellContent, after: CellContent, sample: Sample) {
-            val learned = kind.seesUnvisited || kind == FilterKind.SELF_CALIBRATING && before.readings > 0
+            val learned = kind.seesUnvisited || (kind == FilterKind.SELF_CALIBRATING && before.readings > 0)
             val expected = if (learned) {
                 before.copy(value = after.value, lower = after.lower, upper = after.upper)
             } else {

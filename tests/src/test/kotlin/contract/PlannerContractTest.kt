@@ -48,7 +48,9 @@ class PlannerContractTest {
             PlannerKind.BOUNDED -> boundedSettings().map { Subject(kind, PlannerSettings(bounded = it), it) }
             PlannerKind.POLYGON_RRT -> listOf(1, 30).map { PolygonRrtSettings(it) }
                 .map { Subject(kind, PlannerSettings(polygonRrt = it), it) }
-            PlannerKind.INFORMATION -> informationSettings().map { Subject(kind, PlannerSettings(information = it), it) }
+            PlannerKind.INFORMATION -> informationSettings().map {
+                Subject(kind, PlannerSettings(information = it), it)
+            }
         }
     }
 

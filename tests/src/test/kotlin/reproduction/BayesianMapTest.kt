@@ -1,7 +1,6 @@
 package stillwater.reproduction
 
 import org.junit.jupiter.api.TestInstance
-import stillwater.estimate.AveragingFilter
 import stillwater.estimate.BayesianMap
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.estimate.SelfCalibratingSettings
@@ -37,19 +36,25 @@ class BayesianMapTest {
         var covered = 0
         for (environment in 0 until environments) {
             val field = settings.fields.getValue(kind).draw(settings.grid, seeds.random("field $kind", environment))
-            val start = if (planner.startsAtFirstCell) 0 else seeds.random("start", environment).nextInt(field.grid.size)
+            val start = if (planner.startsAtFirstCell) {
+                0
+            } else {
+                seeds.random(
+                    "start",
+                    environment,
+                ).nextInt(field.grid.size)
+            }
             val cells = SelfCalibratingEstimator(settings.grid, settings.prior, lag)
-            val average = AveragingFilter(settings.grid, settings.prior)
             val estimator = BayesianMap(settings.grid, settings.prior, cells)
             error += Trial(
                 field,
                 settings.sensor.build(field.truth(start), seeds.random("noise", environment)),
                 planner.planner(seeds.random("planner", environment), settings.plannerSettings),
-                // A planner asks for the first one's map before each move: not this one's, if it needs none.
-                if (planner.usesMap) listOf(estimator) else listOf(average, estimator),
+                listOf(estimator),
                 settings.samplesPerMove,
                 settings.period,
-            ).run(start, intArrayOf(moves)).last().mean.single()
+                usesMap = planner.usesMap,
+            ).run(start, intArrayOf(moves)).single().mean.single()
             val map = estimator.map
             covered += (0 until map.grid.size).count { field.truth(it) in map.lower(it)..map.upper(it) }
         }
