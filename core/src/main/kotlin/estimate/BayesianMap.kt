@@ -25,7 +25,8 @@ import kotlin.math.sqrt
  *
  * The posterior is brought up to date when [map] is asked for, not at a reading: ask for it after updates rather than
  * keeping it. When it was asked for before matters a little: that is when the covariance is learned anew. It costs O(1)
- * for each cell entered since, apart from a look at every visited cell and the learning each time a quarter more are visited; the work of a longer way is left for later times. Grids of up to 144 cells are done at once and exactly; larger
+ * for each cell entered since, apart from a look at every visited cell and the learning each time a quarter more are
+ * visited; the work of a longer way is left for later times. Grids of up to 144 cells are done at once; larger
  * ones in blocks of 8 x 8 cells, each from the 96 visited cells nearest. Memory: O(cells), whatever the readings. No call
  * allocates once tables of correlations are there. Confined to one thread.
  *

@@ -5,6 +5,7 @@ import stillwater.estimate.MapFusion
 import stillwater.field.CellField
 import stillwater.plan.Planner
 import stillwater.sensor.SensorModel
+import kotlin.math.abs
 
 /**
  * One boat in one field: it moves as its planner says, takes the same number of samples in every move, and several
