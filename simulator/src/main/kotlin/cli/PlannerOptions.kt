@@ -79,8 +79,6 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         help = "polygon-rrt: distance of the points among which ways through narrow water are sought; half a cell " +
             "unless given",
     ).number("a number of metres above 0") { it > 0 }
-    private val speed by option("--speed", metavar = "M/S", help = "information planner: the boat's speed")
-        .number("a speed in metres a second above 0") { it > 0 }
     private val settling by option(
         "--settling",
         metavar = "SECONDS",
@@ -110,7 +108,6 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         ),
         information = settings.information.copy(
             horizon = horizon ?: settings.information.horizon,
-            speed = speed ?: settings.information.speed,
             settling = settling ?: settings.information.settling,
         ),
     )
@@ -133,7 +130,6 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         "--rrt-reach" to rrtReach,
         "--margin" to margin,
         "--resolution" to resolution,
-        "--speed" to speed,
         "--settling" to settling,
     )
 
