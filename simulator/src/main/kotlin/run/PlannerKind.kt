@@ -56,6 +56,7 @@ enum class PlannerKind(
 
     /** A tree of paths in the plane that keeps to the water. */
     POLYGON_RRT("polygon-rrt", usesMap = true, startsAtFirstCell = false, inPlane = true),
+
     /** To where the map's uncertainty falls most per second. */
     INFORMATION("information", usesMap = true, startsAtFirstCell = false),
     ;
