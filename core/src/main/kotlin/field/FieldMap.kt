@@ -29,6 +29,12 @@ public class FieldMap(public val grid: Grid, public val prior: Interval) {
     public var rejected: Long = 0
         private set
 
+    /**
+     * How alike the field is believed to be in two cells; null where the estimator treats every cell by itself. Planners
+     * may use it to tell what a visit says of the cells around. Set by the estimator.
+     */
+    public var correlation: SpatialCorrelation? = null
+
     /** Best estimate of the field in [cell], sensor units. */
     public fun value(cell: Int): Double = values[cell]
 
@@ -114,6 +120,7 @@ public class FieldMap(public val grid: Grid, public val prior: Interval) {
         conflictCounts.copyInto(copy.conflictCounts)
         copy.outside = outside
         copy.rejected = rejected
+        copy.correlation = correlation
         return copy
     }
 }

@@ -5,6 +5,7 @@ import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.TestFactory
 import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedExtendedFilter
 import stillwater.estimate.BoundedFilter
 import stillwater.estimate.BoundedFilterSettings
@@ -16,6 +17,7 @@ import stillwater.estimate.IntervalFilterSettings
 import stillwater.estimate.MapFusion
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
+import stillwater.field.SpatialCorrelation
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.Grid
@@ -31,6 +33,8 @@ import stillwater.plan.BudgetedPlanner
 import stillwater.plan.CellsHome
 import stillwater.plan.Execution
 import stillwater.plan.GridRegion
+import stillwater.plan.InformationPlanner
+import stillwater.plan.InformationPlannerSettings
 import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.PathChoice
@@ -110,6 +114,7 @@ class AllocationTest {
             "averaging" to AveragingFilter(grid, Interval.UNIT),
             "exponential" to ExponentialFilter(grid, Interval.UNIT),
             "interval" to IntervalFilter(grid, Interval.UNIT, IntervalFilterSettings(30.0, 0.01)),
+            "bayesian" to BayesianMap(grid, Interval.UNIT),
             "self-calibrating" to SelfCalibratingEstimator(grid, Interval.UNIT),
             "bounded-extended" to BoundedExtendedFilter(grid, Interval.UNIT),
             "bounded, uncleared" to BoundedFilter(grid, Interval.UNIT, settings.copy(clearOnEntry = false)),
@@ -135,6 +140,21 @@ class AllocationTest {
         }
     }
 
+    @Test
+    fun bayesianMapBroughtUpToDate() {
+        // More cells than are done at once, so that blocks are chosen and data gathered.
+        val large = Grid.unit(20, 20)
+        val estimator = BayesianMap(large, Interval.UNIT)
+        var readings = 0
+        AllocationMeter.assertNone("a reading and the map") {
+            val cell = readings / 5 % large.size
+            val value = 0.5 + 0.4 * kotlin.math.sin(0.1 * cell)
+            estimator.update(BoatTime(1.0 * readings++), large.centerX(cell), large.centerY(cell), value)
+            sink += estimator.map.value(cell)
+        }
+        assertTrue(estimator.map.readings(0) > 0)
+    }
+
     @TestFactory
     fun plannerDecision(): List<DynamicTest> {
         val bounded = Execution.entries.flatMap { execution ->
@@ -150,6 +170,8 @@ class AllocationTest {
         val rrt = PolygonRrtSettings(iterations = 20)
         val home = grid.center(0)
         val decorated = listOf<Pair<String, Planner>>(
+            "information" to InformationPlanner(Random(1)),
+            "information, far" to InformationPlanner(Random(1), InformationPlannerSettings(horizon = 2, moves = 9)),
             "polygon-rrt" to PolygonRrt(Random(1), null, rrt),
             "polygon-rrt over water" to PolygonRrt(Random(1), water, rrt),
             "budgeted" to BudgetedPlanner(
@@ -199,6 +221,7 @@ class AllocationTest {
     private fun assertDecisionsAllocateNothing(name: String, planner: Planner) {
         val map = FieldMap(grid, Interval.UNIT)
         val random = Random(2)
+        map.correlation = SpatialCorrelation { columns, rows -> 1.0 / (1 + columns * columns + rows * rows) }
         for (cell in 0 until grid.size) map.setBounds(cell, 0.4 * random.nextDouble(), 0.6 + 0.4 * random.nextDouble())
         // The caller's positions: a boat has one anyway.
         val centers = List(grid.size) { grid.center(it) }

@@ -23,7 +23,7 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         metavar = "NAME",
         help = "lawnmower: ${PATTERNS.keys.joinToString(", ")}",
     ).oneOf(PATTERNS)
-    private val horizon by option("--horizon", metavar = "N", help = "bounded planners: moves in the longest path")
+    private val horizon by option("--horizon", metavar = "N", help = "planners with a map: moves in the longest path")
         .wholeNumber("a whole number within 1..$LONGEST_HORIZON") { it in 1..LONGEST_HORIZON }
     private val expansions by option(
         "--expansions",
@@ -84,6 +84,11 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         help = "polygon-rrt: distance of the points among which ways through narrow water are sought; half a cell " +
             "unless given",
     ).number("a number of metres above 0") { it > 0 }
+    private val settling by option(
+        "--settling",
+        metavar = "SECONDS",
+        help = "information planner: time that a reading of a cell takes once the boat is there",
+    ).number("a time in seconds of at least 0") { it >= 0 }
 
     /** [settings] with what was given on the command line in their place. */
     fun applied(settings: PlannerSettings): PlannerSettings = settings.copy(
@@ -110,6 +115,10 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             horizon = horizon ?: settings.boundedExtended.horizon,
             expansions = expansions ?: settings.boundedExtended.expansions,
         ),
+        information = settings.information.copy(
+            horizon = horizon ?: settings.information.horizon,
+            settling = settling ?: settings.information.settling,
+        ),
     )
 
     /** The flags given, with their values, for writing the command down. */
@@ -130,6 +139,7 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         "--rrt-reach" to rrtReach,
         "--margin" to margin,
         "--resolution" to resolution,
+        "--settling" to settling,
     )
 
     private fun <T> Map<String, T>.nameOf(value: T?): String? = entries.find { it.value == value }?.key

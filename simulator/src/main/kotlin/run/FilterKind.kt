@@ -1,6 +1,7 @@
 package stillwater.run
 
 import stillwater.estimate.AveragingFilter
+import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedExtendedFilter
 import stillwater.estimate.BoundedExtendedSettings
 import stillwater.estimate.BoundedFilter
@@ -19,8 +20,14 @@ import stillwater.model.Interval
  * @property label name on the command line and in files.
  * @property givesBounds whether its map has bounds that a planner can plan on.
  * @property valueIsMidpoint whether its value is no more than the midpoint of its bounds.
+ * @property seesUnvisited whether it says something of cells the boat never entered.
  */
-enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMidpoint: Boolean = false) {
+enum class FilterKind(
+    val label: String,
+    val givesBounds: Boolean,
+    val valueIsMidpoint: Boolean = false,
+    val seesUnvisited: Boolean = false,
+) {
     /** The mean of a cell's readings. */
     AVERAGING("averaging", givesBounds = false),
 
@@ -38,6 +45,9 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
 
     /** The bounded filter grown up: noise and distances per slope learned from the readings. */
     BOUNDED_EXTENDED("bounded-extended", givesBounds = true),
+
+    /** A Gaussian process over the cells on top of the one before: unseen cells too have a value and bounds. */
+    BAYESIAN("bayesian", givesBounds = true, seesUnvisited = true),
     ;
 
     /** How the maps of several boats become one: by what this filter's bounds mean. */
@@ -65,5 +75,6 @@ enum class FilterKind(val label: String, val givesBounds: Boolean, val valueIsMi
             prior,
             BoundedExtendedSettings(settings.medianWindow, settings.slopeWindow, lag.learnsResponse),
         )
+        BAYESIAN -> BayesianMap(grid, prior, SelfCalibratingEstimator(grid, prior, lag.selfCalibrating))
     }
 }

@@ -15,6 +15,7 @@ import stillwater.field.FieldMap
  * @property fusions how maps are fused, for each kind of estimator.
  * @property score how maps are judged.
  * @property sharing how the area is divided; null where every boat has all of it.
+ * @property usesMap whether the planners read the map; where not, estimators are asked for theirs at checkpoints only.
  */
 class Fleet(
     private val field: CellField,
@@ -22,6 +23,7 @@ class Fleet(
     private val fusions: List<MapFusion>,
     private val score: MapScore,
     private val sharing: RegionSharing? = null,
+    private val usesMap: Boolean = true,
 ) {
     private val kinds = boats.first().estimators.indices
     private val maps = kinds.map { kind -> Array(boats.size) { boats[it].estimators[kind].map } }
@@ -38,7 +40,7 @@ class Fleet(
      */
     fun run(checkpoints: IntArray): List<TrialErrors> {
         val errors = kinds.map { TrialErrors(checkpoints.size) }
-        val map = { map(0) }
+        val map = if (usesMap || sharing != null) ({ map(0) }) else ({ shared[0] })
         var checkpoint = 0
         for (move in 1..checkpoints.last()) {
             sharing?.onMove(move, boats, map)
@@ -52,6 +54,8 @@ class Fleet(
     }
 
     private fun map(kind: Int): FieldMap {
+        // An estimator may bring its map up to date when it is asked for it.
+        for (boat in boats) boat.estimators[kind].map
         if (boats.size > 1) fusions[kind].fuse(maps[kind], shared[kind])
         return shared[kind]
     }

@@ -77,7 +77,7 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
         if (isRecorded) boats.forEachIndexed { i, boat -> boat.onSample = { x, y -> tracks[i] += Position(x, y) } }
         val sharing = if (regions.isEmpty()) null else RegionSharing(regions, grid, site?.water)
         val score = MapScore(extremes, site?.water)
-        val errors = Fleet(field, boats, order.filters.map { it.fusion }, score, sharing)
+        val errors = Fleet(field, boats, order.filters.map { it.fusion }, score, sharing, order.planner.usesMap)
             .run(settings.checkpoints.toIntArray())
         return Outcome(
             errors,

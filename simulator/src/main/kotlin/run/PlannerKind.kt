@@ -5,6 +5,8 @@ import stillwater.plan.BoundedExtendedPlanner
 import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.BoundedPlanner
 import stillwater.plan.BoundedPlannerSettings
+import stillwater.plan.InformationPlanner
+import stillwater.plan.InformationPlannerSettings
 import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.Planner
@@ -22,6 +24,7 @@ import kotlin.random.Random
  * @property bounded horizon, expansions and choices of the bounded planner.
  * @property polygonRrt iterations, lengths and margin of the planner in the plane.
  * @property boundedExtended horizon and expansions of the extended bounded planner.
+ * @property information horizon and times of the information planner.
  */
 data class PlannerSettings(
     val walk: WalkSteps = WalkSteps.EDGE,
@@ -29,6 +32,7 @@ data class PlannerSettings(
     val bounded: BoundedPlannerSettings = BoundedPlannerSettings(),
     val polygonRrt: PolygonRrtSettings = PolygonRrtSettings(),
     val boundedExtended: BoundedExtendedPlannerSettings = BoundedExtendedPlannerSettings(),
+    val information: InformationPlannerSettings = InformationPlannerSettings(),
 )
 
 /**
@@ -59,6 +63,9 @@ enum class PlannerKind(
 
     /** The bounded planner that remembers where it learned nothing. */
     BOUNDED_EXTENDED("bounded-extended", usesMap = true, startsAtFirstCell = false),
+
+    /** To where the map's uncertainty falls most per second. */
+    INFORMATION("information", usesMap = true, startsAtFirstCell = false),
     ;
 
     /** A fresh planner of this kind that draws from [random]; [area] is the water, null where all of the map is. */
@@ -68,6 +75,7 @@ enum class PlannerKind(
         BOUNDED -> BoundedPlanner(random, settings.bounded)
         POLYGON_RRT -> PolygonRrt(random, area, settings.polygonRrt)
         BOUNDED_EXTENDED -> BoundedExtendedPlanner(random, settings.boundedExtended)
+        INFORMATION -> InformationPlanner(random, settings.information)
     }
 
     companion object {

@@ -5,6 +5,7 @@ import stillwater.estimate.MapFusion
 import stillwater.field.CellField
 import stillwater.plan.Planner
 import stillwater.sensor.SensorModel
+import kotlin.math.abs
 
 /**
  * One boat in one field: it moves as its planner says, takes the same number of samples in every move, and several
@@ -20,6 +21,7 @@ import stillwater.sensor.SensorModel
  * @property period time between readings, s.
  * @property extremes for each cell of [field] whether it is a local extreme of it. Not modified.
  * @property speed how fast it goes along its waypoints, m/s; null where it goes to one waypoint a move. See [Travel].
+ * @property usesMap whether [planner] reads the map; where not, no estimator is asked for it but at a checkpoint.
  */
 class Trial(
     private val field: CellField,
@@ -30,6 +32,7 @@ class Trial(
     private val period: Double,
     private val extremes: BooleanArray = LocalExtremes.of(field),
     private val speed: Double? = null,
+    private val usesMap: Boolean = true,
 ) {
     /**
      * Runs the boat from [start].
@@ -43,7 +46,7 @@ class Trial(
         val boat = Boat(field.grid.center(start), sensor, planner, estimators, travel)
         // A single boat's map is taken as it is.
         val fusions = estimators.map { MapFusion.INTERSECTION }
-        return Fleet(field, listOf(boat), fusions, MapScore(extremes)).run(checkpoints)
+        return Fleet(field, listOf(boat), fusions, MapScore(extremes), usesMap = usesMap).run(checkpoints)
     }
 }
 

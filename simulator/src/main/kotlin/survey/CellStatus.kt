@@ -26,6 +26,9 @@ enum class CellStatus(val label: String) {
 
     /** Visited, but no slope here counted. */
     NONE("none"),
+
+    /** The boat was never here; the cells around narrow the range to half of the water's at least. */
+    INFERRED("inferred"),
     ;
 
     /** Whether anything in the cell rests on readings; where not, there is no value to show. */
@@ -34,7 +37,10 @@ enum class CellStatus(val label: String) {
 
 /** What the filter [kind] knows about [cell]. */
 internal fun FieldMap.status(kind: FilterKind, cell: Int): CellStatus {
-    if (visits(cell) == 0) return CellStatus.UNVISITED
+    if (visits(cell) == 0) {
+        val isNarrow = kind.seesUnvisited && upper(cell) - lower(cell) <= prior.width / 2
+        return if (isNarrow) CellStatus.INFERRED else CellStatus.UNVISITED
+    }
     if (!kind.givesBounds) return CellStatus.MEASURED
     val below = lower(cell) > prior.lower
     val above = upper(cell) < prior.upper
@@ -50,6 +56,10 @@ internal fun FieldMap.status(kind: FilterKind, cell: Int): CellStatus {
 /** Value of [cell] by the filter [kind], sensor units; NaN where nothing was measured. */
 internal fun FieldMap.measuredValue(kind: FilterKind, cell: Int): Double =
     if (status(kind, cell).isMeasured) value(cell) else Double.NaN
+
+/** Indices of the cells of which the filter [kind] has something to show: those the boat entered and those inferred. */
+internal fun FieldMap.shownCells(kind: FilterKind): List<Int> =
+    (0 until grid.size).filter { visits(it) > 0 || status(kind, it) == CellStatus.INFERRED }
 
 /** Indices of the cells the boat entered. */
 internal fun FieldMap.visitedCells(): List<Int> = (0 until grid.size).filter { visits(it) > 0 }

@@ -37,7 +37,7 @@ class MapFigures(private val map: SurveyMap) {
     private val trackColours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
         .takeIf { it.start < it.endInclusive }
     private val cellColours = map.maps.flatMap { (kind, field) ->
-        field.visitedCells().map { field.measuredValue(kind, it) }.filter { it.isFinite() }
+        field.shownCells(kind).map { field.measuredValue(kind, it) }.filter { it.isFinite() }
     }.let { shown -> shown.minOrNull()?.rangeTo(shown.max())?.takeIf { it.start < it.endInclusive } }
 
     /** What draws each figure, in the order in which a reader wants them. */
@@ -112,12 +112,15 @@ class MapFigures(private val map: SurveyMap) {
                 "The water's value in each visited cell at the time constant that explains all readings best."
             FilterKind.BOUNDED_EXTENDED ->
                 "The water's value in each visited cell by the readings there and their slopes, within the bounds."
+            FilterKind.BAYESIAN ->
+                "The water's most likely value: in visited cells from their own readings and their neighbours', in " +
+                    "others from those around, where these narrow it to half of the range taken for the water."
         }
         val value: (Int) -> Double = { field.measuredValue(kind, it) }
         val figure = if (map.log.oneDimensional) {
             profile(title, where, field, value, legend, withBounds = isBounded)
         } else {
-            CellMap(title, where, cells(field, value), legend, cellColours).draw()
+            CellMap(title, where, cells(field, field.shownCells(kind), value), legend, cellColours).draw()
         }
         return MapFigure("estimate-${kind.label}", figure, caption)
     }
@@ -135,7 +138,7 @@ class MapFigures(private val map: SurveyMap) {
         val figure = if (map.log.oneDimensional) {
             profile(title, below, field, width, unit, withBounds = false)
         } else {
-            CellMap(title, below, cells(field, width), unit).draw()
+            CellMap(title, below, cells(field, field.visitedCells(), width), unit).draw()
         }
         val caption =
             "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
@@ -169,12 +172,11 @@ class MapFigures(private val map: SurveyMap) {
         return LinePlot(title, subtitle, listOf(series), map.log.xName, label).draw()
     }
 
-    /** The visited cells, merged into blocks where there are too many to draw. */
-    private fun cells(field: FieldMap, value: (Int) -> Double): List<MapCell> {
+    /** The [shown] cells, merged into blocks where there are too many to draw. */
+    private fun cells(field: FieldMap, shown: List<Int>, value: (Int) -> Double): List<MapCell> {
         val grid = field.grid
-        val visited = field.visitedCells()
-        val side = ceil(sqrt(visited.size / MOST_CELLS.toDouble())).toInt().coerceAtLeast(1)
-        val blocks = visited.groupBy { (it / grid.columns / side) to (it % grid.columns / side) }
+        val side = ceil(sqrt(shown.size / MOST_CELLS.toDouble())).toInt().coerceAtLeast(1)
+        val blocks = shown.groupBy { (it / grid.columns / side) to (it % grid.columns / side) }
         return blocks.map { (block, members) ->
             val (row, column) = block
             val first = grid.center(row * side * grid.columns + column * side)

@@ -80,7 +80,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
     }
 
     private fun polygons(frame: LocalFrame): List<GeoPolygon> = map.maps.flatMap { (kind, field) ->
-        field.visitedCells().map { cell -> polygon(frame, kind, field, cell) }
+        field.shownCells(kind).map { cell -> polygon(frame, kind, field, cell) }
     }
 
     private fun polygon(frame: LocalFrame, kind: FilterKind, field: FieldMap, cell: Int): GeoPolygon {

@@ -1,7 +1,9 @@
 package stillwater.survey
 
+import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.EpsilonCalibration
+import stillwater.estimate.FieldEstimator
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.io.LogPass
@@ -137,7 +139,7 @@ class SurveyMap internal constructor(
                 epsilonGiven = settings.epsilon != null,
                 stepSlope,
                 settings.unit,
-                estimators.values.firstNotNullOfOrNull { it as? SelfCalibratingEstimator },
+                estimators.values.firstNotNullOfOrNull(::learner),
             )
         }
 
@@ -202,3 +204,7 @@ private class EpsilonSearch(private val settings: MapSettings) {
         return Calibration(chosen.epsilon(), stretch, chosen.slopes)
     }
 }
+
+/** The estimator that learns of the sensor, in [estimator] or itself. */
+private fun learner(estimator: FieldEstimator): SelfCalibratingEstimator? =
+    estimator as? SelfCalibratingEstimator ?: (estimator as? BayesianMap)?.cells as? SelfCalibratingEstimator

@@ -125,11 +125,19 @@ class PresetTest {
     fun namesAreThoseOfTheCommandLine() {
         assertEquals(listOf("report", "noisy", "original"), Preset.entries.map { it.label })
         assertEquals(
-            listOf("averaging", "exponential", "bounded", "interval", "self-calibrating", "bounded-extended"),
+            listOf(
+                "averaging",
+                "exponential",
+                "bounded",
+                "interval",
+                "self-calibrating",
+                "bounded-extended",
+                "bayesian",
+            ),
             FilterKind.entries.map { it.label },
         )
         assertEquals(
-            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt", "bounded-extended"),
+            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt", "bounded-extended", "information"),
             PlannerKind.entries.map { it.label },
         )
     }

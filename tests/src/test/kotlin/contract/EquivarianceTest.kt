@@ -65,9 +65,9 @@ class EquivarianceTest {
 
         // Bounds that are readings are exact.
         val boundTolerance = when (kind) {
-            FilterKind.INTERVAL, FilterKind.SELF_CALIBRATING -> valueTolerance
             // Sums of squares, weighted by each other: some hundred roundings, magnified by the ratios.
             FilterKind.BOUNDED_EXTENDED -> valueTolerance
+            FilterKind.INTERVAL, FilterKind.SELF_CALIBRATING, FilterKind.BAYESIAN -> valueTolerance
             else -> 0.0
         }
 

@@ -11,6 +11,7 @@ import stillwater.model.Position
 import stillwater.plan.BoundedExtendedPlannerSettings
 import stillwater.plan.BoundedPlannerSettings
 import stillwater.plan.Execution
+import stillwater.plan.InformationPlannerSettings
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.PathChoice
 import stillwater.plan.PlanOutcome
@@ -34,8 +35,8 @@ class PlannerContractTest {
         val movesByEdges = when (kind) {
             PlannerKind.RANDOM_WALK -> settings.walk == WalkSteps.EDGE
             PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
-            PlannerKind.BOUNDED, PlannerKind.BOUNDED_EXTENDED -> true
             PlannerKind.POLYGON_RRT -> false
+            PlannerKind.BOUNDED, PlannerKind.BOUNDED_EXTENDED, PlannerKind.INFORMATION -> true
         }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
@@ -51,8 +52,17 @@ class PlannerContractTest {
             PlannerKind.BOUNDED_EXTENDED -> listOf(1 to 1, 3 to 30, 10 to 200)
                 .map { (horizon, expansions) -> BoundedExtendedPlannerSettings(horizon, expansions) }
                 .map { Subject(kind, PlannerSettings(boundedExtended = it), it) }
+            PlannerKind.INFORMATION -> informationSettings().map {
+                Subject(kind, PlannerSettings(information = it), it)
+            }
         }
     }
+
+    private fun informationSettings() = listOf(
+        InformationPlannerSettings(),
+        InformationPlannerSettings(horizon = 1, settling = 0.0),
+        InformationPlannerSettings(horizon = 3, moves = 2, speed = 0.01),
+    )
 
     private fun boundedSettings() = Execution.entries.flatMap { execution ->
         PathChoice.entries.flatMap { choice ->

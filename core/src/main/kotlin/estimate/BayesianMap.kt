@@ -1,0 +1,392 @@
+package stillwater.estimate
+
+import stillwater.field.FieldMap
+import stillwater.field.SpatialCorrelation
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+import kotlin.math.abs
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Maps the field through a slow sensor, cells unseen included: a Gaussian process over the cells, on top of an estimator
+ * that reads every cell by itself and says how sure it is.
+ *
+ * Model: ψ = level + smooth part + part of each cell alone, Gaussian; the smooth part of one of
+ * three families. Family, correlation length, amplitude and the share of the part alone are learned by marginal likelihood and
+ * averaged over; a field without any correlation is one of the candidates. What [cells] says of a visited cell counts as
+ * a measurement of it, with a quarter of its bounds' width, about, as standard deviation and independent of the others;
+ * so whatever [cells] learns of the sensor (time constant, noise, kind) holds here. A cell's value is its posterior's
+ * median, its bounds are credible at 95 %, both cut to the prior. Where [cells] finds that its own
+ * model of the sensor does not explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure
+ * it is: then its values are taken as they are and all bounds here are the prior's, see [isExplained].
+ *
+ * The posterior is brought up to date when [map] is asked for, not at a reading: ask for it after updates rather than
+ * keeping it. When it was asked for before matters a little: that is when the covariance is learned anew. It costs O(1)
+ * for each cell entered since, apart from a look at every visited cell and the learning each time a quarter more are
+ * visited; the work of a longer way is left for later times. Grids of up to 144 cells are done at once; larger
+ * ones in blocks of 8 x 8 cells, each from the 96 visited cells nearest. Memory: O(cells), whatever the readings. No call
+ * allocates once tables of correlations are there. Confined to one thread.
+ *
+ * Source: own composition, core/docs/BayesianMap.md; Rasmussen and Williams 2006, Gaussian Processes for Machine
+ * Learning.
+ *
+ * @param grid the cells.
+ * @param prior the range of the field, sensor units.
+ * @property cells reads the visited cells; over the same grid and prior, used by nobody else. Retained.
+ * @throws IllegalArgumentException if [cells] has another grid or prior.
+ */
+public class BayesianMap(
+    private val grid: Grid,
+    prior: Interval,
+    public val cells: FieldEstimator = SelfCalibratingEstimator(grid, prior),
+) : FieldEstimator {
+    private val middle = prior.midpoint
+    private val scale = if (prior.width > 0 && prior.width.isFinite()) prior.width else 1.0
+    private val believed = FieldMap(grid, prior)
+    private val source: FieldMap = cells.map
+    private val covariances = FieldCovariances(grid)
+    private val blocks = CellBlocks(grid)
+    private val regression = CellRegression(grid, covariances, blocks.capacity)
+    private val precisions = DoubleArray(blocks.capacity)
+    private val logLikelihoods = DoubleArray(covariances.size)
+    private val cut = TruncatedNormal()
+
+    private var visited = IntArray(FIRST_CELLS)
+    private var visitedCount = 0
+
+    /** What is known of visited cells by themselves, scaled; [variances] is NaN before a cell is measured. */
+    private val values = DoubleArray(grid.size)
+    private val variances = DoubleArray(grid.size) { Double.NaN }
+
+    /** The same as it was when the neighbours last took note of it. */
+    private val noted = DoubleArray(grid.size)
+    private val notedVariances = DoubleArray(grid.size)
+
+    /** What the other cells say of each cell, scaled. */
+    private val outer = DoubleArray(grid.size)
+    private val outerVariances = DoubleArray(grid.size) { Double.NaN }
+
+    /** The variance of that if the field varied alike everywhere. */
+    private val raw = DoubleArray(grid.size)
+    private val surprises = DoubleArray(grid.size)
+    private val tellings = DoubleArray(grid.size)
+
+    private var nextFit = 1
+    private var lastCell = 0
+    private var entries = 0
+    private var isCurrent = true
+
+    /** Standard deviations in a 97.5 % quantile over the normal distribution's, for what the amplitude leaves open. */
+    private var widening = 1.0
+
+    init {
+        require(source.grid == grid) { "cells' grid (${source.grid}) must be the same as grid ($grid)" }
+        require(source.prior == prior) { "cells' prior (${source.prior}) must be the same as prior ($prior)" }
+        covariances.weigh(logLikelihoods)
+        believed.correlation = SpatialCorrelation { columns, rows -> correlation(columns, rows) }
+    }
+
+    override val map: FieldMap get() {
+        if (!isCurrent) refresh()
+        return believed
+    }
+
+    /** Whether [cells] knows how sure it is of the cells; where not, all bounds are the prior's. As [map] last had it. */
+    public var isExplained: Boolean = true
+        private set
+
+    /** Most likely correlation length of the smooth part, m. */
+    public val correlationLength: Double get() =
+        covariances.length(covariances.kept[0]) * sqrt(grid.cellWidth) * sqrt(grid.cellHeight)
+
+    /** Expected share of a cell's variance that is its own, 0 to 1, dimensionless: 1 where cells tell nothing of others. */
+    public val ownShare: Double get() {
+        var share = 0.0
+        for (k in 0 until covariances.keptCount) {
+            share += covariances.weights[covariances.kept[k]] * covariances.nugget(covariances.kept[k])
+        }
+        return share
+    }
+
+    private fun correlation(columns: Int, rows: Int): Double {
+        if (columns == 0 && rows == 0) return 1.0
+        var sum = 0.0
+        for (k in 0 until covariances.keptCount) {
+            val candidate = covariances.kept[k]
+            val smooth = covariances.smooth(covariances.table(candidate), columns, rows)
+            sum += covariances.weights[candidate] * (1 - covariances.nugget(candidate)) * smooth
+        }
+        return sum
+    }
+
+    override fun update(
+        time: BoatTime,
+        x: Double,
+        y: Double,
+        value: Double,
+        conditions: Conditions,
+    ): ReadingUse {
+        val use = cells.update(time, x, y, value, conditions)
+        when (use) {
+            ReadingUse.USED -> count(grid.cellAt(x, y))
+            ReadingUse.OUTSIDE -> believed.countOutside()
+            ReadingUse.NOT_FINITE, ReadingUse.OUT_OF_ORDER -> believed.countRejected()
+        }
+        return use
+    }
+
+    private fun count(cell: Int) {
+        isCurrent = false
+        lastCell = cell
+        if (believed.readings(cell) == 0) {
+            if (visitedCount == visited.size) visited = visited.copyOf(minOf(2 * visitedCount, grid.size))
+            visited[visitedCount++] = cell
+        }
+        believed.countReading(cell)
+        if (source.visits(cell) > believed.visits(cell)) {
+            believed.countVisit(cell)
+            entries++
+        }
+        if (source.conflicts(cell) > believed.conflicts(cell)) believed.countConflict(cell)
+    }
+
+    private fun refresh() {
+        isCurrent = true
+        explain()
+        for (k in 0 until visitedCount) read(visited[k])
+        if (visitedCount >= nextFit) {
+            nextFit = visitedCount + maxOf(1, visitedCount / 4)
+            fit()
+            blocks.allStale()
+        }
+        val reach = 1 + (covariances.length(covariances.kept[0]) / REACH).toInt()
+        for (k in 0 until visitedCount) note(visited[k], reach)
+        var budget = MOST_BLOCKS * (1 + entries.toLong())
+        entries = 0
+        while (budget-- > 0) {
+            val block = blocks.take(lastCell)
+            if (block < 0) break
+            predict(block)
+        }
+        isCurrent = blocks.staleCount == 0
+        for (k in 0 until visitedCount) write(visited[k])
+    }
+
+    private fun explain() {
+        var open = 0
+        for (k in 0 until visitedCount) if (isOpen(visited[k])) open++
+        val isSo = (cells as? SelfCalibratingEstimator)?.isExplained != false && 2 * open <= visitedCount
+        if (isSo != isExplained) blocks.allStale()
+        isExplained = isSo
+    }
+
+    /** Reads what [cells] says of [cell]. */
+    private fun read(cell: Int) {
+        val value = (source.value(cell) - middle) / scale
+        val reach = maxOf(source.upper(cell) - source.value(cell), source.value(cell) - source.lower(cell))
+        val deviation = reach / scale / TruncatedNormal.NORMAL
+        if (!value.isFinite() || !deviation.isFinite()) return
+        values[cell] = value.coerceIn(-LARGEST, LARGEST)
+        variances[cell] = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
+    }
+
+    /** Whether the bounds of [cell] by itself are the prior's. */
+    private fun isOpen(cell: Int) =
+        source.lower(cell) <= source.prior.lower && source.upper(cell) >= source.prior.upper
+
+    /** Lets the blocks around [cell] take note of it, if it changed so much that it matters to them. */
+    private fun note(cell: Int, reach: Int) {
+        val variance = variances[cell]
+        if (variance.isNaN()) return
+        val change = values[cell] - noted[cell]
+        val before = notedVariances[cell]
+        val isKnown = !outerVariances[cell].isNaN()
+        val counts = before > COUNTS * outerVariances[cell] && (variance < before / 2 || variance > 2 * before)
+        if (isKnown && !counts && change * change <= maxOf(before, COUNTS * COUNTS * outerVariances[cell])) return
+        noted[cell] = values[cell]
+        notedVariances[cell] = variance
+        blocks.stale(cell, reach)
+    }
+
+    /** Weighs the candidates by the marginal likelihood of the cells around some blocks; eq. (5). */
+    private fun fit() {
+        val first = FieldCovariances.FIRST_CELLS
+        val parts = minOf(blocks.size, visitedCount, MOST_FITTED)
+        val level = covariances.amplitudes[covariances.kept[0]]
+        logLikelihoods.fill(0.0)
+        val misfits = covariances.amplitudes
+        misfits.fill(0.0)
+        var count = 0
+        for (part in 0 until parts) {
+            val block = blocks.blockOf(visited[part * visitedCount / parts])
+            blocks.gather(block, visited, visitedCount, values, variances, regression)
+            count += regression.size
+            for (candidate in 0 until covariances.size) {
+                if (!regression.solve(candidate, level)) logLikelihoods[candidate] = Double.NEGATIVE_INFINITY
+                logLikelihoods[candidate] -= regression.logDeterminant / 2
+                misfits[candidate] += regression.misfit
+            }
+        }
+        // Blocks may share cells, which are evidence once.
+        val evidence = FieldCovariances.EVIDENCE * minOf(1.0, visitedCount.toDouble() / count)
+        val freedom = evidence * count + first
+        for (candidate in 0 until covariances.size) {
+            // ln p = −κ ln|A|/2 − (κn + n₀)/2 · ln(κ yᵀA⁻¹y + n₀s₀²)
+            val sum = evidence * misfits[candidate] + first * FieldCovariances.FIRST_AMPLITUDE
+            logLikelihoods[candidate] = evidence * logLikelihoods[candidate] - freedom / 2 * ln(sum)
+            covariances.amplitudes[candidate] = sum / freedom
+        }
+        covariances.weigh(logLikelihoods)
+        val normal = TruncatedNormal.NORMAL
+        widening = 1 + (normal * normal + 1) / (4 * freedom)
+    }
+
+    /** What the cells with data near [block] say of each of its cells: the candidates' moments pooled, eqs. (3), (4). */
+    private fun predict(block: Int) {
+        blocks.gather(block, visited, visitedCount, values, variances, regression)
+        forEachCell(block) { cell ->
+            outer[cell] = 0.0
+            outerVariances[cell] = 0.0
+        }
+        var solved = 0.0
+        for (k in 0 until covariances.keptCount) {
+            val candidate = covariances.kept[k]
+            val amplitude = covariances.amplitudes[candidate]
+            if (!regression.solve(candidate, amplitude)) continue
+            regression.invert()
+            regression.precisions(precisions)
+            val weight = covariances.weights[candidate]
+            solved += weight
+            for (i in 0 until regression.size) {
+                val cell = regression.cell(i)
+                if (blocks.blockOf(cell) != block) continue
+                val variance = regression.varianceLeftOut(i, precisions[i], amplitude)
+                pool(cell, weight, regression.meanLeftOut(i, precisions[i]), amplitude * variance)
+            }
+            forEachCell(block) { cell ->
+                if (variances[cell].isNaN()) {
+                    val mean = regression.mean(cell)
+                    pool(cell, weight, mean, amplitude * regression.variance())
+                }
+            }
+        }
+        forEachCell(block) { cell ->
+            val mean = outer[cell] / solved
+            outer[cell] = mean
+            raw[cell] = maxOf(outerVariances[cell] / solved - mean * mean, LEAST_VARIANCE) * widening * widening
+            judge(cell)
+        }
+        forEachCell(block) { cell ->
+            outerVariances[cell] = raw[cell] * unevenness(cell)
+            if (variances[cell].isNaN()) write(cell, outer[cell], outerVariances[cell])
+        }
+    }
+
+    /** How far off the others' word on a visited cell was: its square over its variance, and how much that says. */
+    private fun judge(cell: Int) {
+        val own = variances[cell]
+        if (own.isNaN() || !raw[cell].isFinite()) return
+        val share = raw[cell] / (raw[cell] + own)
+        val gap = outer[cell] - values[cell]
+        tellings[cell] = share * share
+        surprises[cell] = minOf(gap * gap / (raw[cell] + own), MOST_SURPRISE) * tellings[cell]
+    }
+
+    /** By how much the field varies more or less around [cell] than elsewhere, as a factor on variances; eq. (7). */
+    private fun unevenness(cell: Int): Double {
+        val column = cell % grid.columns
+        val row = cell / grid.columns
+        var sum = UNSURPRISED
+        var count = UNSURPRISED
+        for (r in maxOf(0, row - AROUND)..minOf(grid.rows - 1, row + AROUND)) {
+            for (c in maxOf(0, column - AROUND)..minOf(grid.columns - 1, column + AROUND)) {
+                val other = r * grid.columns + c
+                sum += surprises[other]
+                count += tellings[other]
+            }
+        }
+        // A cell that nobody looked into may be where the bump is.
+        return if (variances[cell].isNaN()) maxOf(1.0, sum / count) else sum / count
+    }
+
+    private inline fun forEachCell(block: Int, action: (Int) -> Unit) {
+        for (row in blocks.firstRow(block) until blocks.endRow(block)) {
+            for (column in blocks.firstColumn(block) until blocks.endColumn(block)) {
+                action(row * grid.columns + column)
+            }
+        }
+    }
+
+    /** Adds a candidate's mean and variance of [cell] to the first two moments. */
+    private fun pool(cell: Int, weight: Double, mean: Double, variance: Double) {
+        outer[cell] += weight * mean
+        outerVariances[cell] += weight * (maxOf(variance, 0.0) + mean * mean)
+    }
+
+    /** Writes what is believed of a visited cell: its own data and what the others say of it, eq. (2). */
+    private fun write(cell: Int) {
+        val own = variances[cell]
+        val other = outerVariances[cell]
+        val isPlain = !(abs(values[cell]) < LARGEST) || !(own < LARGEST) || !other.isFinite()
+        if (!isExplained) {
+            believed.setValue(cell, source.value(cell))
+            believed.setBounds(cell, believed.prior.lower, believed.prior.upper)
+        } else if (isPlain) {
+            believed.setValue(cell, source.value(cell))
+            believed.setBounds(cell, source.lower(cell), source.upper(cell))
+        } else {
+            val mean = (other * values[cell] + own * outer[cell]) / (other + own)
+            write(cell, mean, maxOf(other * own / (other + own), LEAST_VARIANCE))
+        }
+    }
+
+    private fun write(cell: Int, mean: Double, variance: Double) {
+        if (!mean.isFinite() || !variance.isFinite()) return
+        val prior = believed.prior
+        // Of all distributions on the range with this mean and variance the least committed is a cut normal one whose
+        // own variance is greater: without end where it is that of the range itself, 1/12, eq. (6).
+        val uncut = variance / maxOf(1 - RANGE * variance, LEAST_PRECISION)
+        cut.cut(middle + scale * mean, scale * sqrt(uncut), prior.lower, prior.upper)
+        if (!cut.lower.isFinite() || !cut.upper.isFinite()) return
+        believed.setValue(cell, cut.median)
+        if (isExplained) {
+            believed.setBounds(cell, cut.lower, cut.upper)
+        } else {
+            believed.setBounds(cell, prior.lower, prior.upper)
+        }
+    }
+
+    private companion object {
+        const val FIRST_CELLS = 128
+
+        /** Blocks done at a time, and for each cell entered since the last time: a block and those around it. */
+        const val MOST_BLOCKS = 9
+
+        /** Blocks whose data the covariance is learned from, at most. */
+        const val MOST_FITTED = 6
+
+        /** Correlation length, sides of a cell, for which data matter one block farther. */
+        const val REACH = 4.0
+
+        /** A cell's error matters to others where its variance is above this part of what they say of it themselves. */
+        const val COUNTS = 0.01
+
+        /** Scaled numbers that no sensor gives: nothing is computed with them. */
+        const val LARGEST = 1e6
+        const val LEAST_VARIANCE = 1e-16
+
+        /** Cells either way that tell how much the field varies around a cell, and for how many the average counts. */
+        const val AROUND = 2
+        const val UNSURPRISED = 2.0
+        const val MOST_SURPRISE = 1e3
+
+        /** One over the variance of a value that may be anywhere in the prior's range, scaled. */
+        const val RANGE = 12.0
+
+        /** Least precision of what is left, in parts of the variance's own: a width of 10 ranges. */
+        const val LEAST_PRECISION = 1e-3
+    }
+}
