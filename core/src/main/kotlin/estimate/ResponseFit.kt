@@ -1,0 +1,272 @@
+package stillwater.estimate
+
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** A sensor of two parameters as a [SensorFit]. Eqs. (14) to (17) of core/docs/SelfCalibratingEstimator.md. */
+internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
+    private val bank = ResponseBank()
+    private val surface = QuadraticSurface()
+
+    /** Slope of half the misfit over σ² and its second derivatives, the belief included, in the bank's steps. */
+    private var slopeFirst = 0.0
+    private var slopeSecond = 0.0
+    private var curveFirst = 1.0
+    private var curveSecond = 1.0
+    private var curveBoth = 0.0
+
+    /** Where the best parameters lie from the bank's middle, in its steps. */
+    private var placeFirst = 0.0
+    private var placeSecond = 0.0
+
+    /** What is assumed of the sensor. */
+    var kind: ResponseKind = ResponseKind.ASYMMETRIC
+
+    /** The logarithm of a time constant from where the search starts. */
+    var startFirst: Double = belief.mean
+
+    /** The most likely first parameter. */
+    val first: Double get() = bank.first + placeFirst * bank.firstStep
+
+    /** The most likely second parameter. */
+    val second: Double get() = bank.second + placeSecond * bank.secondStep
+
+    /** Variance of [first]. */
+    val firstVariance: Double get() = curveSecond / determinant() * bank.firstStep * bank.firstStep
+
+    /** Variance of [second]. */
+    val secondVariance: Double get() = curveFirst / determinant() * bank.secondStep * bank.secondStep
+
+    /** Covariance of [first] and [second]. */
+    val covariance: Double get() = -curveBoth / determinant() * bank.firstStep * bank.secondStep
+
+    override val here: Int get() = bank.here
+    override val before: Int get() = bank.before
+
+    override fun take(slot: Int, seconds: Double, value: Double) {
+        bank.take(slot, seconds, value)
+        learn()
+    }
+
+    override fun leave() = bank.leave()
+
+    /** A coarse search over both parameters, then Newton's steps within a region that shrinks with the uncertainty. */
+    override fun calibrate(tape: ReadingTape) {
+        limit(tape)
+        search(tape)
+        var firstStep = FIRST_STEP * WIDEST_FIRST
+        var secondStep = FIRST_STEP * widest()
+        repeat(MOST_ROUNDS) {
+            play(tape, firstStep, secondStep)
+            learn()
+            if (System.getProperty("dbg") != null) println("$kind ${bank.first} ${bank.firstStep} ${bank.second} ${bank.secondStep} place $placeFirst $placeSecond C ${(0..6).map { (bank.misfit(it) / noiseVariance).toInt() }} left ${misfit / noiseVariance} sd ${sqrt(firstVariance)} ${sqrt(secondVariance)}")
+            val wantedFirst = (2 * sqrt(firstVariance)).coerceIn(NARROWEST, WIDEST_FIRST)
+            val wantedSecond = (2 * sqrt(secondVariance)).coerceIn(NARROWEST * widest(), widest())
+            val changeFirst = placeFirst.coerceIn(-1.0, 1.0) * firstStep
+            val changeSecond = placeSecond.coerceIn(-1.0, 1.0) * bank.secondStep
+            val isStill = changeFirst * changeFirst <= CLOSE * firstVariance &&
+                changeSecond * changeSecond <= CLOSE * secondVariance
+            val isNarrow = firstStep <= 2 * wantedFirst && bank.secondStep <= 2 * wantedSecond
+            val wasNarrow = firstStep >= wantedFirst / 2 && bank.secondStep >= wantedSecond / 2
+            if (isStill && isNarrow && wasNarrow) return
+            startFirst += changeFirst
+            startSecond = (bank.second + changeSecond).coerceIn(kind.least, most)
+            val isAtEdge = minOf(startSecond - kind.least, most - startSecond) < bank.secondStep
+            firstStep = narrowed(firstStep, abs(changeFirst), wantedFirst)
+            secondStep = narrowed(bank.secondStep, if (isAtEdge) 0.0 else abs(changeSecond), wantedSecond)
+        }
+        play(tape, firstStep, secondStep)
+        learn()
+    }
+
+    /** The next step: no narrower than wanted or than the last change, and narrowing no faster than by four. */
+    private fun narrowed(step: Double, change: Double, wanted: Double) =
+        if (wanted >= step) minOf(wanted, 4 * step) else maxOf(wanted, change, step / 4)
+
+    private var startSecond = 0.0
+
+    /** How much of [lag]'s misfit over its σ² this kind promises to explain, from one look near that lag. */
+    fun glance(tape: ReadingTape, lag: LagFit): Double {
+        startFirst = ln(lag.timeConstant)
+        startSecond = kind.least.coerceAtLeast(0.0)
+        limit(tape)
+        noiseVariance = lag.noiseVariance
+        play(tape, minOf(WIDEST_FIRST, 2 * lag.relativeUncertainty), GLANCE * widest())
+        learn()
+        return (lag.misfit - misfit) / lag.noiseVariance
+    }
+
+    private fun widest(): Double = when (kind) {
+        ResponseKind.ASYMMETRIC -> 0.3
+        ResponseKind.DEAD_TIME -> 0.15 * exp(startFirst)
+        ResponseKind.SECOND_ORDER -> 0.05
+    }
+
+    /**
+     * Largest second parameter. A dead time longer by a whole stay is the same sensor to a survey whose stays are of one
+     * length, with the map moved by a cell: none longer than a mean stay is looked for.
+     */
+    private var most = 0.0
+
+    private fun limit(tape: ReadingTape) {
+        most = if (kind == ResponseKind.DEAD_TIME) tape.meanStay() else kind.most
+    }
+
+    private fun search(tape: ReadingTape) {
+        val from = startFirst
+        var least = Double.POSITIVE_INFINITY
+        var bestFirst = from
+        var bestSecond = 0.0
+        for (stretch in STRETCHES) {
+            for (share in shares()) {
+                val second = if (kind == ResponseKind.DEAD_TIME) share * most else share
+                val cost = cost(tape, from + stretch, second)
+                if (cost < least) {
+                    least = cost
+                    bestFirst = from + stretch
+                    bestSecond = second
+                }
+            }
+        }
+        // A compass search: downhill along either parameter, with steps that halve where neither leads down.
+        var firstStep = 0.2
+        var secondStep = if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
+        var halvings = 0
+        while (halvings < HALVINGS) {
+            var moved = false
+            for (way in 0 until 4) {
+                val sign = if (way % 2 == 0) 1 else -1
+                val first = if (way < 2) bestFirst + sign * firstStep else bestFirst
+                val second = if (way < 2) bestSecond else (bestSecond + sign * secondStep).coerceIn(kind.least, most)
+                if (second == bestSecond && first == bestFirst) continue
+                val cost = cost(tape, first, second)
+                if (cost < least) {
+                    least = cost
+                    bestFirst = first
+                    bestSecond = second
+                    moved = true
+                }
+            }
+            if (!moved) {
+                firstStep /= 2
+                secondStep /= 2
+                halvings++
+            }
+        }
+        startFirst = bestFirst
+        startSecond = bestSecond
+        cost(tape, bestFirst, bestSecond)
+        judge(bank.misfit(0), bank.freedom, bank.succession)
+    }
+
+    private fun cost(tape: ReadingTape, first: Double, second: Double): Double {
+        bank.resetMiddle(kind, first, second, noiseVariance)
+        play(tape)
+        val off = first - belief.mean
+        return bank.misfit(0) / noiseVariance + off * off / (belief.spread * belief.spread)
+    }
+
+    private fun shares() = when (kind) {
+        ResponseKind.ASYMMETRIC -> RATIOS
+        ResponseKind.DEAD_TIME -> DELAYS
+        ResponseKind.SECOND_ORDER -> PRODUCTS
+    }
+
+    private fun play(tape: ReadingTape, firstStep: Double, secondStep: Double) {
+        // The nodes must not leave what a sensor can be.
+        val reach = minOf(secondStep, (most - kind.least) / 2)
+        startSecond = startSecond.coerceIn(kind.least + reach, most - reach)
+        bank.reset(kind, startFirst, firstStep, startSecond, reach, noiseVariance)
+        play(tape)
+    }
+
+    private fun play(tape: ReadingTape) {
+        for (i in 0 until tape.size) {
+            if (tape.slot(i) == LagBank.NONE) bank.leave() else bank.take(tape.slot(i), tape.time(i), tape.value(i))
+        }
+    }
+
+    private fun learn() {
+        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.misfit(i))
+        val scale = 1 / (2 * noiseVariance)
+        val spread = bank.firstStep / belief.spread
+        curveFirst = maxOf(0.0, surface.curveFirst * scale) + spread * spread
+        slopeFirst = -surface.slopeFirst * scale + (belief.mean - bank.first) / belief.spread * spread
+        // The second parameter is hardly believed to be anything: within a few of the widest steps.
+        val tie = bank.secondStep / (SECOND_SPREAD * widest())
+        curveSecond = maxOf(0.0, surface.curveSecond * scale) + tie * tie
+        slopeSecond = -surface.slopeSecond * scale
+        val tied = MOST_CORRELATED * sqrt(curveFirst * curveSecond)
+        curveBoth = (surface.curveBoth * scale).coerceIn(-tied, tied)
+        placeFirst = (curveSecond * slopeFirst - curveBoth * slopeSecond) / determinant()
+        placeSecond = (curveFirst * slopeSecond - curveBoth * slopeFirst) / determinant()
+        val low = (kind.least - bank.second) / bank.secondStep
+        val high = (most - bank.second) / bank.secondStep
+        val allowed = placeSecond.coerceIn(maxOf(low, -FARTHEST), minOf(high, FARTHEST))
+        if (allowed != placeSecond) {
+            placeSecond = allowed
+            placeFirst = (slopeFirst - curveBoth * placeSecond) / curveFirst
+        }
+        placeFirst = placeFirst.coerceIn(-FARTHEST, FARTHEST)
+        // Far from its nodes the surface is not to be trusted: something was left at each of them.
+        var least = Double.POSITIVE_INFINITY
+        for (i in 0 until ResponseBank.NODES) least = minOf(least, bank.misfit(i))
+        judge(maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * noiseVariance), bank.freedom, bank.succession)
+    }
+
+    private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
+
+    override fun truth(slot: Int): Double {
+        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
+        return surface.at(placeFirst, placeSecond)
+    }
+
+    override fun variance(slot: Int): Double {
+        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
+        val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
+        val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
+        val parameters = curveSecond * byFirst * byFirst - 2 * curveBoth * byFirst * bySecond +
+            curveFirst * bySecond * bySecond
+        return noiseVariance / bank.information(slot, 0) + parameters / determinant()
+    }
+
+    private companion object {
+        val STRETCHES = doubleArrayOf(-1.2, -0.8, -0.4, 0.0, 0.4, 0.8)
+        val RATIOS = doubleArrayOf(-1.0, -0.5, 0.5, 1.0)
+        val DELAYS = doubleArrayOf(0.05, 0.15, 0.3, 0.5, 0.7, 0.9)
+        val PRODUCTS = doubleArrayOf(0.06, 0.14, 0.22)
+        const val WIDEST_FIRST = 0.15
+        const val NARROWEST = 3e-3
+        const val SECOND_SPREAD = 10.0
+        const val MOST_CORRELATED = 0.9999
+        const val FARTHEST = 2.0
+        const val FIRST_STEP = 0.3
+        const val HALVINGS = 4
+        const val GLANCE = 0.3
+        const val MOST_BELOW = 8.0
+        const val CLOSE = 0.01
+        const val MOST_ROUNDS = 10
+    }
+}
+
+/** The quadratic through the seven numbers of a [ResponseBank], in steps from its middle. */
+internal class QuadraticSurface {
+    private val numbers = DoubleArray(ResponseBank.NODES)
+
+    fun set(i: Int, number: Double) {
+        numbers[i] = number
+    }
+
+    val slopeFirst: Double get() = (numbers[2] - numbers[1]) / 2
+    val slopeSecond: Double get() = (numbers[4] - numbers[3]) / 2
+    val curveFirst: Double get() = numbers[2] - 2 * numbers[0] + numbers[1]
+    val curveSecond: Double get() = numbers[4] - 2 * numbers[0] + numbers[3]
+    val curveBoth: Double
+        get() = (numbers[6] + numbers[5] - numbers[1] - numbers[2] - numbers[3] - numbers[4]) / 2 + numbers[0]
+
+    fun at(first: Double, second: Double): Double =
+        numbers[0] + first * (slopeFirst + curveFirst * first / 2 + curveBoth * second) +
+            second * (slopeSecond + curveSecond * second / 2)
+}
