@@ -21,6 +21,9 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     private var placeFirst = 0.0
     private var placeSecond = 0.0
 
+    /** Variance of the second, in its steps squared. */
+    private var spreadSecond = 1.0
+
     /** What is assumed of the sensor. */
     var kind: ResponseKind = ResponseKind.ASYMMETRIC
 
@@ -33,14 +36,25 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     /** The most likely second parameter. */
     val second: Double get() = bank.second + placeSecond * bank.secondStep
 
+    /** Logarithm of the time constant, s, or of its mean or sum. */
+    val logTime: Double get() = kind.logTime(first, second)
+
+    /** Variance of [logTime]. */
+    val logTimeVariance: Double
+        get() = maxOf(0.0, firstVariance - 2 * kind.shear * covariance + kind.shear * kind.shear * secondVariance)
+
     /** Variance of [first]. */
-    val firstVariance: Double get() = curveSecond / determinant() * bank.firstStep * bank.firstStep
+    val firstVariance: Double
+        get() = (1 / curveFirst + tilt * tilt * spreadSecond) * bank.firstStep * bank.firstStep
 
     /** Variance of [second]. */
-    val secondVariance: Double get() = curveFirst / determinant() * bank.secondStep * bank.secondStep
+    val secondVariance: Double get() = spreadSecond * bank.secondStep * bank.secondStep
 
     /** Covariance of [first] and [second]. */
-    val covariance: Double get() = -curveBoth / determinant() * bank.firstStep * bank.secondStep
+    val covariance: Double get() = -tilt * spreadSecond * bank.firstStep * bank.secondStep
+
+    /** How much the first parameter gives way when the second moves, in the bank's steps. */
+    private val tilt: Double get() = curveBoth / curveFirst
 
     override val here: Int get() = bank.here
     override val before: Int get() = bank.before
@@ -65,17 +79,17 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
             val wantedFirst = (2 * sqrt(firstVariance)).coerceIn(NARROWEST, WIDEST_FIRST)
             val wantedSecond = (2 * sqrt(secondVariance)).coerceIn(NARROWEST * widest(), widest())
             val changeFirst = placeFirst.coerceIn(-1.0, 1.0) * firstStep
-            val changeSecond = placeSecond.coerceIn(-1.0, 1.0) * bank.secondStep
-            val isStill = changeFirst * changeFirst <= CLOSE * firstVariance &&
-                changeSecond * changeSecond <= CLOSE * secondVariance
-            val isNarrow = firstStep <= 2 * wantedFirst && bank.secondStep <= 2 * wantedSecond
-            val wasNarrow = firstStep >= wantedFirst / 2 && bank.secondStep >= wantedSecond / 2
-            if (isStill && isNarrow && wasNarrow) return
+            val reach = bank.secondStep
+            val changeSecond = (bank.second + placeSecond.coerceIn(-1.0, 1.0) * reach)
+                .coerceIn(kind.least + reach, most - reach) - bank.second
+            val isStill = changeFirst * changeFirst * curveFirst <= CLOSE * firstStep * firstStep &&
+                changeSecond * changeSecond * curveSecond <= CLOSE * reach * reach
+            val isNarrow = firstStep <= 2 * wantedFirst && reach <= 2 * wantedSecond
+            if (isStill && isNarrow) return
             startFirst += changeFirst
-            startSecond = (bank.second + changeSecond).coerceIn(kind.least, most)
-            val isAtEdge = minOf(startSecond - kind.least, most - startSecond) < bank.secondStep
+            startSecond = bank.second + changeSecond
             firstStep = narrowed(firstStep, abs(changeFirst), wantedFirst)
-            secondStep = narrowed(bank.secondStep, if (isAtEdge) 0.0 else abs(changeSecond), wantedSecond)
+            secondStep = narrowed(reach, abs(changeSecond), wantedSecond)
         }
         play(tape, firstStep, secondStep)
         learn()
@@ -101,7 +115,7 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     private fun widest(): Double = when (kind) {
         ResponseKind.ASYMMETRIC -> 0.3
         ResponseKind.DEAD_TIME -> 0.15 * exp(startFirst)
-        ResponseKind.SECOND_ORDER -> 0.05
+        ResponseKind.SECOND_ORDER -> 0.04
     }
 
     /**
@@ -130,16 +144,15 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
                 }
             }
         }
-        // A compass search: downhill along either parameter, with steps that halve where neither leads down.
+        // A compass search: downhill along either parameter or both, with steps that halve where neither leads down.
         var firstStep = 0.2
         var secondStep = if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
         var halvings = 0
         while (halvings < HALVINGS) {
             var moved = false
-            for (way in 0 until 4) {
-                val sign = if (way % 2 == 0) 1 else -1
-                val first = if (way < 2) bestFirst + sign * firstStep else bestFirst
-                val second = if (way < 2) bestSecond else (bestSecond + sign * secondStep).coerceIn(kind.least, most)
+            for (way in 0 until WAYS) {
+                val first = bestFirst + FIRST_WAY[way] * firstStep
+                val second = (bestSecond + SECOND_WAY[way] * secondStep).coerceIn(kind.least, most)
                 if (second == bestSecond && first == bestFirst) continue
                 val cost = cost(tape, first, second)
                 if (cost < least) {
@@ -200,20 +213,37 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         slopeSecond = -surface.slopeSecond * scale
         val tied = MOST_CORRELATED * sqrt(curveFirst * curveSecond)
         curveBoth = (surface.curveBoth * scale).coerceIn(-tied, tied)
-        placeFirst = (curveSecond * slopeFirst - curveBoth * slopeSecond) / determinant()
+        spreadSecond = curveFirst / determinant()
         placeSecond = (curveFirst * slopeSecond - curveBoth * slopeFirst) / determinant()
-        val low = (kind.least - bank.second) / bank.secondStep
-        val high = (most - bank.second) / bank.secondStep
-        val allowed = placeSecond.coerceIn(maxOf(low, -FARTHEST), minOf(high, FARTHEST))
-        if (allowed != placeSecond) {
-            placeSecond = allowed
-            placeFirst = (slopeFirst - curveBoth * placeSecond) / curveFirst
-        }
-        placeFirst = placeFirst.coerceIn(-FARTHEST, FARTHEST)
+        truncate((kind.least - bank.second) / bank.secondStep, (most - bank.second) / bank.secondStep)
+        placeSecond = placeSecond.coerceIn(-FARTHEST, FARTHEST)
+        placeFirst = ((slopeFirst - curveBoth * placeSecond) / curveFirst).coerceIn(-FARTHEST, FARTHEST)
         // Far from its nodes the surface is not to be trusted: something was left at each of them.
         var least = Double.POSITIVE_INFINITY
         for (i in 0 until ResponseBank.NODES) least = minOf(least, bank.misfit(i))
         judge(maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * noiseVariance), bank.freedom, bank.succession)
+    }
+
+    /** Mean and variance of the second parameter, which lies between [low] and [high] for certain; eq. (17). */
+    private fun truncate(low: Double, high: Double) {
+        val deviation = sqrt(spreadSecond)
+        if (placeSecond - low > CERTAIN * deviation && high - placeSecond > CERTAIN * deviation) return
+        val from = maxOf(low, minOf(placeSecond, high) - CERTAIN * deviation)
+        val width = (minOf(high, maxOf(placeSecond, low) + CERTAIN * deviation) - from) / PARTS
+        val nearest = (placeSecond.coerceIn(low, high) - placeSecond) / deviation
+        var sum = 0.0
+        var first = 0.0
+        var second = 0.0
+        for (k in 0 until PARTS) {
+            val x = from + (k + HALF) * width
+            val off = (x - placeSecond) / deviation
+            val weight = exp((nearest * nearest - off * off) / 2)
+            sum += weight
+            first += weight * x
+            second += weight * x * x
+        }
+        placeSecond = first / sum
+        spreadSecond = maxOf(second / sum - placeSecond * placeSecond, width * width / 12)
     }
 
     private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
@@ -227,26 +257,32 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
         val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
         val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
-        val parameters = curveSecond * byFirst * byFirst - 2 * curveBoth * byFirst * bySecond +
-            curveFirst * bySecond * bySecond
-        return noiseVariance / bank.information(slot, 0) + parameters / determinant()
+        val alongRidge = bySecond - tilt * byFirst
+        return noiseVariance / bank.information(slot, 0) + byFirst * byFirst / curveFirst +
+            alongRidge * alongRidge * spreadSecond
     }
 
     private companion object {
-        val STRETCHES = doubleArrayOf(-1.2, -0.8, -0.4, 0.0, 0.4, 0.8)
+        val STRETCHES = doubleArrayOf(-1.5, -1.2, -0.9, -0.6, -0.3, 0.0, 0.3, 0.6)
+        const val WAYS = 8
+        val FIRST_WAY = doubleArrayOf(1.0, -1.0, 0.0, 0.0, 1.0, -1.0, 1.0, -1.0)
+        val SECOND_WAY = doubleArrayOf(0.0, 0.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0)
         val RATIOS = doubleArrayOf(-1.0, -0.5, 0.5, 1.0)
         val DELAYS = doubleArrayOf(0.05, 0.15, 0.3, 0.5, 0.7, 0.9)
         val PRODUCTS = doubleArrayOf(0.06, 0.14, 0.22)
         const val WIDEST_FIRST = 0.15
         const val NARROWEST = 3e-3
         const val SECOND_SPREAD = 10.0
-        const val MOST_CORRELATED = 0.9999
+        const val MOST_CORRELATED = 0.99
         const val FARTHEST = 2.0
         const val FIRST_STEP = 0.3
-        const val HALVINGS = 4
+        const val HALVINGS = 5
         const val GLANCE = 0.3
+        const val CERTAIN = 5.0
+        const val PARTS = 48
+        const val HALF = 0.5
         const val MOST_BELOW = 8.0
-        const val CLOSE = 0.01
+        const val CLOSE = 0.03
         const val MOST_ROUNDS = 10
     }
 }

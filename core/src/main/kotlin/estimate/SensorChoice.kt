@@ -33,10 +33,10 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
     val isExplained: Boolean get() = active.isWhite
 
-    val timeConstant: Double get() = (active as? ResponseFit)?.let { exp(it.first) } ?: lag.timeConstant
+    val timeConstant: Double get() = (active as? ResponseFit)?.let { exp(it.logTime) } ?: lag.timeConstant
 
     val relativeUncertainty: Double
-        get() = (active as? ResponseFit)?.let { sqrt(it.firstVariance) } ?: lag.relativeUncertainty
+        get() = (active as? ResponseFit)?.let { sqrt(it.logTimeVariance) } ?: lag.relativeUncertainty
 
     /** From now on the tape does not hold all. */
     fun follow() {
@@ -103,7 +103,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         val quantile = quantile(fit.freedom)
         if (fit is LagFit) return listOf(time("time_constant_s", fit.timeConstant, quantile * fit.relativeUncertainty))
         fit as ResponseFit
-        val first = sqrt(fit.firstVariance) * quantile
+        val first = sqrt(fit.logTimeVariance) * quantile
         val second = sqrt(fit.secondVariance) * quantile
         return when (fit.kind) {
             ResponseKind.ASYMMETRIC -> listOf(1, -1).map { sign ->
@@ -119,10 +119,10 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
                     Interval(maxOf(0.0, fit.second - second), fit.second + second),
                     "s",
                 ),
-                time("time_constant_s", exp(fit.first), first),
+                time("time_constant_s", exp(fit.logTime), first),
             )
             ResponseKind.SECOND_ORDER -> listOf(
-                time("sum_of_time_constants_s", exp(fit.first), first),
+                time("sum_of_time_constants_s", exp(fit.logTime), first),
                 SensorParameter(
                     "share_of_the_shorter",
                     ResponseKind.shorter(fit.second),
