@@ -14,13 +14,15 @@ import kotlin.math.sqrt
 internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     private val lag = LagFit(settings)
     private val responses = ResponseKind.entries.map { kind -> ResponseFit(settings).also { it.kind = kind } }
+    private val slew = SlewFit(settings)
     private val kinds = listOf(
         SensorKind.FIRST_ORDER,
         SensorKind.ASYMMETRIC,
         SensorKind.DEAD_TIME,
         SensorKind.SECOND_ORDER,
+        SensorKind.SLEW_LIMIT,
     )
-    private val fits: List<SensorFit> = listOf<SensorFit>(lag) + responses
+    private val fits: List<SensorFit> = listOf<SensorFit>(lag) + responses + slew
     private val criteria = DoubleArray(fits.size) { Double.NaN }
 
     /** The model that values rest on. */
@@ -69,6 +71,10 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
             fit.calibrate(tape)
             criteria[k + 1] = lag.freedom * ln(fit.misfit) + 2 * penalty
         }
+        if (!lag.isWhite) {
+            slew.calibrate(tape)
+            if (slew.moves) criteria[SLEW] = lag.freedom * ln(slew.misfit * lag.freedom / slew.freedom) + penalty
+        }
         var best = 0
         for (k in fits.indices) if (criteria[k] < criteria[best]) best = k
         active = fits[best]
@@ -81,7 +87,6 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     }
 
     /** What is believed, in sensor units with [scale] of them to the scaled unit. */
-    @Suppress("UNUSED_PARAMETER")
     fun belief(scale: Double): SensorBelief {
         val best = fits.indexOf(active)
         val candidates = fits.indices.map { k ->
@@ -93,15 +98,16 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
                 else -> SensorStanding.POSSIBLE
             }
             val odds = if (k == best) 0.0 else (criteria[k] - criteria[best]) / 2
-            SensorCandidate(kinds[k], standing, odds, if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k))
+            SensorCandidate(kinds[k], standing, odds, if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k, scale))
         }
         return SensorBelief(isExplained, candidates.sortedBy { it.standing })
     }
 
-    private fun parameters(k: Int): List<SensorParameter> {
+    private fun parameters(k: Int, scale: Double): List<SensorParameter> {
         val fit = fits[k]
         val quantile = quantile(fit.freedom)
         if (fit is LagFit) return listOf(time("time_constant_s", fit.timeConstant, quantile * fit.relativeUncertainty))
+        if (fit is SlewFit) return listOf(rate(fit, scale, quantile))
         fit as ResponseFit
         val first = sqrt(fit.logTimeVariance) * quantile
         val second = sqrt(fit.secondVariance) * quantile
@@ -136,6 +142,12 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         }
     }
 
+    private fun rate(fit: SlewFit, scale: Double, quantile: Double): SensorParameter {
+        val reach = exp(quantile * fit.relativeUncertainty)
+        val rate = scale * fit.rate
+        return SensorParameter("rate_per_s", rate, Interval(rate / reach, rate * reach), "sensor units/s")
+    }
+
     private fun time(name: String, value: Double, reach: Double) =
         SensorParameter(name, value, Interval(value * exp(-reach), value * exp(reach)), "s")
 
@@ -145,6 +157,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
         /** A model with smaller logarithm of the odds against it is still possible. */
         private const val POSSIBLE = 5.0
+        private const val SLEW = 4
 
         /** 97.5 % quantile of the normal distribution. */
         private const val NORMAL = 1.959963984540054
