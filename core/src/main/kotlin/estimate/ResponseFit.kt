@@ -75,7 +75,6 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         repeat(MOST_ROUNDS) {
             play(tape, firstStep, secondStep)
             learn()
-            if (System.getProperty("dbg") != null) println("$kind ${bank.first} ${bank.firstStep} ${bank.second} ${bank.secondStep} place $placeFirst $placeSecond C ${(0..6).map { (bank.misfit(it) / noiseVariance).toInt() }} left ${misfit / noiseVariance} sd ${sqrt(firstVariance)} ${sqrt(secondVariance)}")
             val wantedFirst = (2 * sqrt(firstVariance)).coerceIn(NARROWEST, WIDEST_FIRST)
             val wantedSecond = (2 * sqrt(secondVariance)).coerceIn(NARROWEST * widest(), widest())
             val changeFirst = placeFirst.coerceIn(-1.0, 1.0) * firstStep
