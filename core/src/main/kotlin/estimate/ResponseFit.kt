@@ -27,8 +27,8 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     /** What is assumed of the sensor. */
     var kind: ResponseKind = ResponseKind.ASYMMETRIC
 
-    /** The logarithm of a time constant from where the search starts. */
-    var startFirst: Double = belief.mean
+    /** Where the search starts. */
+    private var startFirst = belief.mean
 
     /** The most likely first parameter. */
     val first: Double get() = bank.first + placeFirst * bank.firstStep
@@ -45,13 +45,23 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
 
     /** Variance of [first]. */
     val firstVariance: Double
-        get() = (1 / curveFirst + tilt * tilt * spreadSecond) * bank.firstStep * bank.firstStep
+        get() = (certain(1 / curveFirst) + tilt * tilt * certain(spreadSecond)) * bank.firstStep * bank.firstStep
 
     /** Variance of [second]. */
-    val secondVariance: Double get() = spreadSecond * bank.secondStep * bank.secondStep
+    val secondVariance: Double get() = certain(spreadSecond) * bank.secondStep * bank.secondStep
 
     /** Covariance of [first] and [second]. */
-    val covariance: Double get() = -tilt * spreadSecond * bank.firstStep * bank.secondStep
+    val covariance: Double get() = -tilt * certain(spreadSecond) * bank.firstStep * bank.secondStep
+
+    /** A variance in steps squared: once the nodes stay where they are, the surface is not exact to better than this. */
+    private fun certain(variance: Double) = if (follows) maxOf(variance, FINEST) else variance
+
+    /** From now on there is no tape to start over from. */
+    fun follow() {
+        follows = true
+    }
+
+    private var follows = false
 
     /** How much the first parameter gives way when the second moves, in the bank's steps. */
     private val tilt: Double get() = curveBoth / curveFirst
@@ -66,10 +76,17 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
 
     override fun leave() = bank.leave()
 
+    /** The first fit starts from this time constant, s; later ones from the last. */
+    fun startFrom(timeConstant: Double) {
+        if (!isFitted) startFirst = ln(timeConstant)
+    }
+
     /** A coarse search over both parameters, then Newton's steps within a region that shrinks with the uncertainty. */
     override fun calibrate(tape: ReadingTape) {
         limit(tape)
-        search(tape)
+        if (!isFitted) search(tape)
+        descend(tape)
+        isFitted = true
         var firstStep = FIRST_STEP * WIDEST_FIRST
         var secondStep = FIRST_STEP * widest()
         repeat(MOST_ROUNDS) {
@@ -100,8 +117,12 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
 
     private var startSecond = 0.0
 
+    /** Whether the search may start from the last fit. */
+    private var isFitted = false
+
     /** How much of [lag]'s misfit over its σ² this kind promises to explain, from one look near that lag. */
     fun glance(tape: ReadingTape, lag: LagFit): Double {
+        isFitted = false
         startFirst = ln(lag.timeConstant)
         startSecond = kind.least.coerceAtLeast(0.0)
         limit(tape)
@@ -130,22 +151,27 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     private fun search(tape: ReadingTape) {
         val from = startFirst
         var least = Double.POSITIVE_INFINITY
-        var bestFirst = from
-        var bestSecond = 0.0
         for (stretch in STRETCHES) {
             for (share in shares()) {
                 val second = if (kind == ResponseKind.DEAD_TIME) share * most else share
                 val cost = cost(tape, from + stretch, second)
                 if (cost < least) {
                     least = cost
-                    bestFirst = from + stretch
-                    bestSecond = second
+                    startFirst = from + stretch
+                    startSecond = second
                 }
             }
         }
-        // A compass search: downhill along either parameter or both, with steps that halve where neither leads down.
-        var firstStep = 0.2
-        var secondStep = if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
+    }
+
+    /** A compass search: downhill along either parameter or both, with steps that halve where neither leads down. */
+    private fun descend(tape: ReadingTape) {
+        var bestFirst = startFirst
+        var bestSecond = startSecond.coerceIn(kind.least, most)
+        var least = cost(tape, bestFirst, bestSecond)
+        val share = if (isFitted) FIRST_STEP else 1.0
+        var firstStep = share * FIRST_REACH
+        var secondStep = share * if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
         var halvings = 0
         while (halvings < HALVINGS) {
             var moved = false
@@ -257,8 +283,8 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
         val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
         val alongRidge = bySecond - tilt * byFirst
-        return noiseVariance / bank.information(slot, 0) + byFirst * byFirst / curveFirst +
-            alongRidge * alongRidge * spreadSecond
+        return noiseVariance / bank.information(slot, 0) + byFirst * byFirst * certain(1 / curveFirst) +
+            alongRidge * alongRidge * certain(spreadSecond)
     }
 
     private companion object {
@@ -274,6 +300,8 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         const val SECOND_SPREAD = 10.0
         const val MOST_CORRELATED = 0.99
         const val FARTHEST = 2.0
+        const val FINEST = 1.0 / 16
+        const val FIRST_REACH = 0.2
         const val FIRST_STEP = 0.3
         const val HALVINGS = 5
         const val GLANCE = 0.3

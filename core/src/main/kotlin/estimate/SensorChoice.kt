@@ -23,7 +23,10 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         SensorKind.SLEW_LIMIT,
     )
     private val fits: List<SensorFit> = listOf<SensorFit>(lag) + responses + slew
-    private val criteria = DoubleArray(fits.size) { Double.NaN }
+    private val criteria = DoubleArray(fits.size)
+
+    /** Logarithm of the odds against each model; NaN if not tried. */
+    private val odds = DoubleArray(fits.size) { Double.NaN }.also { it[0] = 0.0 }
 
     /** The model that values rest on. */
     var active: SensorFit = lag
@@ -43,6 +46,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     /** From now on the tape does not hold all. */
     fun follow() {
         lag.follow()
+        for (fit in responses) fit.follow()
     }
 
     fun take(slot: Int, seconds: Double, value: Double) {
@@ -57,34 +61,44 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
     /** Fits to [tape], and chooses. */
     fun decide(tape: ReadingTape) {
-        criteria.fill(Double.NaN)
         active = lag
         rival = null
         lag.calibrate(tape)
         if (lag.freedom < SensorFit.FEWEST_TO_JUDGE) return
         val penalty = ln(lag.freedom)
+        criteria.fill(Double.NaN)
         criteria[0] = lag.freedom * ln(lag.misfit) + penalty
-        for (k in responses.indices) {
-            val fit = responses[k]
-            if (lag.isWhite && fit.glance(tape, lag) < WORTH_A_FIT) continue
-            fit.startFirst = ln(lag.timeConstant)
-            fit.calibrate(tape)
-            criteria[k + 1] = lag.freedom * ln(fit.misfit) + 2 * penalty
-        }
-        if (!lag.isWhite) {
-            slew.calibrate(tape)
-            if (slew.moves) criteria[SLEW] = lag.freedom * ln(slew.misfit * lag.freedom / slew.freedom) + penalty
+        for (k in 1 until fits.size) {
+            // What was far behind with half of the readings is not tried again.
+            if (odds[k] > HOPELESS) continue
+            criteria[k] = criterion(fits[k], tape, penalty)
         }
         var best = 0
         for (k in fits.indices) if (criteria[k] < criteria[best]) best = k
         active = fits[best]
+        for (k in fits.indices) if (!(odds[k] > HOPELESS)) odds[k] = (criteria[k] - criteria[best]) / 2
         var next = -1
-        for (k in 1 until fits.size) {
-            val isClose = k != best && criteria[k] - criteria[best] < 2 * POSSIBLE && fits[k].isWhite
-            if (isClose && best > 0 && (next < 0 || criteria[k] < criteria[next])) next = k
+        if (best > 0) {
+            for (k in fits.indices) if (k != best && isPossible(k) && (next < 0 || odds[k] < odds[next])) next = k
         }
         if (next >= 0) rival = fits[next]
     }
+
+    private fun criterion(fit: SensorFit, tape: ReadingTape, penalty: Double): Double {
+        if (fit is ResponseFit) {
+            if (lag.isWhite && fit.glance(tape, lag) < WORTH_A_FIT) return Double.NaN
+            fit.startFrom(lag.timeConstant)
+        } else if (lag.isWhite) {
+            return Double.NaN
+        }
+        fit.calibrate(tape)
+        if (fit is SlewFit && !fit.moves) return Double.NaN
+        // The same number of readings for all: a truth never reached is not fitted.
+        val left = fit.misfit * if (fit is SlewFit) lag.freedom / fit.freedom else 1.0
+        return lag.freedom * ln(left) + if (fit is ResponseFit) 2 * penalty else penalty
+    }
+
+    private fun isPossible(k: Int) = odds[k] < POSSIBLE && fits[k].isWhite
 
     /** What is believed, in sensor units with [scale] of them to the scaled unit. */
     fun belief(scale: Double): SensorBelief {
@@ -92,13 +106,13 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         val candidates = fits.indices.map { k ->
             val standing = when {
                 k == best -> SensorStanding.CHOSEN
-                criteria[k].isNaN() -> SensorStanding.NOT_TRIED
-                criteria[k] - criteria[best] >= 2 * POSSIBLE || !fits[k].isWhite -> SensorStanding.EXCLUDED
-                best == 0 -> SensorStanding.NOT_NEEDED
-                else -> SensorStanding.POSSIBLE
+                odds[k].isNaN() -> SensorStanding.NOT_TRIED
+                best == 0 && odds[k] < POSSIBLE -> SensorStanding.NOT_NEEDED
+                isPossible(k) -> SensorStanding.POSSIBLE
+                else -> SensorStanding.EXCLUDED
             }
-            val odds = if (k == best) 0.0 else (criteria[k] - criteria[best]) / 2
-            SensorCandidate(kinds[k], standing, odds, if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k, scale))
+            val numbers = if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k, scale)
+            SensorCandidate(kinds[k], standing, odds[k], numbers)
         }
         return SensorBelief(isExplained, candidates.sortedBy { it.standing })
     }
@@ -157,7 +171,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
         /** A model with smaller logarithm of the odds against it is still possible. */
         private const val POSSIBLE = 5.0
-        private const val SLEW = 4
+        private const val HOPELESS = 50.0
 
         /** 97.5 % quantile of the normal distribution. */
         private const val NORMAL = 1.959963984540054

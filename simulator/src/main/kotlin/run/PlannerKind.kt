@@ -9,6 +9,7 @@ import stillwater.plan.Planner
 import stillwater.plan.PolygonRrt
 import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.RandomWalk
+import stillwater.plan.SettlingLawnmower
 import stillwater.plan.WalkSteps
 import kotlin.random.Random
 
@@ -52,6 +53,9 @@ enum class PlannerKind(
 
     /** A tree of paths in the plane that keeps to the water. */
     POLYGON_RRT("polygon-rrt", usesMap = true, startsAtFirstCell = false, inPlane = true),
+
+    /** In a fixed order, staying in each cell until its bounds have closed. */
+    SETTLING_LAWNMOWER("settling-lawnmower", usesMap = true, startsAtFirstCell = true),
     ;
 
     /** A fresh planner of this kind that draws from [random]; [area] is the water, null where all of the map is. */
@@ -60,6 +64,7 @@ enum class PlannerKind(
         LAWNMOWER -> Lawnmower(settings.pattern)
         BOUNDED -> BoundedPlanner(random, settings.bounded)
         POLYGON_RRT -> PolygonRrt(random, area, settings.polygonRrt)
+        SETTLING_LAWNMOWER -> SettlingLawnmower(settings.pattern)
     }
 
     companion object {

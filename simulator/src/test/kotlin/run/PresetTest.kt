@@ -129,7 +129,7 @@ class PresetTest {
             FilterKind.entries.map { it.label },
         )
         assertEquals(
-            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt"),
+            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt", "settling-lawnmower"),
             PlannerKind.entries.map { it.label },
         )
     }
