@@ -29,7 +29,7 @@ public enum class SensorStanding {
     /** Values and bounds of the map are those of this model. */
     CHOSEN,
 
-    /** It explains the readings not clearly worse than the chosen one. */
+    /** It explains the readings not clearly worse than the chosen one; or none does, which excludes none. */
     POSSIBLE,
 
     /** It needs a parameter more than the chosen one, and what that gains is not worth it. */

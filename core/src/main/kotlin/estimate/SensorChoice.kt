@@ -107,6 +107,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
             val standing = when {
                 k == best -> SensorStanding.CHOSEN
                 odds[k].isNaN() -> SensorStanding.NOT_TRIED
+                !isExplained -> SensorStanding.POSSIBLE
                 best == 0 && odds[k] < POSSIBLE -> SensorStanding.NOT_NEEDED
                 isPossible(k) -> SensorStanding.POSSIBLE
                 else -> SensorStanding.EXCLUDED

@@ -127,7 +127,7 @@ internal class SlewFilter {
         if (!(started < ways[at + SCORE])) return
         ways.copyInto(ways, at, from, from + STRIDE)
         ways[at + S] += shift
-        ways[at + SS] += step * step / 12
+        ways[at + SS] += step * step
         ways[at + SCORE] += cost
         correct(at, value)
     }
