@@ -24,7 +24,7 @@ import kotlin.math.sqrt
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
- * each time their number doubles, so a reading is O(1) on average and at worst O(recalled); no call allocates once the
+ * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates once the
  * cells' memory has grown. A new time constant changes all cells: the map follows [REFRESHED] cells a reading. Confined
  * to one thread.
  *
@@ -88,7 +88,7 @@ public class SelfCalibratingEstimator(
         val slot = slots[cell]
         tape.add(slot, seconds, scaled)
         if (tape.isComplete && tape.size >= nextReplay) {
-            while (nextReplay <= tape.size) nextReplay *= 2
+            while (nextReplay <= tape.size) nextReplay += nextReplay / 2
             choice.decide(tape)
             for (i in 0 until visitedCount) write(i)
             return
