@@ -61,6 +61,8 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
     /** Fits to [tape], and chooses. */
     fun decide(tape: ReadingTape) {
+        // What was far behind a model that explained the readings is not tried again.
+        if (!isExplained) odds.fill(Double.NaN)
         active = lag
         rival = null
         lag.calibrate(tape)
@@ -69,7 +71,6 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         criteria.fill(Double.NaN)
         criteria[0] = lag.freedom * ln(lag.misfit) + penalty
         for (k in 1 until fits.size) {
-            // What was far behind with half of the readings is not tried again.
             if (odds[k] > HOPELESS) continue
             criteria[k] = criterion(fits[k], tape, penalty)
         }
