@@ -74,7 +74,7 @@ internal class ResponseBank {
         for (i in 0 until NODES) {
             val one = first + firstStep * FIRST_PLACE[i]
             val other = second + secondStep * SECOND_PLACE[i]
-            delays[i] = kind.deadTime(one, other)
+            delays[i] = kind.deadTime(other)
             for (branch in 0..1) {
                 filters.set(i, branch, kind.timeConstant(one, other, branch), kind.secondLag(one, other))
             }

@@ -246,7 +246,11 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         // Far from its nodes the surface is not to be trusted: something was left at each of them.
         var least = Double.POSITIVE_INFINITY
         for (i in 0 until ResponseBank.NODES) least = minOf(least, bank.misfit(i))
-        judge(maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * noiseVariance), bank.freedom, bank.succession)
+        judge(
+            maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * noiseVariance),
+            bank.freedom,
+            bank.succession,
+        )
     }
 
     /** Mean and variance of the second parameter, which lies between [low] and [high] for certain; eq. (17). */

@@ -45,7 +45,7 @@ internal enum class ResponseKind(val lags: Int, val branches: Int, val least: Do
         if (this == SECOND_ORDER) shorter(second) * exp(logTime(first, second)) else 0.0
 
     /** The dead time, s. */
-    fun deadTime(first: Double, second: Double): Double = if (this == DEAD_TIME) second else 0.0
+    fun deadTime(second: Double): Double = if (this == DEAD_TIME) second else 0.0
 
     companion object {
         private const val SHEAR = 4.0

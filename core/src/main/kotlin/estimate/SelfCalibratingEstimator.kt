@@ -8,24 +8,27 @@ import kotlin.math.exp
 import kotlin.math.sqrt
 
 /**
- * Maps the field through a slow sensor and learns on the way how slow it is.
+ * Maps the field through a slow sensor and learns on the way what kind of sensor it is, and how slow.
  *
- * Model: τ ṡ = ψ − s with s going on over cell borders, z = s + e, e independent with variance σ². τ, σ and every cell's
- * ψ are unknown; τ is believed beforehand as [SelfCalibratingSettings] say. A cell's value is its truth at the most
- * likely τ; its bounds are credible at 95 %, the uncertainty of τ and σ included, and cut to the prior. What a visit
- * says of its cell rests on the readings there, on the sensor's state on entering and on the readings in the cell after;
- * visits of one cell are pooled. A cell never visited keeps the prior.
+ * Model: one of [SensorKind], z = s + e with s the sensor's state, which goes on over cell borders, and e independent with
+ * variance σ². Which one, its parameters, σ and every cell's ψ are unknown; a time constant is believed beforehand as
+ * [SelfCalibratingSettings] say. The first-order lag τ ṡ = ψ − s is kept as long as the readings do not speak against it;
+ * [sensor] says which models are still possible. A cell's value is its truth at the most likely parameters of the chosen
+ * model; its bounds are credible at 95 %, the uncertainty of parameters and σ included, and cut to the prior; where
+ * another model is possible too they hold what either says. What a visit says of its cell rests on the readings there, on
+ * the sensor's state on entering and on the readings in the cell after; visits of one cell are pooled. A cell never visited
+ * keeps the prior.
  *
  * Assumes the field constant within a cell and in time, and that the interval between two readings in different cells is
  * spent in the second: sample often on a border. Between cells that do not touch, or after leaving the grid or a reading
  * without a value in another cell, the sensor's state is taken as unknown. A reading farther than [FARTHEST] widths of
- * the prior from its middle is not used and counts as a conflict. With an asymmetric or second-order response or a dead
- * time values are biased; once the readings show that, [isExplained] says so and bounds go back to the prior's.
+ * the prior from its middle is not used and counts as a conflict. Where no model explains the readings [isExplained] says
+ * so, values are biased and bounds go back to the prior's.
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
- * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates once the
- * cells' memory has grown. A new time constant changes all cells: the map follows [REFRESHED] cells a reading. Confined
+ * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates
+ * once the cells' memory has grown. New parameters change all cells: the map follows [REFRESHED] cells a reading. Confined
  * to one thread.
  *
  * @param grid the cells.
