@@ -35,7 +35,7 @@ class PlannerContractTest {
             PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
             PlannerKind.BOUNDED -> true
             PlannerKind.POLYGON_RRT -> false
-            PlannerKind.SETTLING_LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
+            PlannerKind.SETTLING_LAWNMOWER -> false
         }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
