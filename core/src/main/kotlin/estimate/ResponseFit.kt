@@ -174,20 +174,20 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         var secondStep = share * if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
         var halvings = 0
         while (halvings < HALVINGS) {
-            var moved = false
+            // The best of all ways, so that a mirrored survey goes the mirrored way.
+            val fromFirst = bestFirst
+            val fromSecond = bestSecond
             for (way in 0 until WAYS) {
-                val first = bestFirst + FIRST_WAY[way] * firstStep
-                val second = (bestSecond + SECOND_WAY[way] * secondStep).coerceIn(kind.least, most)
-                if (second == bestSecond && first == bestFirst) continue
+                val first = fromFirst + FIRST_WAY[way] * firstStep
+                val second = (fromSecond + SECOND_WAY[way] * secondStep).coerceIn(kind.least, most)
                 val cost = cost(tape, first, second)
                 if (cost < least) {
                     least = cost
                     bestFirst = first
                     bestSecond = second
-                    moved = true
                 }
             }
-            if (!moved) {
+            if (bestFirst == fromFirst && bestSecond == fromSecond) {
                 firstStep /= 2
                 secondStep /= 2
                 halvings++

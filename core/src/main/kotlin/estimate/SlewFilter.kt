@@ -171,9 +171,13 @@ internal class SlewFilter {
         return best
     }
 
+    /** Whether up and down are as likely, as with the first reading of all: it bounds nothing. */
+    private fun isOpen() = ways[UP * STRIDE + SCORE] == ways[DOWN * STRIDE + SCORE]
+
     /** Ends the visit: all ways go on from the likeliest, whose truth is the one before from now on. */
     private fun settle() {
         val best = best()
+        val isOpen = isOpen()
         for (way in 0 until WAYS) if (way != best) ways.copyInto(ways, way * STRIDE, best * STRIDE, (best + 1) * STRIDE)
         if (before != LagBank.NONE) pool(before)
         val slot = here
@@ -199,6 +203,7 @@ internal class SlewFilter {
             }
             val beyond = CERTAIN * sqrt(ways[SS])
             val at = slot * SLOT
+            if (isOpen) return
             if (best == UP) {
                 memory[at + LOWER] = maxOf(memory[at + LOWER], ways[S] - beyond + HALF)
             } else {
@@ -253,7 +258,7 @@ internal class SlewFilter {
     fun lower(slot: Int): Double {
         val way = best()
         val known = if (isKnown(slot)) memory[slot * SLOT + LOWER] - HALF else -HALF
-        if (slot != here || way != UP) return known
+        if (slot != here || way != UP || isOpen()) return known
         return maxOf(known, ways[way * STRIDE + S] - CERTAIN * sqrt(ways[way * STRIDE + SS]))
     }
 
@@ -261,7 +266,7 @@ internal class SlewFilter {
     fun upper(slot: Int): Double {
         val way = best()
         val known = if (isKnown(slot)) HALF - memory[slot * SLOT + UPPER] else HALF
-        if (slot != here || way != DOWN) return known
+        if (slot != here || way != DOWN || isOpen()) return known
         return minOf(known, ways[way * STRIDE + S] + CERTAIN * sqrt(ways[way * STRIDE + SS]))
     }
 
