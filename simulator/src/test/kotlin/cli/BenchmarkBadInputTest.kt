@@ -114,7 +114,8 @@ class BenchmarkBadInputTest {
         private const val FILTERS =
             "--filter: expected some of averaging, exponential, bounded, interval, self-calibrating, separated by commas"
         private const val PLANNERS =
-            "--planner: expected some of random-walk, lawnmower, bounded, polygon-rrt, separated by commas"
+            "--planner: expected some of random-walk, lawnmower, bounded, polygon-rrt, settling-lawnmower, " +
+                "separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
         private const val GRID = "--grid: expected COLSxROWS such as 10x10, both whole numbers above 0"
         private const val CYCLE =
