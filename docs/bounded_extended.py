@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 PROGRAM = shlex.split(os.environ.get("STILLWATER", "java -jar simulator/target/stillwater.jar"))
-SENSORS = ["outliers", "coarse", "asymmetric", "dead-time", "second-order", "slew-limit"]
+SENSORS = ["outliers", "coarse", "asymmetric-slow-rise", "dead-time", "second-order-fast", "slew-limit"]
 TIME_CONSTANT = 9.491221581029905
 FIGURES = pathlib.Path("docs/figures")
 

@@ -14,7 +14,7 @@ import kotlin.math.ln
 public data class SelfCalibratingSettings(
     val timeConstant: Double = 20.0,
     val factor: Double = 10.0,
-    val recalled: Int = 1024,
+    val recalled: Int = 2048,
 ) {
     init {
         require(timeConstant > 0 && timeConstant.isFinite()) {

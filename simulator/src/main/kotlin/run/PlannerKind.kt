@@ -13,6 +13,7 @@ import stillwater.plan.Planner
 import stillwater.plan.PolygonRrt
 import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.RandomWalk
+import stillwater.plan.SettlingLawnmower
 import stillwater.plan.WalkSteps
 import kotlin.random.Random
 
@@ -66,6 +67,9 @@ enum class PlannerKind(
 
     /** To where the map's uncertainty falls most per second. */
     INFORMATION("information", usesMap = true, startsAtFirstCell = false),
+
+    /** In a fixed order, staying in each cell until its bounds have closed. */
+    SETTLING_LAWNMOWER("settling-lawnmower", usesMap = true, startsAtFirstCell = true),
     ;
 
     /** A fresh planner of this kind that draws from [random]; [area] is the water, null where all of the map is. */
@@ -76,6 +80,7 @@ enum class PlannerKind(
         POLYGON_RRT -> PolygonRrt(random, area, settings.polygonRrt)
         BOUNDED_EXTENDED -> BoundedExtendedPlanner(random, settings.boundedExtended)
         INFORMATION -> InformationPlanner(random, settings.information)
+        SETTLING_LAWNMOWER -> SettlingLawnmower(settings.pattern)
     }
 
     companion object {

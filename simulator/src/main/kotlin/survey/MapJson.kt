@@ -10,6 +10,7 @@ import kotlinx.serialization.json.buildJsonArray
 import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonObject
+import stillwater.estimate.SensorBelief
 import java.nio.file.Path
 
 /** A [SurveyMap] for machines; numbers unrounded, null where there is none. */
@@ -19,6 +20,25 @@ object MapJson {
     /** The JSON text about [map], what is to be [warned][warnings] of, and the [files] written. */
     fun text(map: SurveyMap, warnings: List<String>, files: List<Path>): String =
         format.encodeToString(JsonObject.serializer(), of(map, warnings, files))
+
+    private fun sensor(belief: SensorBelief) = buildJsonObject {
+        put("explained", belief.isExplained)
+        putJsonObject("models") {
+            for (candidate in belief.candidates) {
+                putJsonObject(candidate.kind.label) {
+                    put("standing", candidate.standing.name.lowercase().replace('_', '-'))
+                    put("log_odds_against", number(candidate.evidence))
+                    for (parameter in candidate.parameters) {
+                        putJsonObject(parameter.name) {
+                            put("value", number(parameter.value))
+                            put("low", number(parameter.interval.lower))
+                            put("high", number(parameter.interval.upper))
+                        }
+                    }
+                }
+            }
+        }
+    }
 
     private fun of(map: SurveyMap, warnings: List<String>, files: List<Path>) = buildJsonObject {
         put("log", map.log.file.toString())
@@ -53,6 +73,7 @@ object MapJson {
                 put("found_per_s", number(calibration.found))
             }
         }
+        map.learned?.let { put("sensor", sensor(it.sensor())) }
         putJsonObject("filters") {
             map.maps.forEach { (kind, field) ->
                 putJsonObject(kind.label) {

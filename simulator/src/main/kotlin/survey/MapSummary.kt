@@ -1,6 +1,5 @@
 package stillwater.survey
 
-import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.run.FilterKind
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
@@ -41,18 +40,8 @@ class MapSummary(private val map: SurveyMap) {
         add("range taken for the water" to range())
         map.bounded?.let { add("epsilon" to epsilon(it.epsilon)) }
         map.maps[FilterKind.BOUNDED]?.let { add("bounded filter" to bounds(BoundCounts.of(it))) }
-        map.learned?.let { add("time constant learned" to timeConstant(it)) }
+        map.learned?.let { addAll(SensorWording(it.sensor()).facts) }
         addAll(agreement())
-    }
-
-    private fun timeConstant(learned: SelfCalibratingEstimator): String {
-        val (low, high) = learned.timeConstantInterval()
-        val constant = "${digits(learned.timeConstant)} s"
-        return if (learned.isExplained) {
-            "$constant (${digits(low)} to ${digits(high)} s at 95 % if the response is of first order)"
-        } else {
-            "$constant, but no sensor of first order explains the readings: its map has no bounds"
-        }
     }
 
     /** What may spoil the map, one sentence each. */

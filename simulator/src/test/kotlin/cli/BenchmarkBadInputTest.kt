@@ -116,7 +116,7 @@ class BenchmarkBadInputTest {
                 "bounded-extended, bayesian, separated by commas"
         private const val PLANNERS =
             "--planner: expected some of random-walk, lawnmower, bounded, polygon-rrt, " +
-                "bounded-extended, information, separated by commas"
+                "bounded-extended, information, settling-lawnmower, separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
         private const val GRID = "--grid: expected COLSxROWS such as 10x10, both whole numbers above 0"
         private const val CYCLE =

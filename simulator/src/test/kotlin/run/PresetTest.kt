@@ -137,7 +137,15 @@ class PresetTest {
             FilterKind.entries.map { it.label },
         )
         assertEquals(
-            listOf("random-walk", "lawnmower", "bounded", "polygon-rrt", "bounded-extended", "information"),
+            listOf(
+                "random-walk",
+                "lawnmower",
+                "bounded",
+                "polygon-rrt",
+                "bounded-extended",
+                "information",
+                "settling-lawnmower",
+            ),
             PlannerKind.entries.map { it.label },
         )
     }

@@ -37,6 +37,7 @@ class PlannerContractTest {
             PlannerKind.LAWNMOWER -> settings.pattern != LawnmowerPattern.RASTER
             PlannerKind.POLYGON_RRT -> false
             PlannerKind.BOUNDED, PlannerKind.BOUNDED_EXTENDED, PlannerKind.INFORMATION -> true
+            PlannerKind.SETTLING_LAWNMOWER -> false
         }
 
         fun build(seed: Int): Planner = kind.planner(Random(seed), settings)
@@ -46,6 +47,9 @@ class PlannerContractTest {
         when (kind) {
             PlannerKind.RANDOM_WALK -> WalkSteps.entries.map { Subject(kind, PlannerSettings(walk = it), it) }
             PlannerKind.LAWNMOWER -> LawnmowerPattern.entries.map { Subject(kind, PlannerSettings(pattern = it), it) }
+            PlannerKind.SETTLING_LAWNMOWER -> LawnmowerPattern.entries.map {
+                Subject(kind, PlannerSettings(pattern = it), it)
+            }
             PlannerKind.BOUNDED -> boundedSettings().map { Subject(kind, PlannerSettings(bounded = it), it) }
             PlannerKind.POLYGON_RRT -> listOf(1, 30).map { PolygonRrtSettings(it) }
                 .map { Subject(kind, PlannerSettings(polygonRrt = it), it) }

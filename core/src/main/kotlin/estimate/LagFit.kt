@@ -1,0 +1,122 @@
+package stillwater.estimate
+
+import kotlin.math.abs
+import kotlin.math.ceil
+import kotlin.math.exp
+import kotlin.math.sqrt
+
+/** The first-order lag as a [SensorFit]: its parameter is θ = ln τ. */
+internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
+    private val bank = LagBank()
+    private val mean = belief.mean
+    private val priorInformation = 1 / (belief.spread * belief.spread)
+    private var follows = false
+
+    /** θ̂ − θ of the bank's middle. */
+    private var offset = 0.0
+
+    /** Inverse variance of θ̂. */
+    private var information = priorInformation
+
+    init {
+        bank.reset(mean, WIDEST_STEP, noiseVariance)
+    }
+
+    /** The most likely time constant τ, s. */
+    val timeConstant: Double get() = exp(bank.node + offset)
+
+    /** Standard deviation of ln τ. */
+    val relativeUncertainty: Double get() = 1 / sqrt(information)
+
+    override val here: Int get() = bank.current
+    override val before: Int get() = bank.previous
+
+    /** From now on there is no tape to start over from: the nodes follow the time constant. */
+    fun follow() {
+        follows = true
+    }
+
+    override fun take(slot: Int, seconds: Double, value: Double) {
+        val moves = follows && slot != bank.current && abs(offset) > bank.step / 2
+        if (moves) bank.move(offset.coerceIn(-bank.step, bank.step))
+        bank.take(slot, seconds, value)
+        learn()
+    }
+
+    override fun leave() = bank.leave()
+
+    /** Starts over with the time constant that explains the tape best: a coarse search, then Newton's steps. */
+    override fun calibrate(tape: ReadingTape) {
+        var best = bank.node
+        var least = Double.POSITIVE_INFINITY
+        val reach = ceil(SEARCHED * belief.spread / (3 * WIDEST_STEP)).toInt()
+        for (k in -reach..reach) {
+            play(tape, mean + 3 * k * WIDEST_STEP, WIDEST_STEP)
+            for (i in 0..2) {
+                val node = bank.node + (i - 1) * bank.step
+                val cost = bank.misfit(i) / noiseVariance + (node - mean) * (node - mean) * priorInformation
+                if (cost < least) {
+                    least = cost
+                    best = node
+                }
+            }
+        }
+        var step = WIDEST_STEP
+        repeat(MOST_ROUNDS) {
+            play(tape, best, step)
+            learn()
+            val wanted = (2 * relativeUncertainty).coerceIn(NARROWEST_STEP, WIDEST_STEP)
+            val change = offset.coerceIn(-step, step)
+            if (abs(change) <= 0.1 * relativeUncertainty && step <= 2 * wanted) return
+            best += change
+            step = abs(change).coerceIn(wanted, WIDEST_STEP)
+        }
+        play(tape, best, step)
+        learn()
+    }
+
+    private fun play(tape: ReadingTape, node: Double, step: Double) {
+        bank.reset(node, step, noiseVariance)
+        for (i in 0 until tape.size) {
+            if (tape.slot(i) == LagBank.NONE) bank.leave() else bank.take(tape.slot(i), tape.time(i), tape.value(i))
+        }
+    }
+
+    /** Reads time constant and noise off the bank's parabola, eqs. (9) to (11). */
+    private fun learn() {
+        val curvature = maxOf(0.0, bank.curvature())
+        val slope = bank.slope() / noiseVariance + (mean - bank.node) * priorInformation
+        information = curvature / noiseVariance + priorInformation
+        offset = (slope / information).coerceIn(-FARTHEST_OFFSET * bank.step, FARTHEST_OFFSET * bank.step)
+        val place = offset / bank.step
+        val left = LagBank.interpolate(bank.misfit(0), bank.misfit(1), bank.misfit(2), place)
+        judge(left, bank.freedom, bank.succession)
+    }
+
+    override fun truth(slot: Int): Double = LagBank.interpolate(
+        bank.truth(slot, 0),
+        bank.truth(slot, 1),
+        bank.truth(slot, 2),
+        offset / bank.step,
+    )
+
+    /** Eq. (12). */
+    override fun variance(slot: Int): Double {
+        val low = bank.truth(slot, 0)
+        val high = bank.truth(slot, 2)
+        val bend = high - 2 * bank.truth(slot, 1) + low
+        val byTheta = ((high - low) / 2 + offset / bank.step * bend) / bank.step
+        return noiseVariance / bank.information(slot, 1) + byTheta * byTheta / information
+    }
+
+    private companion object {
+        /** The search reaches so many standard deviations of the belief about ln τ either way. */
+        const val SEARCHED = 1.5
+
+        /** Distances of the bank's nodes: a parabola is good over the widest, and numbers over the narrowest. */
+        const val WIDEST_STEP = 0.15
+        const val NARROWEST_STEP = 1e-3
+        const val FARTHEST_OFFSET = 2.0
+        const val MOST_ROUNDS = 8
+    }
+}

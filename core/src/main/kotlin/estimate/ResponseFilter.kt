@@ -1,0 +1,158 @@
+package stillwater.estimate
+
+import kotlin.math.exp
+import kotlin.math.sqrt
+
+/** The filters of a [ResponseBank]: two lags in a row, the truth here and in the cell before, and their covariances. */
+internal class ResponseFilter {
+    private val states = DoubleArray(2 * ResponseBank.NODES * STRIDE)
+    private val rates = DoubleArray(4 * ResponseBank.NODES)
+    private val keeps = DoubleArray(4 * ResponseBank.NODES)
+    private val keptFor = DoubleArray(2 * ResponseBank.NODES)
+    private var priorVariance = 1.0
+
+    private fun at(i: Int, branch: Int) = (2 * i + branch) * STRIDE
+
+    /** Time constants of both lags, s; 0 is none. */
+    fun set(i: Int, branch: Int, timeConstant: Double, secondLag: Double) {
+        rates[2 * (2 * i + branch)] = 1 / timeConstant
+        rates[2 * (2 * i + branch) + 1] = 1 / secondLag
+        keptFor[2 * i + branch] = Double.NaN
+    }
+
+    fun clear(priorVariance: Double) {
+        this.priorVariance = priorVariance
+        states.fill(0.0)
+    }
+
+    fun misfit(i: Int, branch: Int) = states[at(i, branch) + MISFIT]
+
+    fun succession(branch: Int) = states[at(0, branch) + SUCCESSION]
+
+    fun truth(i: Int, branch: Int) = states[at(i, branch) + P]
+
+    fun variance(i: Int, branch: Int) = states[at(i, branch) + PP]
+
+    fun truthBefore(i: Int, branch: Int) = states[at(i, branch) + Q]
+
+    fun varianceBefore(i: Int, branch: Int) = states[at(i, branch) + QQ]
+
+    fun state(i: Int, branch: Int) = states[at(i, branch) + S]
+
+    fun addMisfit(i: Int, misfit: Double) {
+        states[at(i, 0) + MISFIT] += misfit
+        states[at(i, 1) + MISFIT] += misfit
+    }
+
+    /** Both branches go on from [branch]. */
+    fun choose(i: Int, branch: Int) {
+        states.copyInto(states, at(i, 1 - branch), at(i, branch), at(i, branch) + STRIDE)
+    }
+
+    /** Sensor and water unknown; a single lag is its own first. */
+    fun begin(i: Int, lags: Int) {
+        for (branch in 0..1) {
+            val at = at(i, branch)
+            states.fill(0.0, at, at + MISFIT)
+            states[at + AA] = priorVariance
+            states[at + SS] = priorVariance
+            states[at + PP] = priorVariance
+            states[at + QQ] = priorVariance
+            if (lags == 1) states[at + AS] = priorVariance
+            states[at + INNOVATION] = 0.0
+        }
+    }
+
+    fun enter(i: Int) {
+        for (branch in 0..1) {
+            val at = at(i, branch)
+            states[at + Q] = states[at + P]
+            states[at + QQ] = states[at + PP]
+            states[at + AQ] = states[at + AP]
+            states[at + SQ] = states[at + SP]
+            states[at + PQ] = 0.0
+            states[at + P] = 0.0
+            states[at + AP] = 0.0
+            states[at + SP] = 0.0
+            states[at + PP] = priorVariance
+        }
+    }
+
+    fun predict(i: Int, branch: Int, elapsed: Double) {
+        val number = 2 * i + branch
+        if (elapsed != keptFor[number]) {
+            keeps[2 * number] = exp(-elapsed * rates[2 * number])
+            keeps[2 * number + 1] = exp(-elapsed * rates[2 * number + 1])
+            keptFor[number] = elapsed
+        }
+        val f = states
+        val at = at(i, branch)
+        val keep = keeps[2 * number]
+        val gain = 1 - keep
+        // a ← a + g (ψ − a)
+        f[at + A] += gain * (f[at + P] - f[at + A])
+        f[at + AA] = keep * keep * f[at + AA] + 2 * keep * gain * f[at + AP] + gain * gain * f[at + PP]
+        val cross = keep * f[at + AS] + gain * f[at + SP]
+        f[at + AP] = keep * f[at + AP] + gain * f[at + PP]
+        f[at + AQ] = keep * f[at + AQ] + gain * f[at + PQ]
+        // s ← s + g′ (a − s)
+        val hold = keeps[2 * number + 1]
+        val follow = 1 - hold
+        f[at + S] += follow * (f[at + A] - f[at + S])
+        f[at + SS] = hold * hold * f[at + SS] + 2 * hold * follow * cross + follow * follow * f[at + AA]
+        f[at + AS] = hold * cross + follow * f[at + AA]
+        f[at + SP] = hold * f[at + SP] + follow * f[at + AP]
+        f[at + SQ] = hold * f[at + SQ] + follow * f[at + AQ]
+    }
+
+    fun correct(i: Int, branch: Int, value: Double) {
+        val f = states
+        val at = at(i, branch)
+        val innovation = value - f[at + S]
+        val variance = f[at + SS] + 1
+        val a = f[at + AS]
+        val s = f[at + SS]
+        val p = f[at + SP]
+        val q = f[at + SQ]
+        val share = innovation / variance
+        f[at + MISFIT] += innovation * share
+        f[at + A] += a * share
+        f[at + S] += s * share
+        f[at + P] += p * share
+        f[at + Q] += q * share
+        f[at + AA] -= a * a / variance
+        f[at + AS] -= a * s / variance
+        f[at + AP] -= a * p / variance
+        f[at + AQ] -= a * q / variance
+        f[at + SS] -= s * s / variance
+        f[at + SP] -= s * p / variance
+        f[at + SQ] -= s * q / variance
+        f[at + PP] -= p * p / variance
+        f[at + PQ] -= p * q / variance
+        f[at + QQ] -= q * q / variance
+        val scaled = innovation / sqrt(variance)
+        f[at + SUCCESSION] += scaled * f[at + INNOVATION]
+        f[at + INNOVATION] = scaled
+    }
+
+    private companion object {
+        const val STRIDE = 17
+        const val A = 0
+        const val S = 1
+        const val P = 2
+        const val Q = 3
+        const val AA = 4
+        const val AS = 5
+        const val AP = 6
+        const val AQ = 7
+        const val SS = 8
+        const val SP = 9
+        const val SQ = 10
+        const val PP = 11
+        const val PQ = 12
+        const val QQ = 13
+        const val MISFIT = 14
+        const val SUCCESSION = 15
+        const val INNOVATION = 16
+    }
+}

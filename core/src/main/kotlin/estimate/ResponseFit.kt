@@ -1,0 +1,339 @@
+package stillwater.estimate
+
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** A sensor of two parameters as a [SensorFit]. Eqs. (14) to (17) of core/docs/SelfCalibratingEstimator.md. */
+internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
+    private val bank = ResponseBank()
+    private val surface = QuadraticSurface()
+
+    /** Slope of half the misfit over σ² and its second derivatives, the belief included, in the bank's steps. */
+    private var slopeFirst = 0.0
+    private var slopeSecond = 0.0
+    private var curveFirst = 1.0
+    private var curveSecond = 1.0
+    private var curveBoth = 0.0
+
+    /** Where the best parameters lie from the bank's middle, in its steps. */
+    private var placeFirst = 0.0
+    private var placeSecond = 0.0
+
+    /** Variance of the second, in its steps squared. */
+    private var spreadSecond = 1.0
+
+    /** What is assumed of the sensor. */
+    var kind: ResponseKind = ResponseKind.ASYMMETRIC
+
+    /** Where the search starts. */
+    private var startFirst = belief.mean
+
+    /** The most likely first parameter. */
+    val first: Double get() = bank.first + placeFirst * bank.firstStep
+
+    /** The most likely second parameter. */
+    val second: Double get() = bank.second + placeSecond * bank.secondStep
+
+    /** Logarithm of the time constant, s, or of its mean or sum. */
+    val logTime: Double get() = kind.logTime(first, second)
+
+    /** Variance of [logTime]. */
+    val logTimeVariance: Double
+        get() = maxOf(0.0, firstVariance - 2 * kind.shear * covariance + kind.shear * kind.shear * secondVariance)
+
+    /** Variance of [first]. */
+    val firstVariance: Double
+        get() = (certain(1 / curveFirst) + tilt * tilt * certain(spreadSecond)) * bank.firstStep * bank.firstStep
+
+    /** Variance of [second]. */
+    val secondVariance: Double get() = certain(spreadSecond) * bank.secondStep * bank.secondStep
+
+    /** Covariance of [first] and [second]. */
+    val covariance: Double get() = -tilt * certain(spreadSecond) * bank.firstStep * bank.secondStep
+
+    /** A variance in steps squared: once the nodes stay where they are, the surface is not exact to better than this. */
+    private fun certain(variance: Double) = if (follows) maxOf(variance, FINEST) else variance
+
+    /** From now on there is no tape to start over from. */
+    fun follow() {
+        follows = true
+    }
+
+    private var follows = false
+
+    /** How much the first parameter gives way when the second moves, in the bank's steps. */
+    private val tilt: Double get() = curveBoth / curveFirst
+
+    override val here: Int get() = bank.here
+    override val before: Int get() = bank.before
+
+    override fun take(slot: Int, seconds: Double, value: Double) {
+        bank.take(slot, seconds, value)
+        learn()
+    }
+
+    override fun leave() = bank.leave()
+
+    /** The first fit starts from this time constant, s; later ones from the last. */
+    fun startFrom(timeConstant: Double) {
+        if (!isFitted) startFirst = ln(timeConstant)
+    }
+
+    /** A coarse search over both parameters, then Newton's steps within a region that shrinks with the uncertainty. */
+    override fun calibrate(tape: ReadingTape) {
+        limit(tape)
+        if (!isFitted) search(tape)
+        descend(tape)
+        isFitted = true
+        var firstStep = FIRST_STEP * WIDEST_FIRST
+        var secondStep = FIRST_STEP * widest()
+        repeat(MOST_ROUNDS) {
+            play(tape, firstStep, secondStep)
+            learn()
+            val wantedFirst = (2 * sqrt(firstVariance)).coerceIn(NARROWEST, WIDEST_FIRST)
+            val wantedSecond = (2 * sqrt(secondVariance)).coerceIn(NARROWEST * widest(), widest())
+            val changeFirst = placeFirst.coerceIn(-1.0, 1.0) * firstStep
+            val reach = bank.secondStep
+            val changeSecond = (bank.second + placeSecond.coerceIn(-1.0, 1.0) * reach)
+                .coerceIn(kind.least + reach, most - reach) - bank.second
+            val isStill = changeFirst * changeFirst * curveFirst <= CLOSE * firstStep * firstStep &&
+                changeSecond * changeSecond * curveSecond <= CLOSE * reach * reach
+            val isNarrow = firstStep <= 2 * wantedFirst && reach <= 2 * wantedSecond
+            if (isStill && isNarrow) return
+            startFirst += changeFirst
+            startSecond = bank.second + changeSecond
+            firstStep = narrowed(firstStep, abs(changeFirst), wantedFirst)
+            secondStep = narrowed(reach, abs(changeSecond), wantedSecond)
+        }
+        play(tape, firstStep, secondStep)
+        learn()
+    }
+
+    /** The next step: no narrower than wanted or than the last change, and narrowing no faster than by four. */
+    private fun narrowed(step: Double, change: Double, wanted: Double) =
+        if (wanted >= step) minOf(wanted, 4 * step) else maxOf(wanted, change, step / 4)
+
+    private var startSecond = 0.0
+
+    /** Whether the search may start from the last fit. */
+    private var isFitted = false
+
+    /** How much of [lag]'s misfit over its σ² this kind promises to explain, from one look near that lag. */
+    fun glance(tape: ReadingTape, lag: LagFit): Double {
+        isFitted = false
+        startFirst = ln(lag.timeConstant)
+        startSecond = kind.least.coerceAtLeast(0.0)
+        limit(tape)
+        noiseVariance = lag.noiseVariance
+        play(tape, minOf(WIDEST_FIRST, 2 * lag.relativeUncertainty), GLANCE * widest())
+        learn()
+        return (lag.misfit - misfit) / lag.noiseVariance
+    }
+
+    private fun widest(): Double = when (kind) {
+        ResponseKind.ASYMMETRIC -> 0.3
+        ResponseKind.DEAD_TIME -> 0.15 * exp(startFirst)
+        ResponseKind.SECOND_ORDER -> 0.04
+    }
+
+    /**
+     * Largest second parameter. A dead time longer by a whole stay is the same sensor to a survey whose stays are of one
+     * length, with the map moved by a cell: none longer than a mean stay is looked for.
+     */
+    private var most = 0.0
+
+    private fun limit(tape: ReadingTape) {
+        most = if (kind == ResponseKind.DEAD_TIME) tape.meanStay() else kind.most
+    }
+
+    private fun search(tape: ReadingTape) {
+        val from = startFirst
+        var least = Double.POSITIVE_INFINITY
+        for (stretch in STRETCHES) {
+            for (share in shares()) {
+                val second = if (kind == ResponseKind.DEAD_TIME) share * most else share
+                val cost = cost(tape, from + stretch, second)
+                if (cost < least) {
+                    least = cost
+                    startFirst = from + stretch
+                    startSecond = second
+                }
+            }
+        }
+    }
+
+    /** A compass search: downhill along either parameter or both, with steps that halve where neither leads down. */
+    private fun descend(tape: ReadingTape) {
+        var bestFirst = startFirst
+        var bestSecond = startSecond.coerceIn(kind.least, most)
+        var least = cost(tape, bestFirst, bestSecond)
+        val share = if (isFitted) FIRST_STEP else 1.0
+        var firstStep = share * FIRST_REACH
+        var secondStep = share * if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
+        var halvings = 0
+        while (halvings < HALVINGS) {
+            // The best of all ways, so that a mirrored survey goes the mirrored way.
+            val fromFirst = bestFirst
+            val fromSecond = bestSecond
+            for (way in 0 until WAYS) {
+                val first = fromFirst + FIRST_WAY[way] * firstStep
+                val second = (fromSecond + SECOND_WAY[way] * secondStep).coerceIn(kind.least, most)
+                val cost = cost(tape, first, second)
+                if (cost < least) {
+                    least = cost
+                    bestFirst = first
+                    bestSecond = second
+                }
+            }
+            if (bestFirst == fromFirst && bestSecond == fromSecond) {
+                firstStep /= 2
+                secondStep /= 2
+                halvings++
+            }
+        }
+        startFirst = bestFirst
+        startSecond = bestSecond
+        cost(tape, bestFirst, bestSecond)
+        judge(bank.misfit(0), bank.freedom, bank.succession)
+    }
+
+    private fun cost(tape: ReadingTape, first: Double, second: Double): Double {
+        bank.resetMiddle(kind, first, second, noiseVariance)
+        play(tape)
+        val off = first - belief.mean
+        return bank.misfit(0) / noiseVariance + off * off / (belief.spread * belief.spread)
+    }
+
+    private fun shares() = when (kind) {
+        ResponseKind.ASYMMETRIC -> RATIOS
+        ResponseKind.DEAD_TIME -> DELAYS
+        ResponseKind.SECOND_ORDER -> PRODUCTS
+    }
+
+    private fun play(tape: ReadingTape, firstStep: Double, secondStep: Double) {
+        // The nodes must not leave what a sensor can be.
+        val reach = minOf(secondStep, (most - kind.least) / 2)
+        startSecond = startSecond.coerceIn(kind.least + reach, most - reach)
+        bank.reset(kind, startFirst, firstStep, startSecond, reach, noiseVariance)
+        play(tape)
+    }
+
+    private fun play(tape: ReadingTape) {
+        for (i in 0 until tape.size) {
+            if (tape.slot(i) == LagBank.NONE) bank.leave() else bank.take(tape.slot(i), tape.time(i), tape.value(i))
+        }
+    }
+
+    private fun learn() {
+        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.misfit(i))
+        val scale = 1 / (2 * noiseVariance)
+        val spread = bank.firstStep / belief.spread
+        curveFirst = maxOf(0.0, surface.curveFirst * scale) + spread * spread
+        slopeFirst = -surface.slopeFirst * scale + (belief.mean - bank.first) / belief.spread * spread
+        // The second parameter is hardly believed to be anything: within a few of the widest steps.
+        val tie = bank.secondStep / (SECOND_SPREAD * widest())
+        curveSecond = maxOf(0.0, surface.curveSecond * scale) + tie * tie
+        slopeSecond = -surface.slopeSecond * scale
+        val tied = MOST_CORRELATED * sqrt(curveFirst * curveSecond)
+        curveBoth = (surface.curveBoth * scale).coerceIn(-tied, tied)
+        spreadSecond = curveFirst / determinant()
+        placeSecond = (curveFirst * slopeSecond - curveBoth * slopeFirst) / determinant()
+        truncate((kind.least - bank.second) / bank.secondStep, (most - bank.second) / bank.secondStep)
+        placeSecond = placeSecond.coerceIn(-FARTHEST, FARTHEST)
+        placeFirst = ((slopeFirst - curveBoth * placeSecond) / curveFirst).coerceIn(-FARTHEST, FARTHEST)
+        // Far from its nodes the surface is not to be trusted: something was left at each of them.
+        var least = Double.POSITIVE_INFINITY
+        for (i in 0 until ResponseBank.NODES) least = minOf(least, bank.misfit(i))
+        judge(
+            maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * noiseVariance),
+            bank.freedom,
+            bank.succession,
+        )
+    }
+
+    /** Mean and variance of the second parameter, which lies between [low] and [high] for certain; eq. (17). */
+    private fun truncate(low: Double, high: Double) {
+        val deviation = sqrt(spreadSecond)
+        if (placeSecond - low > CERTAIN * deviation && high - placeSecond > CERTAIN * deviation) return
+        val from = maxOf(low, minOf(placeSecond, high) - CERTAIN * deviation)
+        val width = (minOf(high, maxOf(placeSecond, low) + CERTAIN * deviation) - from) / PARTS
+        val nearest = (placeSecond.coerceIn(low, high) - placeSecond) / deviation
+        var sum = 0.0
+        var first = 0.0
+        var second = 0.0
+        for (k in 0 until PARTS) {
+            val x = from + (k + HALF) * width
+            val off = (x - placeSecond) / deviation
+            val weight = exp((nearest * nearest - off * off) / 2)
+            sum += weight
+            first += weight * x
+            second += weight * x * x
+        }
+        placeSecond = first / sum
+        spreadSecond = maxOf(second / sum - placeSecond * placeSecond, width * width / 12)
+    }
+
+    private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
+
+    override fun truth(slot: Int): Double {
+        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
+        return surface.at(placeFirst, placeSecond)
+    }
+
+    override fun variance(slot: Int): Double {
+        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
+        val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
+        val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
+        val alongRidge = bySecond - tilt * byFirst
+        return noiseVariance / bank.information(slot, 0) + byFirst * byFirst * certain(1 / curveFirst) +
+            alongRidge * alongRidge * certain(spreadSecond)
+    }
+
+    private companion object {
+        val STRETCHES = doubleArrayOf(-1.5, -1.2, -0.9, -0.6, -0.3, 0.0, 0.3, 0.6)
+        const val WAYS = 8
+        val FIRST_WAY = doubleArrayOf(1.0, -1.0, 0.0, 0.0, 1.0, -1.0, 1.0, -1.0)
+        val SECOND_WAY = doubleArrayOf(0.0, 0.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0)
+        val RATIOS = doubleArrayOf(-1.0, -0.5, 0.5, 1.0)
+        val DELAYS = doubleArrayOf(0.05, 0.15, 0.3, 0.5, 0.7, 0.9)
+        val PRODUCTS = doubleArrayOf(0.06, 0.14, 0.22)
+        const val WIDEST_FIRST = 0.15
+        const val NARROWEST = 3e-3
+        const val SECOND_SPREAD = 10.0
+        const val MOST_CORRELATED = 0.99
+        const val FARTHEST = 2.0
+        const val FINEST = 1.0 / 16
+        const val FIRST_REACH = 0.2
+        const val FIRST_STEP = 0.3
+        const val HALVINGS = 5
+        const val GLANCE = 0.3
+        const val CERTAIN = 5.0
+        const val PARTS = 48
+        const val HALF = 0.5
+        const val MOST_BELOW = 8.0
+        const val CLOSE = 0.03
+        const val MOST_ROUNDS = 10
+    }
+}
+
+/** The quadratic through the seven numbers of a [ResponseBank], in steps from its middle. */
+internal class QuadraticSurface {
+    private val numbers = DoubleArray(ResponseBank.NODES)
+
+    fun set(i: Int, number: Double) {
+        numbers[i] = number
+    }
+
+    val slopeFirst: Double get() = (numbers[2] - numbers[1]) / 2
+    val slopeSecond: Double get() = (numbers[4] - numbers[3]) / 2
+    val curveFirst: Double get() = numbers[2] - 2 * numbers[0] + numbers[1]
+    val curveSecond: Double get() = numbers[4] - 2 * numbers[0] + numbers[3]
+    val curveBoth: Double
+        get() = (numbers[6] + numbers[5] - numbers[1] - numbers[2] - numbers[3] - numbers[4]) / 2 + numbers[0]
+
+    fun at(first: Double, second: Double): Double =
+        numbers[0] + first * (slopeFirst + curveFirst * first / 2 + curveBoth * second) +
+            second * (slopeSecond + curveSecond * second / 2)
+}

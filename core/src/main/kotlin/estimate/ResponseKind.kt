@@ -1,0 +1,57 @@
+package stillwater.estimate
+
+import kotlin.math.exp
+import kotlin.math.sqrt
+
+/**
+ * The sensors with two parameters that a [ResponseBank] can assume. Each contains the first-order lag.
+ *
+ * The first parameter is the logarithm of a time constant, s.
+ *
+ * @property lags lags in a row.
+ * @property branches how many ways a visit can go: rising and falling, where they differ.
+ * @property least smallest second parameter.
+ * @property most largest second parameter.
+ */
+internal enum class ResponseKind(val lags: Int, val branches: Int, val least: Double, val most: Double) {
+    /** Second parameter: a = ln(τ rising / τ falling); the first is the mean of their logarithms. */
+    ASYMMETRIC(lags = 1, branches = 2, least = -4.0, most = 4.0),
+
+    /** Second parameter: the dead time, s. */
+    DEAD_TIME(lags = 1, branches = 1, least = 0.0, most = Double.MAX_VALUE),
+
+    /**
+     * Two lags in a row; second parameter: p, the product of their time constants over the square of their sum T. First:
+     * ln T + [SHEAR] (p − 1/4), because readings tell that better than ln T.
+     */
+    SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25),
+    ;
+
+    /** Logarithm of the time constant, s, or of its mean or sum. */
+    fun logTime(first: Double, second: Double): Double = first - shear * (second - SHEARED_ABOUT)
+
+    /** How [logTime] changes with the second parameter while the first stays, with the sign turned. */
+    val shear: Double get() = if (this == SECOND_ORDER) SHEAR else 0.0
+
+    /** Time constant of the lag, or of the first of two, s. */
+    fun timeConstant(first: Double, second: Double, branch: Int): Double = when (this) {
+        ASYMMETRIC -> exp(first + if (branch == 0) second / 2 else -second / 2)
+        DEAD_TIME -> exp(first)
+        SECOND_ORDER -> (1 - shorter(second)) * exp(logTime(first, second))
+    }
+
+    /** Time constant of the second lag, s; 0 where there is none. */
+    fun secondLag(first: Double, second: Double): Double =
+        if (this == SECOND_ORDER) shorter(second) * exp(logTime(first, second)) else 0.0
+
+    /** The dead time, s. */
+    fun deadTime(second: Double): Double = if (this == DEAD_TIME) second else 0.0
+
+    companion object {
+        private const val SHEAR = 4.0
+        private const val SHEARED_ABOUT = 0.25
+
+        /** The share that the shorter of two time constants has in their sum, from their [product] over its square. */
+        fun shorter(product: Double): Double = (1 - sqrt(maxOf(0.0, 1 - 4 * product))) / 2
+    }
+}

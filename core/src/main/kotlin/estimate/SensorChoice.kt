@@ -1,0 +1,184 @@
+package stillwater.estimate
+
+import stillwater.model.Interval
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Chooses the sensor model of a [SelfCalibratingEstimator] from the readings.
+ *
+ * The first-order lag is fitted always. The others are fitted where it leaves something to explain; the Bayesian
+ * information criterion decides. Source: core/docs/SelfCalibratingEstimator.md, section "Choosing".
+ */
+internal class SensorChoice(private val settings: SelfCalibratingSettings) {
+    private val lag = LagFit(settings)
+    private val responses = ResponseKind.entries.map { kind -> ResponseFit(settings).also { it.kind = kind } }
+    private val slew = SlewFit(settings)
+    private val kinds = listOf(
+        SensorKind.FIRST_ORDER,
+        SensorKind.ASYMMETRIC,
+        SensorKind.DEAD_TIME,
+        SensorKind.SECOND_ORDER,
+        SensorKind.SLEW_LIMIT,
+    )
+    private val fits: List<SensorFit> = listOf<SensorFit>(lag) + responses + slew
+    private val criteria = DoubleArray(fits.size)
+
+    /** Logarithm of the odds against each model; NaN if not tried. */
+    private val odds = DoubleArray(fits.size) { Double.NaN }.also { it[0] = 0.0 }
+
+    /** The model that values rest on. */
+    var active: SensorFit = lag
+        private set
+
+    /** Another that the readings leave possible, whose bounds count too. */
+    var rival: SensorFit? = null
+        private set
+
+    val isExplained: Boolean get() = active.isWhite
+
+    val timeConstant: Double get() = (active as? ResponseFit)?.let { exp(it.logTime) } ?: lag.timeConstant
+
+    val relativeUncertainty: Double
+        get() = (active as? ResponseFit)?.let { sqrt(it.logTimeVariance) } ?: lag.relativeUncertainty
+
+    /** From now on the tape does not hold all. */
+    fun follow() {
+        lag.follow()
+        for (fit in responses) fit.follow()
+    }
+
+    fun take(slot: Int, seconds: Double, value: Double) {
+        active.take(slot, seconds, value)
+        rival?.take(slot, seconds, value)
+    }
+
+    fun leave() {
+        active.leave()
+        rival?.leave()
+    }
+
+    /** Fits to [tape], and chooses. */
+    fun decide(tape: ReadingTape) {
+        // What was far behind a model that explained the readings is not tried again.
+        if (!isExplained) odds.fill(Double.NaN)
+        active = lag
+        rival = null
+        lag.calibrate(tape)
+        if (lag.freedom < SensorFit.FEWEST_TO_JUDGE) return
+        val penalty = ln(lag.freedom)
+        criteria.fill(Double.NaN)
+        criteria[0] = lag.freedom * ln(lag.misfit) + penalty
+        for (k in 1 until fits.size) {
+            if (odds[k] > HOPELESS) continue
+            criteria[k] = criterion(fits[k], tape, penalty)
+        }
+        var best = 0
+        for (k in fits.indices) if (criteria[k] < criteria[best]) best = k
+        active = fits[best]
+        for (k in fits.indices) if (!(odds[k] > HOPELESS)) odds[k] = (criteria[k] - criteria[best]) / 2
+        var next = -1
+        if (best > 0) {
+            for (k in fits.indices) if (k != best && isPossible(k) && (next < 0 || odds[k] < odds[next])) next = k
+        }
+        if (next >= 0) rival = fits[next]
+    }
+
+    private fun criterion(fit: SensorFit, tape: ReadingTape, penalty: Double): Double {
+        if (fit is ResponseFit) {
+            if (lag.isWhite && fit.glance(tape, lag) < WORTH_A_FIT) return Double.NaN
+            fit.startFrom(lag.timeConstant)
+        } else if (lag.isWhite) {
+            return Double.NaN
+        }
+        fit.calibrate(tape)
+        if (fit is SlewFit && !fit.moves) return Double.NaN
+        // The same number of readings for all: a truth never reached is not fitted.
+        val left = fit.misfit * if (fit is SlewFit) lag.freedom / fit.freedom else 1.0
+        return lag.freedom * ln(left) + if (fit is ResponseFit) 2 * penalty else penalty
+    }
+
+    private fun isPossible(k: Int) = odds[k] < POSSIBLE && fits[k].isWhite
+
+    /** What is believed, in sensor units with [scale] of them to the scaled unit. */
+    fun belief(scale: Double): SensorBelief {
+        val best = fits.indexOf(active)
+        val candidates = fits.indices.map { k ->
+            val standing = when {
+                k == best -> SensorStanding.CHOSEN
+                odds[k].isNaN() -> SensorStanding.NOT_TRIED
+                !isExplained -> SensorStanding.POSSIBLE
+                best == 0 && odds[k] < POSSIBLE -> SensorStanding.NOT_NEEDED
+                isPossible(k) -> SensorStanding.POSSIBLE
+                else -> SensorStanding.EXCLUDED
+            }
+            val numbers = if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k, scale)
+            SensorCandidate(kinds[k], standing, odds[k], numbers)
+        }
+        return SensorBelief(isExplained, candidates.sortedBy { it.standing })
+    }
+
+    private fun parameters(k: Int, scale: Double): List<SensorParameter> {
+        val fit = fits[k]
+        val quantile = quantile(fit.freedom)
+        if (fit is LagFit) return listOf(time("time_constant_s", fit.timeConstant, quantile * fit.relativeUncertainty))
+        if (fit is SlewFit) return listOf(rate(fit, scale, quantile))
+        fit as ResponseFit
+        val first = sqrt(fit.logTimeVariance) * quantile
+        val second = sqrt(fit.secondVariance) * quantile
+        return when (fit.kind) {
+            ResponseKind.ASYMMETRIC -> listOf(1, -1).map { sign ->
+                val variance = fit.firstVariance + sign * fit.covariance + fit.secondVariance / 4
+                val value = exp(fit.first + sign * fit.second / 2)
+                val name = if (sign > 0) "rising_time_constant_s" else "falling_time_constant_s"
+                time(name, value, quantile * sqrt(maxOf(0.0, variance)))
+            }
+            ResponseKind.DEAD_TIME -> listOf(
+                SensorParameter(
+                    "dead_time_s",
+                    fit.second,
+                    Interval(maxOf(0.0, fit.second - second), fit.second + second),
+                    "s",
+                ),
+                time("time_constant_s", exp(fit.logTime), first),
+            )
+            ResponseKind.SECOND_ORDER -> listOf(
+                time("sum_of_time_constants_s", exp(fit.logTime), first),
+                SensorParameter(
+                    "share_of_the_shorter",
+                    ResponseKind.shorter(fit.second),
+                    Interval(
+                        ResponseKind.shorter(maxOf(0.0, fit.second - second)),
+                        ResponseKind.shorter(fit.second + second),
+                    ),
+                    "",
+                ),
+            )
+        }
+    }
+
+    private fun rate(fit: SlewFit, scale: Double, quantile: Double): SensorParameter {
+        val reach = exp(quantile * fit.relativeUncertainty)
+        val rate = scale * fit.rate
+        return SensorParameter("rate_per_s", rate, Interval(rate / reach, rate * reach), "sensor units/s")
+    }
+
+    private fun time(name: String, value: Double, reach: Double) =
+        SensorParameter(name, value, Interval(value * exp(-reach), value * exp(reach)), "s")
+
+    companion object {
+        /** Gain in misfit over σ² that a look must promise before a model is fitted. */
+        private const val WORTH_A_FIT = 9.0
+
+        /** A model with smaller logarithm of the odds against it is still possible. */
+        private const val POSSIBLE = 5.0
+        private const val HOPELESS = 50.0
+
+        /** 97.5 % quantile of the normal distribution. */
+        private const val NORMAL = 1.959963984540054
+
+        /** Student's 97.5 % quantile to first order in 1/ν: z + (z³ + z) / (4 ν). */
+        fun quantile(freedom: Double): Double = NORMAL + NORMAL * (NORMAL * NORMAL + 1) / (4 * freedom)
+    }
+}

@@ -1,0 +1,72 @@
+package stillwater.estimate
+
+import kotlin.math.sqrt
+
+/**
+ * A sensor model of a [SelfCalibratingEstimator], fitted to the readings together with the truth of every cell.
+ *
+ * Everything is in scaled values: readings minus the prior's midpoint, over its width. Slots number the cells in the
+ * order of their first visit.
+ *
+ * @property belief what is believed of the time constant beforehand.
+ */
+internal abstract class SensorFit(protected val belief: SelfCalibratingSettings) {
+    /** σ², variance of the readings about the sensor's state, scaled. */
+    var noiseVariance: Double = FIRST_NOISE * FIRST_NOISE
+        protected set
+
+    /** Sum of squares left at the best parameters, the weak belief about σ included. */
+    var misfit: Double = 0.0
+        private set
+
+    /** Readings, and agreements between visits, beyond the numbers fitted, the weak belief about σ included. */
+    var freedom: Double = FIRST_FREEDOM
+        private set
+
+    /** Whether successive innovations are not clearly alike, eq. (13). */
+    var isWhite: Boolean = true
+        private set
+
+    /** Slot of the cell the sensor is in, [LagBank.NONE] if not known. */
+    abstract val here: Int
+
+    /** Slot of the cell it was in before. */
+    abstract val before: Int
+
+    /** Fits the parameters to [tape], all that was read so far, and is then as if it had taken all of it. */
+    abstract fun calibrate(tape: ReadingTape)
+
+    /** Takes a reading in the cell with [slot]; equal slots in a row are one visit. */
+    abstract fun take(slot: Int, seconds: Double, value: Double)
+
+    /** The boat left without a reading of where it went. */
+    abstract fun leave()
+
+    /** Truth of the cell with [slot]. */
+    abstract fun truth(slot: Int): Double
+
+    /** Variance of [truth], what the parameters and the noise leave open included. */
+    abstract fun variance(slot: Int): Double
+
+    /** From the sum of squares left, the degrees of freedom and the sum of products of successive innovations. */
+    protected fun judge(left: Double, free: Double, succession: Double) {
+        misfit = maxOf(0.0, left) + FIRST_FREEDOM * FIRST_NOISE * FIRST_NOISE
+        freedom = FIRST_FREEDOM + maxOf(0.0, free)
+        noiseVariance = misfit / freedom
+        // The correlation of white noise has the standard deviation 1/√freedom, eq. (13).
+        isWhite = freedom < FEWEST_TO_JUDGE || succession / misfit <= LEAST_CORRELATION + DEVIATIONS / sqrt(freedom)
+    }
+
+    companion object {
+        /** Readings beyond the numbers fitted that it takes to judge a model. */
+        const val FEWEST_TO_JUDGE = 64
+
+        /** What is believed of σ beforehand, in widths of the prior, and how many readings that is worth. */
+        const val FIRST_NOISE = 1e-3
+        const val FIRST_FREEDOM = 2.0
+
+        /** Correlation of successive innovations that speaks against the model: this much and so many deviations. */
+        private const val LEAST_CORRELATION = 0.02
+        private const val DEVIATIONS = 4.5
+    }
+}

@@ -1,0 +1,312 @@
+package stillwater.estimate
+
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Follows a sensor that moves towards the truth at a fixed rate and stops there, for a known noise.
+ *
+ * A visit goes one of four ways: up all along, down all along, up and then level, down and then level. Each is a Kalman
+ * filter on the sensor's state, its rate and the truth of the cell before, with the likelihood of what it saw; of the moments at
+ * which it may have come to rest the likeliest is kept. On leaving, the likeliest way counts. Level means the truth is
+ * the state; moving all along bounds the truth on one side. Scaled values. Eqs. (18) to (20) of
+ * core/docs/SelfCalibratingEstimator.md. O(1) a reading, no allocation once the cells' memory has grown.
+ */
+internal class SlewFilter {
+    private val ways = DoubleArray(WAYS * STRIDE)
+    private var memory = DoubleArray(FIRST_SLOTS * SLOT)
+    private var noise = 1.0
+    private var lastSeconds = Double.NaN
+    private var lastElapsed = 0.0
+
+    /** Slot of the cell the boat is in, or [LagBank.NONE]. */
+    var here: Int = LagBank.NONE
+        private set
+
+    /** Slot of the cell before, if its truth was reached there, or [LagBank.NONE]. */
+    var before: Int = LagBank.NONE
+        private set
+
+    /** Readings, and agreements between visits, beyond the numbers fitted to them, but for the present visit's. */
+    private var freedomBefore = 0.0
+
+    /** See [freedomBefore]; a truth that was reached is a number fitted. */
+    val freedom: Double get() = freedomBefore - if (here != LagBank.NONE && best() >= LEVEL) 1 else 0
+
+    /** Sum of squared innovations over their variances, σ² included. */
+    val misfit: Double get() = ways[best() * STRIDE + MISFIT]
+
+    /** Minus twice the logarithm of the likelihood, but for a constant. */
+    val score: Double get() = ways[best() * STRIDE + SCORE]
+
+    /** Sum of products of successive scaled innovations. */
+    val succession: Double get() = ways[best() * STRIDE + SUCCESSION]
+
+    /** The most likely rate, 1/s. */
+    val rate: Double get() = ways[best() * STRIDE + R]
+
+    /** Its variance. */
+    val rateVariance: Double get() = ways[best() * STRIDE + RR]
+
+    /** Forgets all and starts from this [rate], 1/s, known within [relative] of it, and [noise], the variance of the readings. */
+    fun reset(rate: Double, relative: Double, noise: Double) {
+        this.noise = noise
+        ways.fill(0.0)
+        for (way in 0 until WAYS) {
+            ways[way * STRIDE + R] = rate
+            ways[way * STRIDE + RR] = relative * relative * rate * rate
+        }
+        memory.fill(0.0)
+        here = LagBank.NONE
+        before = LagBank.NONE
+        freedomBefore = 0.0
+    }
+
+    /** The boat left without a reading of where it went: the next one finds the sensor in an unknown state. */
+    fun leave() {
+        if (here == LagBank.NONE) return
+        settle()
+        if (before != LagBank.NONE) pool(before)
+        before = LagBank.NONE
+        here = LagBank.NONE
+    }
+
+    /** Takes the scaled reading [value] in the cell with [slot]; equal slots in a row are one visit. */
+    fun take(slot: Int, seconds: Double, value: Double) {
+        var elapsed = 0.0
+        if (here == LagBank.NONE) {
+            for (way in 0 until WAYS) {
+                val at = way * STRIDE
+                ways[at + S] = 0.0
+                ways[at + SS] = 1.0
+                ways[at + Q] = 0.0
+                ways[at + QQ] = 1.0
+                ways[at + SR] = 0.0
+                ways[at + SQ] = 0.0
+                ways[at + RQ] = 0.0
+            }
+            freedomBefore--
+            begin(slot)
+        } else {
+            if (slot != here) {
+                settle()
+                begin(slot)
+            }
+            elapsed = seconds - lastSeconds
+        }
+        lastSeconds = seconds
+        lastElapsed = elapsed
+        // Level ways first: they start where the moving ones were.
+        for (way in 0..1) rest(LEVEL + way, way, elapsed, value)
+        for (way in 0..1) {
+            move(way * STRIDE, if (way == UP) elapsed else -elapsed)
+            correct(way * STRIDE, value)
+        }
+        freedomBefore++
+    }
+
+    private fun begin(slot: Int) {
+        here = slot
+        // Level only once it has come to rest.
+        ways[LEVEL * STRIDE + SCORE] = Double.POSITIVE_INFINITY
+        ways[(LEVEL + 1) * STRIDE + SCORE] = Double.POSITIVE_INFINITY
+    }
+
+    /** The level [way] goes on, or starts anew from the [moving] one, whichever is likelier. */
+    private fun rest(way: Int, moving: Int, elapsed: Double, value: Double) {
+        val at = way * STRIDE
+        correct(at, value)
+        val from = moving * STRIDE
+        // It comes to rest in this step with the odds of the step to the range of the field; anywhere in the step.
+        val step = ways[from + R] * elapsed
+        val shift = if (moving == UP) step / 2 else -step / 2
+        val variance = ways[from + SS] + step * step / 12 + noise
+        val innovation = value - ways[from + S] - shift
+        val cost = -2 * ln(maxOf(step, LEAST_STEP))
+        val started = ways[from + SCORE] + cost + innovation * innovation / variance + ln(variance / noise)
+        if (!(started < ways[at + SCORE])) return
+        ways.copyInto(ways, at, from, from + STRIDE)
+        ways[at + S] += shift
+        ways[at + SS] += step * step
+        ways[at + SCORE] += cost
+        correct(at, value)
+    }
+
+    /** s ← s ± r Δ. */
+    private fun move(at: Int, elapsed: Double) {
+        val f = ways
+        f[at + S] += elapsed * f[at + R]
+        f[at + SS] += elapsed * (2 * f[at + SR] + elapsed * f[at + RR])
+        f[at + SR] += elapsed * f[at + RR]
+        f[at + SQ] += elapsed * f[at + RQ]
+    }
+
+    private fun correct(at: Int, value: Double) {
+        val f = ways
+        val innovation = value - f[at + S]
+        val variance = f[at + SS] + noise
+        val share = innovation / variance
+        f[at + MISFIT] += innovation * share * noise
+        f[at + SCORE] += innovation * share + ln(variance / noise)
+        val scaled = innovation * sqrt(noise / variance)
+        f[at + SUCCESSION] += scaled * f[at + INNOVATION]
+        f[at + INNOVATION] = scaled
+        val s = f[at + SS]
+        val r = f[at + SR]
+        val q = f[at + SQ]
+        f[at + S] += s * share
+        f[at + R] += r * share
+        f[at + Q] += q * share
+        f[at + SS] -= s * s / variance
+        f[at + SR] -= s * r / variance
+        f[at + SQ] -= s * q / variance
+        f[at + RR] -= r * r / variance
+        f[at + RQ] -= r * q / variance
+        f[at + QQ] -= q * q / variance
+    }
+
+    private fun best(): Int {
+        var best = 0
+        for (way in 1 until WAYS) if (ways[way * STRIDE + SCORE] < ways[best * STRIDE + SCORE]) best = way
+        return best
+    }
+
+    /** Whether up and down are as likely, as with the first reading of all: it bounds nothing. */
+    private fun isOpen() = ways[UP * STRIDE + SCORE] == ways[DOWN * STRIDE + SCORE]
+
+    /** Ends the visit: all ways go on from the likeliest, whose truth is the one before from now on. */
+    private fun settle() {
+        val best = best()
+        val isOpen = isOpen()
+        for (way in 0 until WAYS) if (way != best) ways.copyInto(ways, way * STRIDE, best * STRIDE, (best + 1) * STRIDE)
+        if (before != LagBank.NONE) pool(before)
+        val slot = here
+        before = LagBank.NONE
+        remember(slot)
+        if (best >= LEVEL) {
+            freedomBefore--
+            before = slot
+            for (way in 0 until WAYS) {
+                val at = way * STRIDE
+                ways[at + Q] = ways[at + S]
+                ways[at + QQ] = ways[at + SS]
+                ways[at + SQ] = ways[at + SS]
+                ways[at + RQ] = ways[at + SR]
+            }
+        } else {
+            // It may have come to rest in the last step after all.
+            val step = ways[R] * lastElapsed
+            for (way in 0 until WAYS) {
+                ways[way * STRIDE + SQ] = 0.0
+                ways[way * STRIDE + RQ] = 0.0
+                ways[way * STRIDE + SS] += step * step / 12
+            }
+            val beyond = CERTAIN * sqrt(ways[SS])
+            val at = slot * SLOT
+            if (isOpen) return
+            if (best == UP) {
+                memory[at + LOWER] = maxOf(memory[at + LOWER], ways[S] - beyond + HALF)
+            } else {
+                memory[at + UPPER] = maxOf(memory[at + UPPER], HALF - ways[S] - beyond)
+            }
+        }
+    }
+
+    private fun remember(slot: Int) {
+        while (memory.size < (slot + 1) * SLOT) memory = memory.copyOf(2 * memory.size)
+    }
+
+    private fun pool(slot: Int) {
+        remember(slot)
+        val at = slot * SLOT
+        val information = 1 / maxOf(ways[QQ], noise * LEAST_SHARE)
+        val known = memory[at + INFORMATION]
+        if (known > 0) {
+            val gap = ways[Q] - memory[at + MEAN]
+            val misfit = gap * gap / (1 / information + 1 / known)
+            for (way in 0 until WAYS) {
+                ways[way * STRIDE + MISFIT] += misfit * noise
+                ways[way * STRIDE + SCORE] += misfit
+            }
+            freedomBefore++
+        }
+        memory[at + MEAN] += information / (known + information) * (ways[Q] - memory[at + MEAN])
+        memory[at + INFORMATION] = known + information
+    }
+
+    /** Information on the truth of the cell with [slot], 0 if it was never reached. */
+    fun information(slot: Int): Double {
+        var information = if (isKnown(slot)) memory[slot * SLOT + INFORMATION] else 0.0
+        val at = best() * STRIDE
+        if (slot == here && best() >= LEVEL) information += 1 / ways[at + SS]
+        if (slot == before) information += 1 / ways[at + QQ]
+        return information
+    }
+
+    /** The truth of the cell with [slot]: if it was never reached, the middle of its bounds. */
+    fun truth(slot: Int): Double {
+        val information = information(slot)
+        if (information == 0.0) return (lower(slot) + upper(slot)) / 2
+        var sum = if (isKnown(slot)) memory[slot * SLOT + MEAN] * memory[slot * SLOT + INFORMATION] else 0.0
+        val at = best() * STRIDE
+        if (slot == here && best() >= LEVEL) sum += ways[at + S] / ways[at + SS]
+        if (slot == before) sum += ways[at + Q] / ways[at + QQ]
+        return sum / information
+    }
+
+    /** Lower bound of a truth never reached. */
+    fun lower(slot: Int): Double {
+        val way = best()
+        val known = if (isKnown(slot)) memory[slot * SLOT + LOWER] - HALF else -HALF
+        if (slot != here || way != UP || isOpen()) return known
+        return maxOf(known, ways[way * STRIDE + S] - CERTAIN * sqrt(ways[way * STRIDE + SS]))
+    }
+
+    /** Upper bound of a truth never reached. */
+    fun upper(slot: Int): Double {
+        val way = best()
+        val known = if (isKnown(slot)) HALF - memory[slot * SLOT + UPPER] else HALF
+        if (slot != here || way != DOWN || isOpen()) return known
+        return minOf(known, ways[way * STRIDE + S] + CERTAIN * sqrt(ways[way * STRIDE + SS]))
+    }
+
+    private fun isKnown(slot: Int) = (slot + 1) * SLOT <= memory.size
+
+    private companion object {
+        const val WAYS = 4
+        const val UP = 0
+        const val DOWN = 1
+        const val LEVEL = 2
+
+        const val STRIDE = 13
+        const val S = 0
+        const val R = 1
+        const val Q = 2
+        const val SS = 3
+        const val SR = 4
+        const val SQ = 5
+        const val RR = 6
+        const val RQ = 7
+        const val QQ = 8
+        const val MISFIT = 9
+        const val SCORE = 10
+        const val SUCCESSION = 11
+        const val INNOVATION = 12
+
+        /** Of a cell: truth, information, and how far its bounds are from the prior's ends. */
+        const val SLOT = 4
+        const val MEAN = 0
+        const val INFORMATION = 1
+        const val LOWER = 2
+        const val UPPER = 3
+        const val FIRST_SLOTS = 128
+
+        /** Half the width of the prior. */
+        const val HALF = 0.5
+
+        /** A bound lies so many standard deviations beyond the state that sets it. */
+        const val CERTAIN = 2.0
+        const val LEAST_STEP = 1e-9
+        const val LEAST_SHARE = 1e-6
+    }
+}

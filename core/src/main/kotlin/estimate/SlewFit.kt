@@ -1,0 +1,125 @@
+package stillwater.estimate
+
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/** The slew-limited sensor as a [SensorFit]: its parameter is the rate r. */
+internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
+    private val filter = SlewFilter()
+    private val slopes = DoubleArray(belief.recalled)
+    private var start = 1.0
+
+    /** The most likely rate r, widths of the prior a second. */
+    val rate: Double get() = filter.rate
+
+    /** Standard deviation of ln r. */
+    val relativeUncertainty: Double get() = sqrt(filter.rateVariance) / rate
+
+    override val here: Int get() = filter.here
+    override val before: Int get() = filter.before
+
+    /** Whether the readings of [tape] ever move: if not, every rate explains them. */
+    var moves: Boolean = false
+        private set
+
+    override fun take(slot: Int, seconds: Double, value: Double) {
+        filter.take(slot, seconds, value)
+        learn()
+    }
+
+    override fun leave() = filter.leave()
+
+    override fun calibrate(tape: ReadingTape) {
+        moves = false
+        val count = slopes(tape)
+        if (count == 0) return
+        val slowest = slopes[count / 2]
+        val fastest = slopes[count - 1]
+        if (!(fastest > 0)) return
+        moves = true
+        noiseVariance = firstNoise(tape)
+        scan(tape, maxOf(slowest, fastest / WIDEST), fastest)
+        // What is left says how much noise there is, and that how far to trust the rate.
+        repeat(ROUNDS) {
+            score(tape, start)
+            learn()
+            start = rate
+        }
+        score(tape, start)
+        learn()
+    }
+
+    private fun learn() = judge(filter.misfit, filter.freedom, filter.succession)
+
+    private fun score(tape: ReadingTape, rate: Double): Double {
+        filter.reset(rate, KNOWN, noiseVariance)
+        for (i in 0 until tape.size) {
+            if (tape.slot(i) == LagBank.NONE) filter.leave() else filter.take(tape.slot(i), tape.time(i), tape.value(i))
+        }
+        return filter.score
+    }
+
+    private fun scan(tape: ReadingTape, slowest: Double, fastest: Double) {
+        var least = Double.POSITIVE_INFINITY
+        var candidate = slowest
+        while (candidate <= MARGIN * fastest) {
+            val score = score(tape, candidate)
+            if (score < least) {
+                least = score
+                start = candidate
+            }
+            candidate *= GRID
+        }
+    }
+
+    /** Slopes over [SPAN] readings of a visit, without sign, ascending. */
+    private fun slopes(tape: ReadingTape): Int {
+        var count = 0
+        for (i in SPAN until tape.size) {
+            if (tape.slot(i) == LagBank.NONE || !isOneStay(tape, i, SPAN)) continue
+            val elapsed = tape.time(i) - tape.time(i - SPAN)
+            if (elapsed > 0) slopes[count++] = abs(tape.value(i) - tape.value(i - SPAN)) / elapsed
+        }
+        slopes.sort(0, count)
+        return count
+    }
+
+    private fun isOneStay(tape: ReadingTape, i: Int, span: Int) = (1..span).all { tape.slot(i - it) == tape.slot(i) }
+
+    /** Second differences are mostly noise: their median gives the noise's variance. */
+    private fun firstNoise(tape: ReadingTape): Double {
+        var count = 0
+        for (i in 2 until tape.size) {
+            if (tape.slot(i) == LagBank.NONE || !isOneStay(tape, i, 2)) continue
+            slopes[count++] = abs(tape.value(i) - 2 * tape.value(i - 1) + tape.value(i - 2))
+        }
+        slopes.sort(0, count)
+        val median = if (count == 0) 0.0 else slopes[count / 2]
+        return maxOf(median * median / MEDIAN_SQUARED, LEAST_NOISE * LEAST_NOISE)
+    }
+
+    override fun truth(slot: Int): Double = filter.truth(slot)
+
+    override fun variance(slot: Int): Double {
+        val information = filter.information(slot)
+        if (information > 0) return 1 / information
+        // A truth never reached lies anywhere between its bounds.
+        val reach = (filter.upper(slot) - filter.lower(slot)) / 2 / SensorChoice.quantile(freedom)
+        return reach * reach
+    }
+
+    private companion object {
+        const val ROUNDS = 2
+        const val SPAN = 5
+        const val WIDEST = 10.0
+        const val MARGIN = 1.2
+        const val GRID = 1.04
+
+        /** How far the rate may be off the grid, relative. */
+        const val KNOWN = 0.03
+        const val LEAST_NOISE = 1e-5
+
+        /** Square of the median of a standard normal's size, times 6, the variance of a second difference. */
+        const val MEDIAN_SQUARED = 0.6745 * 0.6745 * 6
+    }
+}
