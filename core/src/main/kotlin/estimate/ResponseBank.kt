@@ -1,7 +1,7 @@
 package stillwater.estimate
 
 /**
- * Seven Kalman filters of one [ResponseKind] at six pairs of its two parameters: the middle, a step either way in each,
+ * Seven Kalman filters of one [ResponseBankKind] at six pairs of its two parameters: the middle, a step either way in each,
  * and one either way in both. What they say, misfit and truth of every cell, is a quadratic in the two parameters.
  *
  * As [LagBank], with the sensor as two lags in a row (the second without time where there is only one), the water seen
@@ -30,7 +30,7 @@ internal class ResponseBank {
     private var stateBefore = 0.0
 
     /** What kind of sensor the filters assume. */
-    var kind: ResponseKind = ResponseKind.ASYMMETRIC
+    var kind: ResponseBankKind = ResponseBankKind.ASYMMETRIC
         private set
 
     /** First parameter of the middle filter. */
@@ -63,7 +63,7 @@ internal class ResponseBank {
     val succession: Double get() = filters.succession(branch())
 
     /** Forgets all and takes [kind] with these parameters and steps; [noise] is the noise's variance, scaled. */
-    fun reset(kind: ResponseKind, first: Double, firstStep: Double, second: Double, secondStep: Double, noise: Double) {
+    fun reset(kind: ResponseBankKind, first: Double, firstStep: Double, second: Double, secondStep: Double, noise: Double) {
         this.kind = kind
         this.first = first
         this.second = second
@@ -86,7 +86,7 @@ internal class ResponseBank {
     }
 
     /** As [reset], the middle filter only. */
-    fun resetMiddle(kind: ResponseKind, first: Double, second: Double, noise: Double) {
+    fun resetMiddle(kind: ResponseBankKind, first: Double, second: Double, noise: Double) {
         reset(kind, first, 1.0, second, 0.0, noise)
         nodes = 1
     }

@@ -13,7 +13,7 @@ import kotlin.math.sqrt
  */
 internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     private val lag = LagFit(settings)
-    private val responses = ResponseKind.entries.map { kind -> ResponseFit(settings).also { it.kind = kind } }
+    private val responses = ResponseBankKind.entries.map { kind -> ResponseBankFit(settings).also { it.kind = kind } }
     private val slew = SlewFit(settings)
     private val kinds = listOf(
         SensorKind.FIRST_ORDER,
@@ -38,10 +38,10 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
     val isExplained: Boolean get() = active.isWhite
 
-    val timeConstant: Double get() = (active as? ResponseFit)?.let { exp(it.logTime) } ?: lag.timeConstant
+    val timeConstant: Double get() = (active as? ResponseBankFit)?.let { exp(it.logTime) } ?: lag.timeConstant
 
     val relativeUncertainty: Double
-        get() = (active as? ResponseFit)?.let { sqrt(it.logTimeVariance) } ?: lag.relativeUncertainty
+        get() = (active as? ResponseBankFit)?.let { sqrt(it.logTimeVariance) } ?: lag.relativeUncertainty
 
     /** From now on the tape does not hold all. */
     fun follow() {
@@ -86,7 +86,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     }
 
     private fun criterion(fit: SensorFit, tape: ReadingTape, penalty: Double): Double {
-        if (fit is ResponseFit) {
+        if (fit is ResponseBankFit) {
             if (lag.isWhite && fit.glance(tape, lag) < WORTH_A_FIT) return Double.NaN
             fit.startFrom(lag.timeConstant)
         } else if (lag.isWhite) {
@@ -96,7 +96,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         if (fit is SlewFit && !fit.moves) return Double.NaN
         // The same number of readings for all: a truth never reached is not fitted.
         val left = fit.misfit * if (fit is SlewFit) lag.freedom / fit.freedom else 1.0
-        return lag.freedom * ln(left) + if (fit is ResponseFit) 2 * penalty else penalty
+        return lag.freedom * ln(left) + if (fit is ResponseBankFit) 2 * penalty else penalty
     }
 
     private fun isPossible(k: Int) = odds[k] < POSSIBLE && fits[k].isWhite
@@ -124,17 +124,17 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         val quantile = quantile(fit.freedom)
         if (fit is LagFit) return listOf(time("time_constant_s", fit.timeConstant, quantile * fit.relativeUncertainty))
         if (fit is SlewFit) return listOf(rate(fit, scale, quantile))
-        fit as ResponseFit
+        fit as ResponseBankFit
         val first = sqrt(fit.logTimeVariance) * quantile
         val second = sqrt(fit.secondVariance) * quantile
         return when (fit.kind) {
-            ResponseKind.ASYMMETRIC -> listOf(1, -1).map { sign ->
+            ResponseBankKind.ASYMMETRIC -> listOf(1, -1).map { sign ->
                 val variance = fit.firstVariance + sign * fit.covariance + fit.secondVariance / 4
                 val value = exp(fit.first + sign * fit.second / 2)
                 val name = if (sign > 0) "rising_time_constant_s" else "falling_time_constant_s"
                 time(name, value, quantile * sqrt(maxOf(0.0, variance)))
             }
-            ResponseKind.DEAD_TIME -> listOf(
+            ResponseBankKind.DEAD_TIME -> listOf(
                 SensorParameter(
                     "dead_time_s",
                     fit.second,
@@ -143,14 +143,14 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
                 ),
                 time("time_constant_s", exp(fit.logTime), first),
             )
-            ResponseKind.SECOND_ORDER -> listOf(
+            ResponseBankKind.SECOND_ORDER -> listOf(
                 time("sum_of_time_constants_s", exp(fit.logTime), first),
                 SensorParameter(
                     "share_of_the_shorter",
-                    ResponseKind.shorter(fit.second),
+                    ResponseBankKind.shorter(fit.second),
                     Interval(
-                        ResponseKind.shorter(maxOf(0.0, fit.second - second)),
-                        ResponseKind.shorter(fit.second + second),
+                        ResponseBankKind.shorter(maxOf(0.0, fit.second - second)),
+                        ResponseBankKind.shorter(fit.second + second),
                     ),
                     "",
                 ),

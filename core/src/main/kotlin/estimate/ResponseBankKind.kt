@@ -13,7 +13,7 @@ import kotlin.math.sqrt
  * @property least smallest second parameter.
  * @property most largest second parameter.
  */
-internal enum class ResponseKind(val lags: Int, val branches: Int, val least: Double, val most: Double) {
+internal enum class ResponseBankKind(val lags: Int, val branches: Int, val least: Double, val most: Double) {
     /** Second parameter: a = ln(τ rising / τ falling); the first is the mean of their logarithms. */
     ASYMMETRIC(lags = 1, branches = 2, least = -4.0, most = 4.0),
 

@@ -6,7 +6,7 @@ import kotlin.math.ln
 import kotlin.math.sqrt
 
 /** A sensor of two parameters as a [SensorFit]. Eqs. (14) to (17) of core/docs/SelfCalibratingEstimator.md. */
-internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
+internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     private val bank = ResponseBank()
     private val surface = QuadraticSurface()
 
@@ -25,7 +25,7 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     private var spreadSecond = 1.0
 
     /** What is assumed of the sensor. */
-    var kind: ResponseKind = ResponseKind.ASYMMETRIC
+    var kind: ResponseBankKind = ResponseBankKind.ASYMMETRIC
 
     /** Where the search starts. */
     private var startFirst = belief.mean
@@ -133,9 +133,9 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     }
 
     private fun widest(): Double = when (kind) {
-        ResponseKind.ASYMMETRIC -> 0.3
-        ResponseKind.DEAD_TIME -> 0.15 * exp(startFirst)
-        ResponseKind.SECOND_ORDER -> 0.04
+        ResponseBankKind.ASYMMETRIC -> 0.3
+        ResponseBankKind.DEAD_TIME -> 0.15 * exp(startFirst)
+        ResponseBankKind.SECOND_ORDER -> 0.04
     }
 
     /**
@@ -145,7 +145,7 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     private var most = 0.0
 
     private fun limit(tape: ReadingTape) {
-        most = if (kind == ResponseKind.DEAD_TIME) tape.meanStay() else kind.most
+        most = if (kind == ResponseBankKind.DEAD_TIME) tape.meanStay() else kind.most
     }
 
     private fun search(tape: ReadingTape) {
@@ -153,7 +153,7 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         var least = Double.POSITIVE_INFINITY
         for (stretch in STRETCHES) {
             for (share in shares()) {
-                val second = if (kind == ResponseKind.DEAD_TIME) share * most else share
+                val second = if (kind == ResponseBankKind.DEAD_TIME) share * most else share
                 val cost = cost(tape, from + stretch, second)
                 if (cost < least) {
                     least = cost
@@ -171,7 +171,7 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
         var least = cost(tape, bestFirst, bestSecond)
         val share = if (isFitted) FIRST_STEP else 1.0
         var firstStep = share * FIRST_REACH
-        var secondStep = share * if (kind == ResponseKind.DEAD_TIME) most / 10 else widest()
+        var secondStep = share * if (kind == ResponseBankKind.DEAD_TIME) most / 10 else widest()
         var halvings = 0
         while (halvings < HALVINGS) {
             // The best of all ways, so that a mirrored survey goes the mirrored way.
@@ -207,9 +207,9 @@ internal class ResponseFit(belief: SelfCalibratingSettings) : SensorFit(belief) 
     }
 
     private fun shares() = when (kind) {
-        ResponseKind.ASYMMETRIC -> RATIOS
-        ResponseKind.DEAD_TIME -> DELAYS
-        ResponseKind.SECOND_ORDER -> PRODUCTS
+        ResponseBankKind.ASYMMETRIC -> RATIOS
+        ResponseBankKind.DEAD_TIME -> DELAYS
+        ResponseBankKind.SECOND_ORDER -> PRODUCTS
     }
 
     private fun play(tape: ReadingTape, firstStep: Double, secondStep: Double) {
