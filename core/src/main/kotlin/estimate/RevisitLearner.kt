@@ -15,7 +15,7 @@ import kotlin.math.sqrt
  * @param series the readings; long ones are best cut to some ten thousand. Retained.
  */
 public class RevisitLearner(series: TrackSeries) : ResponseLearner {
-    private val even = PhaseCorrection(series)
+    private val even = PhaseCorrection(series.withFreshPositions())
     private val thinning = maxOf(1, Math.round(even.size.toDouble() / TARGET_NODES).toInt())
     private val nodes = TrackNodes(even, thinning)
     private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().let { if (it.size < FEWEST_BLOCKS) emptyList() else it }
@@ -41,18 +41,32 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
         if (found.isNotEmpty()) learnField()
     }
 
-    /** The water's scales at no delay, the best delay, and the scales again at that. */
+    /**
+     * First the delay with which the passes agree best under any of some guesses at the water, then the water's scales at
+     * that delay: at no delay water would be found that changes from pass to pass.
+     */
     private fun learnField() {
         val extent = listOf(nodes.xs, nodes.ys).maxOf { at -> at.max() - at.min() }
-        val spans = found.map { abs(nodes.times[it.start] - nodes.times[it.firsts[0]]) }.sorted()
-        var scale = FieldScale(extent / LENGTHS, spans[spans.size / 2] * DURATIONS, FIRST_NOISE)
-        take(Response())
-        scale = fitted(scale, listOf(Smoothness.USUAL), EVALUATIONS)
-        settle(scale)
-        val delays = (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
-        delay = delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+        val delays = listOf(0.0) + (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
+        var best = Double.NEGATIVE_INFINITY
+        var bestScale: FieldScale? = null
+        for (part in LENGTHS) {
+            for (own in OWNS) {
+                val guess = FieldScale(extent / part, own, nodes.step * RevisitBlocks.RUN, FIRST_NOISE)
+                likelihood.assume(guess)
+                for (candidate in delays) {
+                    take(if (candidate > 0) ResponseKind.FIRST_ORDER.response(candidate) else Response())
+                    val total = likelihood.total(likelihood.bestAmplitude())
+                    if (total > best) {
+                        best = total
+                        bestScale = guess
+                        delay = maxOf(candidate, delays[1])
+                    }
+                }
+            }
+        }
         take(ResponseKind.FIRST_ORDER.response(delay))
-        settle(fitted(scale, Smoothness.entries, EVALUATIONS))
+        settle(fitted(requireNotNull(bestScale), Smoothness.entries, EVALUATIONS))
     }
 
     private fun settle(scale: FieldScale) {
@@ -63,15 +77,15 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
 
     private fun fitted(start: FieldScale, among: List<Smoothness>, evaluations: Int): FieldScale {
         fun at(logs: DoubleArray, smoothness: Smoothness) =
-            FieldScale(exp(logs[0]), exp(logs[1]), exp(logs[2]), smoothness)
+            FieldScale(exp(logs[0]), exp(logs[1]), exp(logs[2]), exp(logs[3]), smoothness)
 
         fun total(logs: DoubleArray, smoothness: Smoothness): Double {
-            if (logs.any { abs(it) > MOST_LOG } || logs[2] < LEAST_NOISE) return Double.NEGATIVE_INFINITY
+            if (logs.any { abs(it) > MOST_LOG } || logs[3] < LEAST_NOISE) return Double.NEGATIVE_INFINITY
             likelihood.assume(at(logs, smoothness))
             likelihood.take(values)
             return likelihood.total(likelihood.bestAmplitude())
         }
-        val logs = doubleArrayOf(ln(start.length), ln(start.duration), ln(start.noise))
+        val logs = doubleArrayOf(ln(start.length), ln(start.own), ln(start.ownTime), ln(start.noise))
         return among.map { smoothness ->
             val best = Search.simplex(logs, DoubleArray(logs.size) { 1.0 }, evaluations, CLOSE) { total(it, smoothness) }
             at(best, smoothness) to total(best, smoothness)
@@ -88,13 +102,23 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
         if (logs.any { it > ln(MOST_STEPS * even.step * thinning) || it < ln(LEAST_STEPS * even.step) }) {
             return Double.NEGATIVE_INFINITY
         }
-        take(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }))
-        return likelihood.total(amplitude)
+        return scores(kind, logs).sum()
     }
 
+    /**
+     * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect on
+     * the score would otherwise hide that of a dead time.
+     */
     private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
-        take(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }))
-        return DoubleArray(found.size) { likelihood.score(it, amplitude) }
+        even.correct(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }), corrected)
+        val scores = DoubleArray(found.size)
+        val shifts = -((thinning - 1) / 2)..thinning / 2
+        for (shift in shifts) {
+            nodes.means(corrected, values, shift)
+            likelihood.take(values)
+            for (block in scores.indices) scores[block] += likelihood.score(block, amplitude) / thinning
+        }
+        return scores
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
@@ -109,10 +133,10 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
         const val FEWEST_BLOCKS = 8
         const val GROUP = 6
         const val MOST_GROUPS = 20
-        const val LENGTHS = 4.0
-        const val DURATIONS = 5.0
+        val LENGTHS = listOf(2.0, 6.0, 18.0)
+        val OWNS = listOf(0.03, 0.3)
         const val FIRST_NOISE = 1e-3
-        const val EVALUATIONS = 40
+        const val EVALUATIONS = 60
         const val CLOSE = 0.05
         const val MOST_LOG = 25.0
         const val LEAST_NOISE = -16.0

@@ -24,13 +24,17 @@ internal enum class Smoothness(val nu: Double) {
 }
 
 /**
- * How alike the water is at two places and times: Matérn's covariance of r, r² = Δx²/length² + Δt²/duration².
+ * How alike readings are at two places and times: k = M(|Δx| / length) + own · M(Δt / ownTime) + noise, M Matérn's
+ * covariance. The first part is the water's and shared by all passes; the second is each pass's own, because the water has
+ * changed in between, or the sensor's mood.
  *
- * @property length m. @property duration s. @property noise variance of a node's noise over that of the field.
+ * @property length m. @property own variance over that of the shared part. @property ownTime s. @property noise variance of
+ *   a node's noise over that of the shared part.
  */
 internal data class FieldScale(
     val length: Double,
-    val duration: Double,
+    val own: Double,
+    val ownTime: Double,
     val noise: Double,
     val smoothness: Smoothness = Smoothness.USUAL,
 )
@@ -52,12 +56,15 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
     /** Values in block [index] and its passes. */
     private fun size(index: Int) = blocks[index].lengths.sum()
 
+    private fun own(index: Int) = blocks[index].lengths.last()
+
     /** Takes the field to be of [scale] from now on. */
     fun assume(scale: FieldScale) {
         for (index in blocks.indices) {
             gather(blocks[index])
-            covariance(factors[index], size(index), scale)
-            decompose(index)
+            val size = size(index)
+            covariance(factors[index], size, scale)
+            logDeterminants[index] = decompose(factors[index], size, size - own(index))
         }
     }
 
@@ -70,7 +77,7 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
 
     private fun covariance(out: DoubleArray, size: Int, scale: FieldScale) {
         val perLength = 2 * scale.smoothness.nu / (scale.length * scale.length)
-        val perDuration = 2 * scale.smoothness.nu / (scale.duration * scale.duration)
+        val perTime = 2 * scale.smoothness.nu / (scale.ownTime * scale.ownTime)
         for (i in 0 until size) {
             val a = places[i]
             for (j in 0 until i) {
@@ -78,18 +85,16 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
                 val dx = nodes.xs[a] - nodes.xs[b]
                 val dy = nodes.ys[a] - nodes.ys[b]
                 val dt = nodes.times[a] - nodes.times[b]
-                val q = (dx * dx + dy * dy) * perLength + dt * dt * perDuration
-                out[i * size + j] = LEVEL + scale.smoothness.covariance(q)
+                val shared = scale.smoothness.covariance((dx * dx + dy * dy) * perLength)
+                val own = scale.smoothness.covariance(dt * dt * perTime)
+                out[i * size + j] = LEVEL + shared + scale.own * own
             }
-            out[i * size + i] = 1 + LEVEL + scale.noise + JITTER
+            out[i * size + i] = 1 + LEVEL + scale.own + scale.noise + JITTER
         }
     }
 
-    /** Cholesky in place, lower triangle. */
-    private fun decompose(index: Int) {
-        val factor = factors[index]
-        val size = size(index)
-        val given = size - blocks[index].lengths.last()
+    /** Cholesky in place, lower triangle; returns the logarithm of the determinant from row [from] on. */
+    private fun decompose(factor: DoubleArray, size: Int, from: Int): Double {
         var logDeterminant = 0.0
         for (i in 0 until size) {
             val row = i * size
@@ -102,9 +107,9 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
             var d = factor[row + i]
             for (k in 0 until i) d -= factor[row + k] * factor[row + k]
             factor[row + i] = sqrt(maxOf(d, JITTER))
-            if (i >= given) logDeterminant += 2 * ln(factor[row + i])
+            if (i >= from) logDeterminant += 2 * ln(factor[row + i])
         }
-        logDeterminants[index] = logDeterminant
+        return logDeterminant
     }
 
     /** Takes [values], one a node, to be judged from now on. Not modified, not retained. */
@@ -113,13 +118,12 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
     }
 
     private fun solve(index: Int, values: DoubleArray) {
-        val block = blocks[index]
-        val factor = factors[index]
+        gather(blocks[index])
         val size = size(index)
-        gather(block)
         var level = 0.0
         for (i in 0 until size) level += values[places[i]] / size
-        val given = size - block.lengths.last()
+        val factor = factors[index]
+        val given = size - own(index)
         var sum = 0.0
         var sumGiven = 0.0
         for (i in 0 until size) {

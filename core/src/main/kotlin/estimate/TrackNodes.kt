@@ -37,11 +37,13 @@ internal class TrackNodes(private val even: PhaseCorrection, val thinning: Int) 
 
     fun distance(a: Int, b: Int): Double = hypot(xs[a] - xs[b], ys[a] - ys[b])
 
-    /** Means of the even series [of] by node, into [out], length [size]. Modified. */
-    fun means(of: DoubleArray, out: DoubleArray) {
+    /** Means of the even series [of], taken [later] steps later, by node, into [out], length [size]. Modified. */
+    fun means(of: DoubleArray, out: DoubleArray, later: Int = 0) {
         for (node in out.indices) {
             var sum = 0.0
-            for (i in starts[node] until starts[node] + thinning) sum += of[i]
+            for (i in starts[node] + later until starts[node] + later + thinning) {
+                sum += of[i.coerceIn(0, of.size - 1)]
+            }
             out[node] = sum / thinning
         }
     }

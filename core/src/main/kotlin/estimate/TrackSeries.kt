@@ -40,6 +40,30 @@ public class TrackSeries(
     /** Silences longer than this end a stretch, s: five median steps. */
     public val gapLimit: Double get() = GAP_STEPS * medianStep
 
+    /**
+     * The same readings where the boat was when they were taken, if its receiver repeats a fix until it has a new one:
+     * positions that repeat the one before are put on the straight way between the first rows of successive fixes. Left as
+     * they are, they would be late and hide part of a sensor's delay.
+     */
+    public fun withFreshPositions(): TrackSeries {
+        val freshXs = xs.copyOf()
+        val freshYs = ys.copyOf()
+        var fix = 0
+        for (i in 1 until size) {
+            if (xs[i] == xs[fix] && ys[i] == ys[fix]) continue
+            // Over a gap the boat may have stood; how long nobody knows.
+            val isNear = times[i] - times[i - 1] <= gapLimit
+            for (row in fix + 1 until i) {
+                if (!isNear) break
+                val share = (times[row] - times[fix]) / (times[i] - times[fix])
+                freshXs[row] = xs[fix] + share * (xs[i] - xs[fix])
+                freshYs[row] = ys[fix] + share * (ys[i] - ys[fix])
+            }
+            fix = i
+        }
+        return TrackSeries(times, freshXs, freshYs, values)
+    }
+
     private companion object {
         const val GAP_STEPS = 5.0
     }
