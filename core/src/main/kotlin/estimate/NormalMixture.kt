@@ -24,17 +24,13 @@ internal class NormalMixture(private val size: Int) {
         limits[row] = limit
     }
 
-    /** Means and the quantiles at 2.5 and 97.5 %. */
-    fun track(silent: BooleanArray): CorrectedTrack {
-        val values = DoubleArray(size)
-        val lower = DoubleArray(size)
-        val upper = DoubleArray(size)
+    /** Means and the quantiles at 2.5 and 97.5 %, into [track] from row [first] on. */
+    fun write(track: CorrectedTrack, first: Int) {
         for (row in 0 until size) {
-            lower[row] = quantile(row, TAIL)
-            upper[row] = quantile(row, 1 - TAIL)
-            values[row] = if (silent[row]) quantile(row, 0.5) else mean(row)
+            track.lower[first + row] = quantile(row, TAIL)
+            track.upper[first + row] = quantile(row, 1 - TAIL)
+            track.values[first + row] = if (track.silent[first + row]) quantile(row, 0.5) else mean(row)
         }
-        return CorrectedTrack(values, lower, upper, silent)
     }
 
     private fun mean(row: Int): Double {

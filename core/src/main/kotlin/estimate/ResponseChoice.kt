@@ -24,7 +24,8 @@ public class CandidateStanding internal constructor(
  * Which responses a log leaves open, by scores on data that they were not fitted to.
  *
  * A candidate is ruled out if it is behind the best by more than [RULED_OUT] standard errors and by more than
- * [SMALLEST_LOSS]. One with two parameters gives way to one with fewer that is its own special case and is still open.
+ * [SMALLEST_LOSS]. An asymmetric lag gives way to a symmetric one that is still open: two time constants fit noise better
+ * than one, and nothing is lost.
  *
  * @property standings all candidates, the most likely first.
  */
@@ -66,11 +67,8 @@ public class ResponseChoice private constructor(public val standings: List<Candi
                 behind[it] <= RULED_OUT * errors[it] || behind[it] <= SMALLEST_LOSS
             }
             val open = notRuledOut.filterNot { rich ->
-                val parameters = candidates[rich].kind.parameters.size
-                parameters > 1 && notRuledOut.any { simple ->
-                    candidates[simple].kind.parameters.size == 1 &&
-                        candidates[rich].kind.contains(candidates[simple].kind)
-                }
+                candidates[rich].kind == ResponseKind.ASYMMETRIC &&
+                    notRuledOut.any { candidates[it].kind == ResponseKind.FIRST_ORDER }
             }
             val weights = weights(open.map { candidates[it] }, random)
             val standings = candidates.indices.map { i ->

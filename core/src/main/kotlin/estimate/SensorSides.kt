@@ -58,10 +58,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
             if (to == from) 0.0 else (series.values[to] - series.values[from]) / (series.times[to] - series.times[from])
         }
 
-        /**
-         * The rate at which the sensor often runs and which it hardly ever exceeds, sensor units/s; NaN where there is none.
-         * No lag and no water does that: slopes thin out towards their largest.
-         */
+        /** See [rateLimit] of a series. */
         fun rateLimit(series: TrackSeries): Double {
             if (series.size < FEWEST_ROWS) return Double.NaN
             val slopes = slopes(series, FEWEST + 1).map { abs(it) }.sorted()
@@ -76,3 +73,9 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         }
     }
 }
+
+/**
+ * The rate at which the sensor of these readings often runs and which it hardly ever exceeds, sensor units/s; NaN where there
+ * is none. No lag and no water does that: slopes thin out towards their largest.
+ */
+public fun TrackSeries.rateLimit(): Double = SensorSides.rateLimit(this)

@@ -1,6 +1,5 @@
 package stillwater.estimate
 
-import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
@@ -41,43 +40,50 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         require(resolution >= 0 && resolution.isFinite()) { "resolution ($resolution) must be at least 0 and finite" }
     }
 
+    /** One response with all that goes with it. */
+    private inner class Part(val response: Response, val along: AlongTrack, val weight: Double) {
+        val sides = SensorSides(series, response, resolution)
+    }
+
     /** The field if [candidates] are the responses that the log leaves open. */
     public fun correct(candidates: List<LikelyResponse>): CorrectedTrack {
         require(candidates.isNotEmpty()) { "candidates must not be empty" }
         val total = candidates.sumOf { it.weight }
-        val mixture = NormalMixture(series.size)
-        val silent = BooleanArray(series.size)
-        for (candidate in candidates) {
+        val parts = candidates.flatMap { candidate ->
             val along = fitted(candidate.responses.first())
-            for (response in candidate.responses) {
-                val weight = candidate.weight / total / candidate.responses.size
-                pieces(response) { begin, from, to, stretch ->
-                    run(begin, from, to, stretch, response, along, mixture, weight)
-                    for (i in from until to) silent[begin + i] = silent[begin + i] || stretch.silent[i]
-                }
-            }
+            candidate.responses.map { Part(it, along, candidate.weight / total / candidate.responses.size) }
         }
-        return mixture.track(silent)
+        val track = CorrectedTrack(
+            DoubleArray(series.size),
+            DoubleArray(series.size),
+            DoubleArray(series.size),
+            BooleanArray(series.size) { row -> parts.any { it.sides.silent[row] } },
+        )
+        pieces(PIECE) { rows, from, to ->
+            val mixture = NormalMixture(to - from)
+            for (part in parts) run(part, rows, from, to, mixture)
+            mixture.write(track, from)
+        }
+        return track
     }
 
-    private fun run(
-        begin: Int,
-        from: Int,
-        to: Int,
-        stretch: Stretch,
-        response: Response,
-        along: AlongTrack,
-        mixture: NormalMixture,
-        weight: Double,
-    ) {
+    private fun stretch(rows: IntRange, sides: SensorSides) = Stretch(
+        series.times.copyOfRange(rows.first, rows.last + 1),
+        DoubleArray(rows.last - rows.first + 1) { series.values[rows.first + it] - level },
+        sides.silent.copyOfRange(rows.first, rows.last + 1),
+        sides.rising.copyOfRange(rows.first, rows.last + 1),
+    )
+
+    private fun run(part: Part, rows: IntRange, from: Int, to: Int, mixture: NormalMixture) {
+        val stretch = stretch(rows, part.sides)
         val mean = DoubleArray(stretch.size)
         val variance = DoubleArray(stretch.size)
-        TrackSmoother(stretch, response, along, agitation(stretch, response, along), series.medianStep)
-            .smooth(mean, variance)
-        for (i in from until to) {
-            val row = begin + i
+        val agitation = agitation(stretch, part.response, part.along)
+        TrackSmoother(stretch, part.response, part.along, agitation, series.medianStep).smooth(mean, variance)
+        for (row in from until to) {
+            val i = row - rows.first
             val side = if (!stretch.silent[i]) 0 else if (stretch.rising[i]) 1 else -1
-            mixture.add(row, weight, mean[i] + level, variance[i], side, series.values[row])
+            mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, series.values[row])
         }
     }
 
@@ -108,9 +114,9 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
 
     /** The water's liveliness under [response], by the density of the readings in the longest piece. */
     private fun fitted(response: Response): AlongTrack {
-        var sample: Stretch? = null
-        pieces(response, SAMPLE) { _, _, _, stretch -> if (stretch.size > (sample?.size ?: 0)) sample = stretch }
-        val stretch = requireNotNull(sample)
+        var sample = 0..0
+        pieces(SAMPLE) { rows, _, _ -> if (rows.last - rows.first > sample.last - sample.first) sample = rows }
+        val stretch = stretch(sample, SensorSides(series, response, resolution))
         val calm = DoubleArray(stretch.size) { 1.0 }
         val spread = sqrt(stretch.values.sumOf { it * it } / stretch.size).coerceAtLeast(LEAST + resolution)
         val least = ln(maxOf(resolution / sqrt(12.0), spread * SMALLEST_NOISE))
@@ -130,11 +136,8 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         }.maxBy { it.second }.first
     }
 
-    /**
-     * Hands the track on in stretches without gaps, long ones in pieces that overlap: first row, range that counts, piece.
-     */
-    private fun pieces(response: Response, most: Int = PIECE, each: (Int, Int, Int, Stretch) -> Unit) {
-        val sides = SensorSides(series, response, resolution)
+    /** Hands the track on in stretches without gaps, long ones in pieces that overlap: all rows, and those that count. */
+    private fun pieces(most: Int, each: (rows: IntRange, from: Int, to: Int) -> Unit) {
         var begin = 0
         while (begin < series.size) {
             var end = begin + 1
@@ -142,15 +145,7 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             var from = begin
             while (from < end) {
                 val to = minOf(end, from + most)
-                val first = maxOf(begin, from - OVERLAP)
-                val last = minOf(end, to + OVERLAP)
-                val stretch = Stretch(
-                    series.times.copyOfRange(first, last),
-                    DoubleArray(last - first) { series.values[first + it] - level },
-                    sides.silent.copyOfRange(first, last),
-                    sides.rising.copyOfRange(first, last),
-                )
-                each(first, from - first, to - first, stretch)
+                each(maxOf(begin, from - OVERLAP) until minOf(end, to + OVERLAP), from, to)
                 from = to
             }
             begin = end
