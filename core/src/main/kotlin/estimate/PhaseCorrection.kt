@@ -15,7 +15,7 @@ import kotlin.math.sqrt
  *
  * @param series the readings. Retained.
  */
-internal class PhaseCorrection(series: TrackSeries) {
+internal class PhaseCorrection(private val series: TrackSeries) {
     /** Time step, s. */
     val step: Double = series.medianStep
 
@@ -43,6 +43,9 @@ internal class PhaseCorrection(series: TrackSeries) {
 
     private val stretches: List<Stretch>
     private val values: DoubleArray
+
+    /** The same for another thread. */
+    fun copy() = PhaseCorrection(series)
 
     /** Number of points. */
     val size: Int get() = times.size

@@ -12,11 +12,14 @@ import kotlin.math.sqrt
  * Only the phase of the response is used, because its amplitude cannot be told from how smooth the water is. Model and
  * derivation: core/docs/TrackCorrection.md. Confined to one thread.
  *
- * @param series the readings; long ones are best cut to some ten thousand. Retained.
  */
-public class RevisitLearner(series: TrackSeries) : ResponseLearner {
-    private val even = PhaseCorrection(series.withFreshPositions())
-    private val thinning = maxOf(1, Math.round(even.size.toDouble() / TARGET_NODES).toInt())
+public class RevisitLearner private constructor(
+    private val even: PhaseCorrection,
+    private val thinning: Int,
+    private var learnedScale: FieldScale? = null,
+    private var amplitude: Double = 1.0,
+    private var delay: Double = 0.0,
+) : ResponseLearner {
     private val nodes = TrackNodes(even, thinning)
     private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().let { if (it.size < FEWEST_BLOCKS) emptyList() else it }
     private val likelihood = RevisitLikelihood(nodes, found)
@@ -25,8 +28,6 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
     private val groupOf = (found.size / GROUP).coerceIn(2, MOST_GROUPS).let { count ->
         IntArray(found.size) { (it.toLong() * count / found.size).toInt() }
     }
-    private var amplitude = 1.0
-    private var delay = DELAY_FROM * even.step
 
     /** Number of short runs of the track that other passes foretell; 0 where the log says nothing about the response. */
     public val blocks: Int get() = found.size
@@ -38,7 +39,8 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
     override val groups: Int get() = (groupOf.lastOrNull() ?: -1) + 1
 
     init {
-        if (found.isNotEmpty()) learnField()
+        val known = learnedScale
+        if (known != null) likelihood.assume(known) else if (found.isNotEmpty()) learnField()
     }
 
     /**
@@ -69,7 +71,11 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
         settle(fitted(requireNotNull(bestScale), Smoothness.entries, EVALUATIONS))
     }
 
+    /** The same learner for another thread. */
+    public fun copy(): RevisitLearner = RevisitLearner(even.copy(), thinning, learnedScale, amplitude, delay)
+
     private fun settle(scale: FieldScale) {
+        learnedScale = scale
         likelihood.assume(scale)
         likelihood.take(values)
         amplitude = likelihood.bestAmplitude()
@@ -127,23 +133,35 @@ public class RevisitLearner(series: TrackSeries) : ResponseLearner {
         return fit.best(delay)
     }
 
-    private companion object {
-        const val TARGET_NODES = 1500
-        const val MOST_BLOCKS = 150
-        const val FEWEST_BLOCKS = 8
-        const val GROUP = 6
-        const val MOST_GROUPS = 20
-        val LENGTHS = listOf(2.0, 6.0, 18.0)
-        val OWNS = listOf(0.03, 0.3)
-        const val FIRST_NOISE = 1e-3
-        const val EVALUATIONS = 60
-        const val CLOSE = 0.05
-        const val MOST_LOG = 25.0
-        const val LEAST_NOISE = -16.0
-        const val DELAY_FROM = 0.25
-        const val DELAY_FACTOR = 1.6
-        const val DELAYS = 16
-        const val MOST_STEPS = 40.0
-        const val LEAST_STEPS = 0.01
+    public companion object {
+        /** A learner for [series]; long ones are best cut to some ten thousand readings. */
+        public fun of(series: TrackSeries): RevisitLearner {
+            val even = PhaseCorrection(series.withFreshPositions())
+            val thinning = maxOf(1, Math.round(even.size.toDouble() / TARGET_NODES).toInt())
+            val learner = RevisitLearner(even, thinning)
+            // Nodes longer than the delay hide what tells one response from another.
+            val finer = (learner.delay / (NODES_A_DELAY * even.step)).toInt().coerceAtLeast(1)
+            return if (learner.blocks > 0 && finer < thinning) RevisitLearner(even, finer) else learner
+        }
+
+        private const val NODES_A_DELAY = 2.0
+
+        private const val TARGET_NODES = 1500
+        private const val MOST_BLOCKS = 150
+        private const val FEWEST_BLOCKS = 8
+        private const val GROUP = 6
+        private const val MOST_GROUPS = 20
+        private val LENGTHS = listOf(2.0, 6.0, 18.0)
+        private val OWNS = listOf(0.03, 0.3)
+        private const val FIRST_NOISE = 1e-3
+        private const val EVALUATIONS = 60
+        private const val CLOSE = 0.05
+        private const val MOST_LOG = 25.0
+        private const val LEAST_NOISE = -16.0
+        private const val DELAY_FROM = 0.25
+        private const val DELAY_FACTOR = 1.6
+        private const val DELAYS = 16
+        private const val MOST_STEPS = 40.0
+        private const val LEAST_STEPS = 0.01
     }
 }

@@ -35,6 +35,8 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private const val TIMES_BELOW = 2.0
         private const val ABOVE_SHARE = 0.1
         private const val FEWEST_ROWS = 100
+        private const val CLEAR = 0.05
+        private val REACHES = listOf(2, 4, 8, 16)
 
         /** Slopes over so many rows either way that noise hardly bears on them. */
         private fun reach(series: TrackSeries, rate: Double, resolution: Double): Int {
@@ -61,9 +63,16 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         /** See [rateLimit] of a series. */
         fun rateLimit(series: TrackSeries): Double {
             if (series.size < FEWEST_ROWS) return Double.NaN
-            val slopes = slopes(series, FEWEST + 1).map { abs(it) }.sorted()
-            val top = slopes[(slopes.size * TOP).toInt().coerceAtMost(slopes.size - 1)]
-            if (!(top > 0)) return Double.NaN
+            for (reach in REACHES) {
+                val slopes = slopes(series, reach).map { abs(it) }.sorted()
+                val top = slopes[(slopes.size * TOP).toInt().coerceAtMost(slopes.size - 1)]
+                val noise = roughness(series) / (reach * series.medianStep)
+                if (top > 0 && (noise < CLEAR * top || reach == REACHES.last())) return plateau(slopes, top)
+            }
+            return Double.NaN
+        }
+
+        private fun plateau(slopes: List<Double>, top: Double): Double {
             val at = slopes.filter { it in (1 - NEAR) * top..(1 + NEAR) * top }
             val below = slopes.count { it >= (1 - BELOW) * top && it < (1 - NEAR) * top }
             val above = slopes.count { it > (1 + NEAR) * top }

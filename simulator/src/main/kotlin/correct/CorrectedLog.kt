@@ -154,8 +154,8 @@ class CorrectedLog internal constructor(
                 return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
             }
             val part = series.middle(MOST_LEARNED)
-            val learner = RevisitLearner(part)
-            val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { RevisitLearner(part) }
+            val learner = RevisitLearner.of(part)
+            val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
                 ?: return Learned(
                     SensorOrigin.NOTHING,
                     null,
