@@ -5,7 +5,12 @@ import kotlin.math.sqrt
 
 /** Mixtures of normal distributions, one for each of [size] readings, cut at a reading where it is known from one side. */
 internal class NormalMixture(private val size: Int) {
-    private class Part(val weights: DoubleArray, val means: DoubleArray, val deviations: DoubleArray, val sides: ByteArray)
+    private class Part(
+        val weights: DoubleArray,
+        val means: DoubleArray,
+        val deviations: DoubleArray,
+        val sides: ByteArray,
+    )
 
     private val parts = ArrayList<Part>()
     private val limits = DoubleArray(size)
@@ -45,7 +50,8 @@ internal class NormalMixture(private val size: Int) {
         for (k in 0 until filled[row]) {
             val reach = WIDE * parts[k].deviations[row]
             low = minOf(low, parts[k].means[row] - reach, if (parts[k].sides[row] == 0.toByte()) low else limits[row])
-            high = maxOf(high, parts[k].means[row] + reach, if (parts[k].sides[row] == 0.toByte()) high else limits[row])
+            high =
+                maxOf(high, parts[k].means[row] + reach, if (parts[k].sides[row] == 0.toByte()) high else limits[row])
         }
         repeat(STEPS) {
             val middle = (low + high) / 2

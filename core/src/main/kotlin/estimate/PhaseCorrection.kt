@@ -51,7 +51,9 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     val size: Int get() = times.size
 
     init {
-        val starts = (0 until series.size).filter { it == 0 || series.times[it] - series.times[it - 1] > series.gapLimit }
+        val starts = (0 until series.size).filter {
+            it == 0 || series.times[it] - series.times[it - 1] > series.gapLimit
+        }
         val counts = starts.indices.map { k ->
             val last = (starts.getOrNull(k + 1) ?: series.size) - 1
             ((series.times[last] - series.times[starts[k]]) / step).toInt() + 1

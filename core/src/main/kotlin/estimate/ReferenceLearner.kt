@@ -16,7 +16,9 @@ import kotlin.math.sqrt
  */
 public class ReferenceLearner(private val series: TrackSeries, private val reference: DoubleArray) : ResponseLearner {
     init {
-        require(reference.size == series.size) { "reference (${reference.size}) must be as long as series (${series.size})" }
+        require(reference.size == series.size) {
+            "reference (${reference.size}) must be as long as series (${series.size})"
+        }
         require(reference.all { it.isFinite() }) { "reference must be finite" }
     }
 
@@ -72,7 +74,13 @@ public class ReferenceLearner(private val series: TrackSeries, private val refer
     }
 
     private fun surprise(i: Int, correlation: Double) =
-        if (i == 0) residuals[0] * sqrt(1 - correlation * correlation) else residuals[i] - correlation * residuals[i - 1]
+        if (i ==
+            0
+        ) {
+            residuals[0] * sqrt(1 - correlation * correlation)
+        } else {
+            residuals[i] - correlation * residuals[i - 1]
+        }
 
     private fun fit(): Pair<Double, Double> {
         val x = shown.average()

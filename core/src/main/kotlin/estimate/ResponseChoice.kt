@@ -72,7 +72,20 @@ public class ResponseChoice private constructor(public val standings: List<Candi
             }
             val weights = weights(open.map { candidates[it] }, random)
             val standings = candidates.indices.map { i ->
-                CandidateStanding(candidates[i], behind[i], errors[i], open.indexOf(i).let { if (it < 0) 0.0 else weights[it] })
+                CandidateStanding(
+                    candidates[i],
+                    behind[i],
+                    errors[i],
+                    open.indexOf(i).let {
+                        if (it <
+                            0
+                        ) {
+                            0.0
+                        } else {
+                            weights[it]
+                        }
+                    },
+                )
             }
             return ResponseChoice(standings.sortedWith(compareBy({ -it.weight }, { it.behind })))
         }

@@ -21,7 +21,15 @@ public class RevisitLearner private constructor(
     private var delay: Double = 0.0,
 ) : ResponseLearner {
     private val nodes = TrackNodes(even, thinning)
-    private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().let { if (it.size < FEWEST_BLOCKS) emptyList() else it }
+    private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().let {
+        if (it.size <
+            FEWEST_BLOCKS
+        ) {
+            emptyList()
+        } else {
+            it
+        }
+    }
     private val likelihood = RevisitLikelihood(nodes, found)
     private val corrected = DoubleArray(even.size)
     private val values = DoubleArray(nodes.size)
@@ -40,7 +48,11 @@ public class RevisitLearner private constructor(
 
     init {
         val known = learnedScale
-        if (known != null) likelihood.assume(known) else if (found.isNotEmpty()) learnField()
+        if (known != null) {
+            likelihood.assume(known)
+        } else if (found.isNotEmpty()) {
+            learnField()
+        }
     }
 
     /**
@@ -49,7 +61,8 @@ public class RevisitLearner private constructor(
      */
     private fun learnField() {
         val extent = listOf(nodes.xs, nodes.ys).maxOf { at -> at.max() - at.min() }
-        val delays = listOf(0.0) + (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
+        val delays =
+            listOf(0.0) + (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
         var best = Double.NEGATIVE_INFINITY
         var bestScale: FieldScale? = null
         for (part in LENGTHS) {
@@ -93,7 +106,14 @@ public class RevisitLearner private constructor(
         }
         val logs = doubleArrayOf(ln(start.length), ln(start.own), ln(start.ownTime), ln(start.noise))
         return among.map { smoothness ->
-            val best = Search.simplex(logs, DoubleArray(logs.size) { 1.0 }, evaluations, CLOSE) { total(it, smoothness) }
+            val best = Search.simplex(
+                logs,
+                DoubleArray(logs.size) {
+                    1.0
+                },
+                evaluations,
+                CLOSE,
+            ) { total(it, smoothness) }
             at(best, smoothness) to total(best, smoothness)
         }.maxBy { it.second }.first
     }

@@ -59,7 +59,10 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
         val inverse = inverse(Array(dimensions) { i -> DoubleArray(dimensions) { j -> total(i, j) } })
         val influence = Array(groupCount) { group ->
             DoubleArray(dimensions) { i ->
-                (0 until dimensions).sumOf { inverse[i][it] * (gradients[group * dimensions + it] - total(it) / groupCount) }
+                (0 until dimensions).sumOf {
+                    inverse[i][it] *
+                        (gradients[group * dimensions + it] - total(it) / groupCount)
+                }
             }
         }
         val small = groupCount / (groupCount - 1.0)
@@ -89,8 +92,20 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
             val half = (a - c) / 2
             val root = sqrt(half * half + b * b)
             val values = doubleArrayOf(middle + root, middle - root)
-            val x = if (abs(b) > 0) b else if (a >= c) 1.0 else 0.0
-            val y = if (abs(b) > 0) values[0] - a else if (a >= c) 0.0 else 1.0
+            val x = if (abs(b) > 0) {
+                b
+            } else if (a >= c) {
+                1.0
+            } else {
+                0.0
+            }
+            val y = if (abs(b) > 0) {
+                values[0] - a
+            } else if (a >= c) {
+                0.0
+            } else {
+                1.0
+            }
             val length = sqrt(x * x + y * y)
             return values to doubleArrayOf(x / length, y / length)
         }

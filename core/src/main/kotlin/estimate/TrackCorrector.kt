@@ -82,7 +82,13 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         TrackSmoother(stretch, part.response, part.along, agitation, series.medianStep).smooth(mean, variance)
         for (row in from until to) {
             val i = row - rows.first
-            val side = if (!stretch.silent[i]) 0 else if (stretch.rising[i]) 1 else -1
+            val side = if (!stretch.silent[i]) {
+                0
+            } else if (stretch.rising[i]) {
+                1
+            } else {
+                -1
+            }
             mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, series.values[row])
         }
     }
@@ -127,9 +133,11 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             // A weak belief keeps what the readings leave open within the log's own scales.
             val belief = (logs[0] - ln(spread)).let { it * it / 8 } +
                 (logs[1] + ln(RATE_STEPS * series.medianStep)).let { it * it / 32 }
-            return TrackSmoother(stretch, response, at(logs, smoothness), calm, series.medianStep).logLikelihood() - belief
+            return TrackSmoother(stretch, response, at(logs, smoothness), calm, series.medianStep).logLikelihood() -
+                belief
         }
-        val start = doubleArrayOf(ln(spread), -ln(RATE_STEPS * series.medianStep), maxOf(least, ln(spread * FIRST_NOISE)))
+        val start =
+            doubleArrayOf(ln(spread), -ln(RATE_STEPS * series.medianStep), maxOf(least, ln(spread * FIRST_NOISE)))
         return Smoothness.entries.map { smoothness ->
             val best = Search.simplex(start, doubleArrayOf(0.7, 1.0, 1.0), EVALUATIONS, CLOSE) { total(it, smoothness) }
             at(best, smoothness) to total(best, smoothness)

@@ -1,7 +1,7 @@
 package stillwater.estimate
 
-import kotlin.math.ln
 import kotlin.math.PI
+import kotlin.math.ln
 
 /**
  * One stretch of readings without gaps, for [TrackSmoother].

@@ -43,7 +43,9 @@ public class UndoableSensor private constructor(
                 }
                 when (stage) {
                     is SensorStage.Noise, is SensorStage.Quantum -> Unit
-                    is SensorStage.Delay -> response = with(response.copy(deadTime = response.deadTime + stage.deadTime))
+                    is SensorStage.Delay ->
+                        response =
+                            with(response.copy(deadTime = response.deadTime + stage.deadTime))
                     is SensorStage.Lag -> response = with(response.and(ResponseLag(stage.timeConstant)))
                     is SensorStage.Asymmetric -> response = with(response.and(ResponseLag(stage.rising, stage.falling)))
                     is SensorStage.Slew -> response = with(response.copy(slewRate = stage.rate))

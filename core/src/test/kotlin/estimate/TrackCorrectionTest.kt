@@ -109,7 +109,16 @@ class TrackCorrectionTest {
     @Test
     fun trackThatNeverComesBackSaysNothing() {
         val times = DoubleArray(500) { it.toDouble() }
-        val learner = RevisitLearner.of(TrackSeries(times, times, DoubleArray(500), DoubleArray(500) { sin(it / 30.0) }))
+        val learner = RevisitLearner.of(
+            TrackSeries(
+                times,
+                times,
+                DoubleArray(500),
+                DoubleArray(500) {
+                    sin(it / 30.0)
+                },
+            ),
+        )
         assertEquals(0, learner.blocks)
         assertEquals(null, learner.candidate(ResponseKind.FIRST_ORDER))
     }
@@ -118,7 +127,15 @@ class TrackCorrectionTest {
     fun referenceGivesTimeConstantGainAndOffset() {
         val log = LawnmowerLog(seed = 15, lag)
         val series = log.series
-        val scaled = TrackSeries(series.times, series.xs, series.ys, DoubleArray(series.size) { 2 * series.values[it] - 30 })
+        val scaled = TrackSeries(
+            series.times,
+            series.xs,
+            series.ys,
+            DoubleArray(series.size) {
+                2 * series.values[it] -
+                    30
+            },
+        )
         val learner = ReferenceLearner(scaled, log.truth)
         val candidate = requireNotNull(learner.candidate(ResponseKind.FIRST_ORDER))
         // A twentieth: the reference is known each second only.

@@ -28,7 +28,11 @@ class CorrectCommand : CliktCommand("correct") {
     }
 
     private val log by argument("LOG").help("survey CSV or Platypus log")
-    private val out by option("--out", metavar = "DIR", help = "directory for the results").default("stillwater-correct")
+    private val out by option(
+        "--out",
+        metavar = "DIR",
+        help = "directory for the results",
+    ).default("stillwater-correct")
     private val logOptions by LogOptions()
     private val reference by option(
         "--reference",
@@ -72,7 +76,11 @@ class CorrectCommand : CliktCommand("correct") {
     }
 
     private fun work() {
-        if (sensor != null && reference != null) throw failure("--sensor: expected either --sensor or --reference, found both")
+        if (sensor != null &&
+            reference != null
+        ) {
+            throw failure("--sensor: expected either --sensor or --reference, found both")
+        }
         val spec = sensor?.let(SensorFile::read)
         val file = Path.of(log)
         val choice = logOptions.choice()
@@ -88,7 +96,13 @@ class CorrectCommand : CliktCommand("correct") {
                 try {
                     CorrectedLog.of(opened, spec, reference != null, progress::advance)
                 } catch (wrong: IllegalArgumentException) {
-                    throw if (spec == null) wrong else BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
+                    throw if (spec ==
+                        null
+                    ) {
+                        wrong
+                    } else {
+                        BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
+                    }
                 }
             }
             val files = CorrectFiles(result, unit, commandLine())

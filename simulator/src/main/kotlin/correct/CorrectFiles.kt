@@ -61,7 +61,8 @@ class CorrectFiles(private val result: CorrectedLog, unit: String?, private val 
         if (value.isFinite()) String.format(java.util.Locale.ROOT, "%.7g", value).toDouble().toString() else null
 
     /** The summary for machines. */
-    fun json(drawing: List<String>): String = FORMAT.encodeToString(JsonObject.serializer(), summaryJson(drawing)) + "\n"
+    fun json(drawing: List<String>): String =
+        FORMAT.encodeToString(JsonObject.serializer(), summaryJson(drawing)) + "\n"
 
     private fun summaryJson(drawing: List<String>) = buildJsonObject {
         put("log", result.log.file.toString())

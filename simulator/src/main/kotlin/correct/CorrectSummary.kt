@@ -25,7 +25,10 @@ internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
             return when {
                 result.origin == SensorOrigin.NOTHING -> "not learned: nothing in the log shows it; taken as without lag"
                 choice == null -> "${describe(result.spec.stages.map { it.toString() })}, ${result.origin.label}"
-                choice.isAmbiguous -> "cannot be told apart on this log: ${choice.open.joinToString("; ", transform = ::words)}"
+                choice.isAmbiguous -> "cannot be told apart on this log: ${choice.open.joinToString(
+                    "; ",
+                    transform = ::words,
+                )}"
                 else -> words(choice.first)
             }
         }
@@ -101,12 +104,18 @@ internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
                 result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->
                     add("a lag is not told from none: the intervals cover both")
                 result.choice?.isAmbiguous == true -> add(
-                    "the log leaves ${result.choice.open.size} responses open (${result.choice.open.joinToString { it.kind.label }}): " +
+                    "the log leaves ${result.choice.open.size} responses open (${result.choice.open.joinToString {
+                        it.kind.label
+                    }}): " +
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
             }
             val silent = result.track.silent.count { it }
-            if (silent > 0) add("at $silent readings the sensor ran at its limit and shows the water from one side only")
+            if (silent >
+                0
+            ) {
+                add("at $silent readings the sensor ran at its limit and shows the water from one side only")
+            }
             if (result.learnedOn in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
                 add("the sensor was learned on the ${result.learnedOn} readings in the middle of the log")
             }

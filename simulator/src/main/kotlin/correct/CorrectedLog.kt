@@ -105,7 +105,13 @@ class CorrectedLog internal constructor(
                 scan.take(time, x, y, value, conditions)
             }
             if (pass.readings < FEWEST) {
-                throw LogProblem(log.file, null, null, "at least $FEWEST readings of ${log.quantity}", "${pass.readings}")
+                throw LogProblem(
+                    log.file,
+                    null,
+                    null,
+                    "at least $FEWEST readings of ${log.quantity}",
+                    "${pass.readings}",
+                )
             }
             val statistics = scan.statistics()
             val series = rows.series()
@@ -213,7 +219,13 @@ class CorrectedLog internal constructor(
         private fun legs(series: TrackSeries, values: DoubleArray): LegMismatch? {
             val scan = SurveyScan()
             for (i in 0 until series.size) {
-                scan.take(stillwater.model.BoatTime(series.times[i]), series.xs[i], series.ys[i], values[i], Conditions.NONE)
+                scan.take(
+                    stillwater.model.BoatTime(series.times[i]),
+                    series.xs[i],
+                    series.ys[i],
+                    values[i],
+                    Conditions.NONE,
+                )
             }
             val statistics = scan.statistics()
             val track: Track = scan.track()

@@ -95,7 +95,8 @@ class CorrectCommandTest {
             listOf(file, "--value", "slow", "--sensor", "none.json") to "no such file",
             listOf(file, "--value", "slow", "--sensor", spec(twice)) to "cannot",
             listOf(file, "--value", "slow", "--sensor", spec(twice), "--reference", "fast") to "both",
-            listOf(directory.resolve("short.csv").also { it.writeText(survey(5)) }.toString(), "--value", "slow") to "at least 30",
+            listOf(directory.resolve("short.csv").also { it.writeText(survey(5)) }.toString(), "--value", "slow") to
+                "at least 30",
         )
         for ((arguments, word) in cases) {
             val result = run(*arguments.toTypedArray())
