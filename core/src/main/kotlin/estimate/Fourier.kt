@@ -4,7 +4,10 @@ import kotlin.math.PI
 import kotlin.math.cos
 import kotlin.math.sin
 
-/** Discrete Fourier transform of [size] points, a power of two, in place (radix 2). Allocates nothing after it is built. */
+/**
+ * Discrete Fourier transform of [size] points, a power of two, in place (radix 2). Allocates nothing after it is
+ * built.
+ */
 internal class Fourier(val size: Int) {
     init {
         require(size >= 2 && size and (size - 1) == 0) { "size ($size) must be a power of two, at least 2" }

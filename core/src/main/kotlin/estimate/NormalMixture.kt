@@ -3,7 +3,9 @@ package stillwater.estimate
 import kotlin.math.exp
 import kotlin.math.sqrt
 
-/** Mixtures of normal distributions, one for each of [size] readings, cut at a reading where it is known from one side. */
+/**
+ * Mixtures of normal distributions, one for each of [size] readings, cut at a reading where it is known from one side.
+ */
 internal class NormalMixture(private val size: Int) {
     private class Part(
         val weights: DoubleArray,

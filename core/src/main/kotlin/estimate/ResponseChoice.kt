@@ -7,7 +7,8 @@ import kotlin.random.Random
  * How one candidate stands beside the best.
  *
  * @property candidate the candidate. @property behind by how much its held-out score is below the best one's.
- * @property error standard error of [behind], from the groups' scatter. @property weight probability given to it; 0 if it
+ * @property error standard error of [behind], from the groups' scatter. @property weight probability given to it; 0
+ * if it
  *   is ruled out or a simpler one stands for it.
  */
 public class CandidateStanding internal constructor(
@@ -24,7 +25,8 @@ public class CandidateStanding internal constructor(
  * Which responses a log leaves open, by scores on data that they were not fitted to.
  *
  * A candidate is ruled out if it is behind the best by more than [RULED_OUT] standard errors and by more than
- * [SMALLEST_LOSS]. An asymmetric lag gives way to a symmetric one that is still open: two time constants fit noise better
+ * [SMALLEST_LOSS]. An asymmetric lag gives way to a symmetric one that is still open: two time constants fit noise
+ * better
  * than one, and nothing is lost.
  *
  * @property standings all candidates, the most likely first.

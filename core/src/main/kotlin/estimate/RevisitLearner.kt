@@ -37,7 +37,9 @@ public class RevisitLearner private constructor(
         IntArray(found.size) { (it.toLong() * count / found.size).toInt() }
     }
 
-    /** Number of short runs of the track that other passes foretell; 0 where the log says nothing about the response. */
+    /**
+     * Number of short runs of the track that other passes foretell; 0 where the log says nothing about the response.
+     */
     public val blocks: Int get() = found.size
 
     /** Usual distance from a block to the nearest other pass, m; NaN without any. */
@@ -56,7 +58,8 @@ public class RevisitLearner private constructor(
     }
 
     /**
-     * First the delay with which the passes agree best under any of some guesses at the water, then the water's scales at
+     * First the delay with which the passes agree best under any of some guesses at the water, then the water's
+     * scales at
      * that delay: at no delay water would be found that changes from pass to pass.
      */
     private fun learnField() {
@@ -132,7 +135,8 @@ public class RevisitLearner private constructor(
     }
 
     /**
-     * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect on
+     * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect
+     * on
      * the score would otherwise hide that of a dead time.
      */
     private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {

@@ -4,7 +4,8 @@ import kotlin.math.abs
 import kotlin.math.sqrt
 
 /**
- * What the blocks' scores say about one or two parameters at their maximum: gradients by block, curvature, and from both
+ * What the blocks' scores say about one or two parameters at their maximum: gradients by block, curvature, and from
+ * both
  * the parameters' covariance (White 1982, doi:10.2307/1912526: H⁻¹ V H⁻¹, V from groups of blocks).
  *
  * @param dimensions number of parameters, 1 or 2. @param groups group of each block, 0 to [groupCount] − 1.

@@ -27,10 +27,12 @@ public class CorrectedTrack internal constructor(
 )
 
 /**
- * Undoes a sensor's response along a whole track, with an honest interval: what the sensor has smoothed away is not made
+ * Undoes a sensor's response along a whole track, with an honest interval: what the sensor has smoothed away is not
+ * made
  * up, but left open as far as the water is rough, which is learned from the log.
  *
- * Model and derivation: core/docs/TrackCorrection.md, (6) to (9). Linear in the number of readings. Confined to one thread.
+ * Model and derivation: core/docs/TrackCorrection.md, (6) to (9). Linear in the number of readings. Confined to one
+ * thread.
  *
  * @param series the readings. Retained.
  * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
@@ -144,7 +146,9 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         }.maxBy { it.second }.first
     }
 
-    /** Hands the track on in stretches without gaps, long ones in pieces that overlap: all rows, and those that count. */
+    /**
+     * Hands the track on in stretches without gaps, long ones in pieces that overlap: all rows, and those that count.
+     */
     private fun pieces(most: Int, each: (rows: IntRange, from: Int, to: Int) -> Unit) {
         var begin = 0
         while (begin < series.size) {

@@ -6,7 +6,8 @@ import stillwater.sensor.SensorStage
 /**
  * A sensor spec in the form in which a whole track can be corrected for it.
  *
- * @property response how it follows. @property gain dimensionless. @property offset sensor units; readings are gain · field
+ * @property response how it follows. @property gain dimensionless. @property offset sensor units; readings are gain ·
+ * field
  *   + offset. @property drift sensor units/s from the first reading on.
  */
 public class UndoableSensor private constructor(
@@ -26,7 +27,8 @@ public class UndoableSensor private constructor(
 
     public companion object {
         /**
-         * [spec] as it can be undone: dead times, up to two lags, a slew limit, then gains, offsets and drifts, with noise and
+         * [spec] as it can be undone: dead times, up to two lags, a slew limit, then gains, offsets and drifts, with
+         * noise and
          * quantisation anywhere.
          *
          * @throws IllegalArgumentException if [spec] has a stage that cannot be undone; the message names it.
@@ -57,7 +59,8 @@ public class UndoableSensor private constructor(
                     }
                     is SensorStage.Drifting -> drift += stage.rate
                     else -> throw IllegalArgumentException(
-                        "stages dead-time, first-order-lag, asymmetric-lag, slew-limit, gain-offset, drift, noise and " +
+                        "stages dead-time, first-order-lag, asymmetric-lag, slew-limit, gain-offset, drift, noise " +
+                            "and " +
                             "quantisation can be undone, ${stage::class.simpleName} cannot",
                     )
                 }

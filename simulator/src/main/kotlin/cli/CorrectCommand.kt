@@ -52,8 +52,10 @@ class CorrectCommand : CliktCommand("correct") {
     override fun help(context: Context) = "Undo a sensor's lag in a boat's log, with a 95 % interval for every row."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Writes corrected.csv (every row of the log and corrected, corrected_low, corrected_high), sensor.json (the sensor, " +
-            "for --sensor), summary.json, figures as SVG and PNG, and report.html into DIR; nothing at all when something " +
+        "Writes corrected.csv (every row of the log and corrected, corrected_low, corrected_high), sensor.json " +
+            "(the sensor, " +
+            "for --sensor), summary.json, figures as SVG and PNG, and report.html into DIR; nothing at all when " +
+            "something " +
             "is wrong with the log.",
         listOf(
             "stillwater correct survey.csv --value odo_percent_sat --unit %sat",

@@ -87,7 +87,8 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
         return CorrectFigure(
             "evidence",
             figure,
-            "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked open is " +
+            "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked " +
+                "open is " +
                 "not ruled out.",
         )
     }

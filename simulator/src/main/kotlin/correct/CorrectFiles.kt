@@ -19,7 +19,8 @@ import stillwater.report.writeFigures
 /**
  * Writes what a [CorrectedLog] gives: corrected.csv, sensor.json, summary.json, figures and report.html.
  *
- * corrected.csv has every row of the log with its own columns and corrected, corrected_low, corrected_high; rows that are no
+ * corrected.csv has every row of the log with its own columns and corrected, corrected_low, corrected_high; rows that
+ * are no
  * reading have these empty.
  *
  * @param result what to write. @param unit unit of the quantity, or null. @param command the command as typed.
@@ -143,14 +144,21 @@ class CorrectFiles(private val result: CorrectedLog, unit: String?, private val 
         val COLUMNS = listOf("corrected", "corrected_low", "corrected_high")
         val FORMAT = Json { prettyPrint = true }
         val HOW = listOf(
-            "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate response " +
-                "is undone in phase only, and short runs of the track are foretold from the other passes near them; the " +
-                "better they agree, the higher its score. Parameters are fitted without the group of runs that is scored.",
-            "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken from the " +
-                "scatter between groups of neighbouring runs. What is not ruled out stays open, and the corrected value is " +
+            "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
+                "response " +
+                "is undone in phase only, and short runs of the track are foretold from the other passes near " +
+                "them; the " +
+                "better they agree, the higher its score. Parameters are fitted without the group of runs that is " +
+                "scored.",
+            "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
+                "from the " +
+                "scatter between groups of neighbouring runs. What is not ruled out stays open, and the corrected " +
+                "value is " +
                 "the mean over it.",
-            "The value and its interval come from a Kalman smoother with the sensor's response in its state. How rough the " +
-                "water is along the track and how noisy the readings are is learned from the log; detail that the sensor has " +
+            "The value and its interval come from a Kalman smoother with the sensor's response in its state. How " +
+                "rough the " +
+                "water is along the track and how noisy the readings are is learned from the log; detail that the " +
+                "sensor has " +
                 "smoothed away is not made up but left open in the interval.",
         )
     }

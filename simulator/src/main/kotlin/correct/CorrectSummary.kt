@@ -23,7 +23,9 @@ internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
         get() {
             val choice = result.choice
             return when {
-                result.origin == SensorOrigin.NOTHING -> "not learned: nothing in the log shows it; taken as without lag"
+                result.origin == SensorOrigin.NOTHING ->
+                    "not learned: nothing in the log shows it; taken as " +
+                        "without lag"
                 choice == null -> "${describe(result.spec.stages.map { it.toString() })}, ${result.origin.label}"
                 choice.isAmbiguous -> "cannot be told apart on this log: ${choice.open.joinToString(
                     "; ",
@@ -98,7 +100,8 @@ internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
         get() = buildList {
             when {
                 result.origin == SensorOrigin.NOTHING -> add(
-                    "no pass comes near another, so that nothing shows how the sensor responds: the values are smoothed only; " +
+                    "no pass comes near another, so that nothing shows how the sensor responds: the values are " +
+                        "smoothed only; " +
                         "give --sensor or --reference",
                 )
                 result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->

@@ -44,8 +44,10 @@ enum class SensorOrigin(val label: String) {
  * A log with its sensor's response undone.
  *
  * @property log the log. @property pass what reading it came to. @property series its readings.
- * @property origin where the sensor comes from. @property choice the candidates and what is left open, or null where nothing
- *   was chosen. @property spec the sensor, the most likely if several are open. @property track the field along the track.
+ * @property origin where the sensor comes from. @property choice the candidates and what is left open, or null where
+ * nothing
+ *   was chosen. @property spec the sensor, the most likely if several are open. @property track the field along the
+ * track.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
  * @property withoutReference readings left out because the reference is missing there.

@@ -9,7 +9,8 @@ import java.io.OutputStreamWriter
 /**
  * Writes a log again as CSV, every row with its own columns as they are, and some more.
  *
- * @param log the log. @param names the columns added. @param times times of the readings that [log] yields, s. Not modified.
+ * @param log the log. @param names the columns added. @param times times of the readings that [log] yields, s. Not
+ * modified.
  */
 internal class AnnotatedLog(
     private val log: SurveyLog,
@@ -20,7 +21,8 @@ internal class AnnotatedLog(
     private val values: DoubleArray,
 ) {
     /**
-     * Writes all rows to [out], which is closed; [cells] gives what is added to reading k, null for nothing. Logs that are
+     * Writes all rows to [out], which is closed; [cells] gives what is added to reading k, null for nothing. Logs
+     * that are
      * not CSV get a row a reading with the columns time_s, x_m, y_m and the quantity.
      *
      * @return number of rows written that are no reading; their added cells are empty.
