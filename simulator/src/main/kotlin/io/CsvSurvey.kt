@@ -20,10 +20,10 @@ import kotlin.math.abs
  * rows are left out and counted.
  */
 internal class CsvSurvey private constructor(
-    private val content: LogContent,
-    private val separator: Char,
-    private val headerLine: Long,
-    private val columns: CsvColumns,
+    internal val content: LogContent,
+    internal val separator: Char,
+    internal val headerLine: Long,
+    internal val columns: CsvColumns,
     private val skipBadRows: Boolean,
 ) : SurveyLog {
     override val file: Path get() = content.file

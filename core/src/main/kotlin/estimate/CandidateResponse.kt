@@ -1,0 +1,60 @@
+package stillwater.estimate
+
+import kotlin.math.exp
+import kotlin.math.sqrt
+
+/**
+ * One response as it fits a log best, with how far it can be trusted.
+ *
+ * @property kind which response. @property parameters its parameters, in the order of [ResponseKind.parameters].
+ * @property relativeErrors standard error of the logarithm of each parameter, from the blocks' own scatter (sandwich),
+ *   so that it holds for correlated residuals too; infinite where the log does not determine it.
+ * @property axes each row is one direction in which the parameters' logarithms are uncertain, one standard error long.
+ * @property score sum of the blocks' log scores at [parameters].
+ * @property heldOut log score of each group of neighbouring blocks with the parameters fitted to the other groups; the
+ *   same groups for all candidates of one log. Not modified.
+ */
+public class CandidateResponse internal constructor(
+    public val kind: ResponseKind,
+    public val parameters: List<Double>,
+    public val relativeErrors: List<Double>,
+    internal val axes: List<List<Double>>,
+    public val score: Double,
+    public val heldOut: DoubleArray,
+) {
+    /** The response at the best parameters. */
+    public val response: Response get() = kind.response(*parameters.toDoubleArray())
+
+    /** The 95 % interval of parameter [index], lower to upper end, in its unit. */
+    public fun interval(index: Int): ClosedFloatingPointRange<Double> {
+        val factor = exp(TWO_SIDED * relativeErrors[index])
+        return parameters[index] / factor..parameters[index] * factor
+    }
+
+    /** Sum of [heldOut]. */
+    public val heldOutScore: Double get() = heldOut.sum()
+
+    /** Standard error of the mean delay, s. */
+    public val delayError: Double
+        get() = likely().map { it.meanDelay }.let { all ->
+            sqrt(all.sumOf { (it - response.meanDelay) * (it - response.meanDelay) } / maxOf(1, all.size - 1))
+        }
+
+    /** Responses about the best one that together have the mean and the spread of what is likely. */
+    internal fun likely(): List<Response> {
+        val scale = sqrt(axes.size.toDouble())
+        return listOf(response) + axes.flatMap { axis ->
+            listOf(-scale, scale).map { side ->
+                val moved = parameters.indices.map {
+                    parameters[it] * exp((side * axis[it]).coerceIn(-MOST_MOVE, MOST_MOVE))
+                }
+                kind.response(*moved.toDoubleArray())
+            }
+        }
+    }
+
+    private companion object {
+        const val TWO_SIDED = 1.96
+        const val MOST_MOVE = 1.5
+    }
+}

@@ -1,0 +1,146 @@
+package stillwater.estimate
+
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Learns a sensor's response from a reference along the same track: a fast sensor, or the known truth.
+ *
+ * z = gain · response(reference) + offset + e, with e correlated from reading to reading (first order, its correlation
+ * learned with the rest); gain and offset are in every model, because without them anything else looks significant. See
+ * core/docs/TrackCorrection.md, (10). Confined to one thread.
+ *
+ * @param series the readings. Retained. @param reference the truth at each reading, sensor units of its own, length n.
+ *   Retained, not modified.
+ */
+public class ReferenceLearner(private val series: TrackSeries, private val reference: DoubleArray) : ResponseLearner {
+    init {
+        require(reference.size == series.size) {
+            "reference (${reference.size}) must be as long as series (${series.size})"
+        }
+        require(reference.all { it.isFinite() }) { "reference must be finite" }
+    }
+
+    override val groups: Int = (series.size / GROUP).coerceIn(2, MOST_GROUPS)
+    private val groupOf = IntArray(series.size) { (it.toLong() * groups / series.size).toInt() }
+    private val shown = DoubleArray(series.size)
+    private val residuals = DoubleArray(series.size)
+    private val lag = LagWeights()
+
+    /** Gain and offset that go with [response]: z ≈ gain · response(reference) + offset. */
+    public fun calibration(response: Response): Pair<Double, Double> {
+        respond(response)
+        return fit()
+    }
+
+    override fun candidate(kind: ResponseKind): CandidateResponse? {
+        if (series.size < FEWEST) return null
+        val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
+        if (kind == ResponseKind.SLEW) {
+            val slopes = DoubleArray(series.size - 1) {
+                kotlin.math.abs(series.values[it + 1] - series.values[it]) / (series.times[it + 1] - series.times[it])
+            }.apply { sort() }
+            val top = slopes[(slopes.size * TOP).toInt()]
+            return if (top > 0) fit.near(doubleArrayOf(ln(top))) else null
+        }
+        val delays = List(DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble()) }
+        return fit.best(delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) })
+    }
+
+    private fun total(kind: ResponseKind, logs: DoubleArray): Double {
+        if (logs.any { kotlin.math.abs(it) > MOST_LOG }) return Double.NEGATIVE_INFINITY
+        return scores(kind, logs).sum()
+    }
+
+    /** One score a reading: the log density of what it surprises by after the reading before. */
+    private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
+        respond(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }))
+        val (gain, offset) = fit()
+        var own = 0.0
+        var next = 0.0
+        for (i in residuals.indices) {
+            residuals[i] = series.values[i] - offset - gain * shown[i]
+            own += residuals[i] * residuals[i]
+            if (i > 0) next += residuals[i] * residuals[i - 1]
+        }
+        val correlation = if (own > 0) (next / own).coerceIn(0.0, MOST_CORRELATION) else 0.0
+        var sum = 0.0
+        for (i in residuals.indices) sum += surprise(i, correlation).let { it * it }
+        val variance = maxOf(sum / residuals.size, LEAST)
+        return DoubleArray(residuals.size) { i ->
+            -(ln(variance) + surprise(i, correlation).let { it * it } / variance) / 2
+        }
+    }
+
+    private fun surprise(i: Int, correlation: Double) =
+        if (i ==
+            0
+        ) {
+            residuals[0] * sqrt(1 - correlation * correlation)
+        } else {
+            residuals[i] - correlation * residuals[i - 1]
+        }
+
+    private fun fit(): Pair<Double, Double> {
+        val x = shown.average()
+        val z = series.values.average()
+        var sxx = 0.0
+        var sxz = 0.0
+        for (i in shown.indices) {
+            sxx += (shown[i] - x) * (shown[i] - x)
+            sxz += (shown[i] - x) * (series.values[i] - z)
+        }
+        val gain = if (sxx > 0) sxz / sxx else 1.0
+        return gain to z - gain * x
+    }
+
+    /** What a sensor with [response] shows of the reference, into [shown]; settled at each gap. */
+    private fun respond(response: Response) {
+        delay(response.deadTime)
+        for (stage in response.lags) {
+            var before = shown[0]
+            for (i in 1 until shown.size) {
+                val dt = series.times[i] - series.times[i - 1]
+                val input = shown[i]
+                if (dt > series.gapLimit) {
+                    before = input
+                    continue
+                }
+                lag.set(if (input > shown[i - 1]) stage.rising else stage.falling, dt)
+                shown[i] = lag.keep * shown[i - 1] + lag.before * before + lag.now * input
+                before = input
+            }
+        }
+        if (response.slewRate.isInfinite()) return
+        for (i in 1 until shown.size) {
+            val dt = series.times[i] - series.times[i - 1]
+            if (dt > series.gapLimit) continue
+            val most = response.slewRate * dt
+            shown[i] = shown[i].coerceIn(shown[i - 1] - most, shown[i - 1] + most)
+        }
+    }
+
+    private fun delay(deadTime: Double) {
+        var left = 0
+        for (i in shown.indices) {
+            val time = series.times[i] - deadTime
+            while (left < i && series.times[left + 1] <= time) left++
+            val span = if (left < i) series.times[left + 1] - series.times[left] else 0.0
+            val share = if (span > 0) ((time - series.times[left]) / span).coerceIn(0.0, 1.0) else 0.0
+            shown[i] = reference[left] + if (share > 0) share * (reference[left + 1] - reference[left]) else 0.0
+        }
+    }
+
+    private companion object {
+        const val FEWEST = 30
+        const val GROUP = 60
+        const val MOST_GROUPS = 20
+        const val TOP = 0.99
+        const val DELAYS = 14
+        const val DELAY_FROM = 0.125
+        const val MOST_LOG = 25.0
+        const val MOST_CORRELATION = 0.999
+        const val LEAST = 1e-300
+    }
+}

@@ -1,0 +1,110 @@
+package stillwater.estimate
+
+import stillwater.sensor.SensorStage
+
+/**
+ * One exponential lag of a [Response].
+ *
+ * @property rising time constant while the sensor rises, s, above 0 and finite.
+ * @property falling time constant while it falls, s, above 0 and finite; the same as [rising] for a symmetric lag.
+ * @throws IllegalArgumentException if a number is out of its range.
+ */
+public data class ResponseLag(val rising: Double, val falling: Double = rising) {
+    init {
+        require(rising > 0 && rising.isFinite()) { "rising ($rising s) must be above 0 and finite" }
+        require(falling > 0 && falling.isFinite()) { "falling ($falling s) must be above 0 and finite" }
+    }
+}
+
+/**
+ * How a sensor follows the water in time: a dead time, lags in a row, or a limited rate. What estimators that work on
+ * a whole track can undo.
+ *
+ * @property deadTime d, s, at least 0 and finite.
+ * @property lags at most two, in the order in which they act.
+ * @property slewRate largest rate of change, sensor units/s, above 0; infinite without a limit.
+ * @throws IllegalArgumentException if a number is out of its range, or there are more than two lags.
+ */
+public data class Response(
+    val deadTime: Double = 0.0,
+    val lags: List<ResponseLag> = emptyList(),
+    val slewRate: Double = Double.POSITIVE_INFINITY,
+) {
+    init {
+        require(deadTime >= 0 && deadTime.isFinite()) { "deadTime ($deadTime s) must be at least 0 and finite" }
+        require(lags.size <= MOST_LAGS) { "lags (${lags.size}) must be at most $MOST_LAGS" }
+        require(slewRate > 0) { "slewRate ($slewRate sensor units/s) must be above 0" }
+    }
+
+    /** Mean delay, s: dead time and time constants added up, rising and falling at the mean. */
+    public val meanDelay: Double get() = deadTime + lags.sumOf { (it.rising + it.falling) / 2 }
+
+    /** The response as the stages of a [stillwater.sensor.SensorSpec]. */
+    public fun stages(): List<SensorStage> = buildList {
+        if (deadTime > 0) add(SensorStage.Delay(deadTime))
+        for (lag in lags) {
+            val isSymmetric = lag.rising == lag.falling
+            add(if (isSymmetric) SensorStage.Lag(lag.rising) else SensorStage.Asymmetric(lag.rising, lag.falling))
+        }
+        if (slewRate.isFinite()) add(SensorStage.Slew(slewRate))
+    }
+
+    public companion object {
+        /** Lags in a row that are undone together. */
+        public const val MOST_LAGS: Int = 2
+    }
+}
+
+/**
+ * The responses among which a log may decide.
+ *
+ * @property label name in files and on the terminal.
+ * @property parameters names of the parameters, units in them, in the order of [response].
+ */
+public enum class ResponseKind(public val label: String, public val parameters: List<String>) {
+    /** Follows at once. */
+    NONE("none", emptyList()),
+
+    /** One exponential lag. */
+    FIRST_ORDER("first-order-lag", listOf("time_constant_s")),
+
+    /** A pure delay. */
+    DEAD_TIME("dead-time", listOf("dead_time_s")),
+
+    /** Two equal lags in a row. */
+    SECOND_ORDER("second-order-lag", listOf("time_constant_s")),
+
+    /** A delay, then a lag. */
+    DEAD_TIME_AND_LAG("dead-time-and-lag", listOf("dead_time_s", "time_constant_s")),
+
+    /** A lag with one time constant up and another down. */
+    ASYMMETRIC("asymmetric-lag", listOf("rising_time_constant_s", "falling_time_constant_s")),
+
+    /** Follows at once, but no faster than a rate. */
+    SLEW("slew-limit", listOf("rate_per_s")),
+    ;
+
+    /** The response with [parameters], all above 0, in the order of the property of that name. Not modified. */
+    public fun response(vararg parameters: Double): Response {
+        require(parameters.size == this.parameters.size) {
+            "$label has ${this.parameters.size} parameters, found ${parameters.size}"
+        }
+        return when (this) {
+            NONE -> Response()
+            FIRST_ORDER -> Response(lags = listOf(ResponseLag(parameters[0])))
+            DEAD_TIME -> Response(deadTime = parameters[0])
+            SECOND_ORDER -> Response(lags = List(2) { ResponseLag(parameters[0]) })
+            DEAD_TIME_AND_LAG -> Response(parameters[0], listOf(ResponseLag(parameters[1])))
+            ASYMMETRIC -> Response(lags = listOf(ResponseLag(parameters[0], parameters[1])))
+            SLEW -> Response(slewRate = parameters[0])
+        }
+    }
+
+    /** Whether [other] is this one with a parameter at its limit, so that this one can do no worse on the same data. */
+    public fun contains(other: ResponseKind): Boolean = when (this) {
+        NONE -> false
+        DEAD_TIME_AND_LAG -> other == FIRST_ORDER || other == DEAD_TIME || other == NONE
+        ASYMMETRIC -> other == FIRST_ORDER || other == NONE
+        else -> other == NONE
+    }
+}

@@ -1,0 +1,121 @@
+package stillwater.estimate
+
+import kotlin.math.sqrt
+import kotlin.random.Random
+
+/**
+ * How one candidate stands beside the best.
+ *
+ * @property candidate the candidate. @property behind by how much its held-out score is below the best one's.
+ * @property error standard error of [behind], from the groups' scatter. @property weight probability given to it; 0
+ * if it
+ *   is ruled out or a simpler one stands for it.
+ */
+public class CandidateStanding internal constructor(
+    public val candidate: CandidateResponse,
+    public val behind: Double,
+    public val error: Double,
+    public val weight: Double,
+) {
+    /** Whether the log leaves it open. */
+    public val isOpen: Boolean get() = weight > 0
+}
+
+/**
+ * Which responses a log leaves open, by scores on data that they were not fitted to.
+ *
+ * A candidate is ruled out if it is behind the best by more than [RULED_OUT] standard errors and by more than
+ * [SMALLEST_LOSS]. An asymmetric lag gives way to a symmetric one that is still open: two time constants fit noise
+ * better
+ * than one, and nothing is lost.
+ *
+ * @property standings all candidates, the most likely first.
+ */
+public class ResponseChoice private constructor(public val standings: List<CandidateStanding>) {
+    /** What the log leaves open, the most likely first; not empty. */
+    public val open: List<CandidateResponse> get() = standings.filter { it.isOpen }.map { it.candidate }
+
+    /** The most likely. */
+    public val first: CandidateResponse get() = open.first()
+
+    /** Whether more than one response is left open. */
+    public val isAmbiguous: Boolean get() = open.size > 1
+
+    /** The open responses with their probabilities, for [TrackCorrector]. */
+    public fun likely(): List<LikelyResponse> =
+        standings.filter { it.isOpen }.map { LikelyResponse(it.candidate.likely(), it.weight) }
+
+    public companion object {
+        /** Standard errors behind the best from which a candidate is ruled out. */
+        public const val RULED_OUT: Double = 2.6
+
+        /** Loss in log score that is none. */
+        public const val SMALLEST_LOSS: Double = 2.0
+
+        private const val DRAWS = 2000
+
+        /**
+         * The choice among [candidates], at least one, of the same log.
+         *
+         * @param random for the bootstrap over groups that gives the probabilities. Retained no longer than the call.
+         */
+        public fun of(candidates: List<CandidateResponse>, random: Random): ResponseChoice {
+            require(candidates.isNotEmpty()) { "candidates must not be empty" }
+            require(candidates.map { it.heldOut.size }.distinct().size == 1) { "candidates must be of one log" }
+            val best = candidates.maxBy { it.heldOutScore }
+            val behind = candidates.map { best.heldOutScore - it.heldOutScore }
+            val errors = candidates.map { error(best, it) }
+            val notRuledOut = candidates.indices.filter {
+                behind[it] <= RULED_OUT * errors[it] || behind[it] <= SMALLEST_LOSS
+            }
+            val open = notRuledOut.filterNot { rich ->
+                candidates[rich].kind == ResponseKind.ASYMMETRIC &&
+                    notRuledOut.any { candidates[it].kind == ResponseKind.FIRST_ORDER }
+            }
+            val weights = weights(open.map { candidates[it] }, random)
+            val standings = candidates.indices.map { i ->
+                CandidateStanding(
+                    candidates[i],
+                    behind[i],
+                    errors[i],
+                    open.indexOf(i).let {
+                        if (it <
+                            0
+                        ) {
+                            0.0
+                        } else {
+                            weights[it]
+                        }
+                    },
+                )
+            }
+            return ResponseChoice(standings.sortedWith(compareBy({ -it.weight }, { it.behind })))
+        }
+
+        private fun error(best: CandidateResponse, other: CandidateResponse): Double {
+            val n = best.heldOut.size
+            if (n < 2) return Double.POSITIVE_INFINITY
+            val differences = DoubleArray(n) { best.heldOut[it] - other.heldOut[it] }
+            val mean = differences.average()
+            return sqrt(differences.sumOf { (it - mean) * (it - mean) } / (n - 1) * n)
+        }
+
+        /** How often each is the best when the groups are drawn anew. */
+        private fun weights(open: List<CandidateResponse>, random: Random): DoubleArray {
+            val wins = DoubleArray(open.size)
+            val groups = open.first().heldOut.size
+            val sums = DoubleArray(open.size)
+            repeat(DRAWS) {
+                sums.fill(0.0)
+                repeat(groups) {
+                    val group = random.nextInt(groups)
+                    for (k in open.indices) sums[k] += open[k].heldOut[group]
+                }
+                wins[sums.indices.maxBy { sums[it] }]++
+            }
+            val total = wins.sum()
+            // What the log does not tell apart is not to be told apart by chance either: half is shared evenly.
+            return DoubleArray(open.size) { (wins[it] / total + 1.0 / open.size) / 2 }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+package stillwater.estimate
+
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** Learns how a sensor responds from one log: fits one kind of response after the other to the same evidence. */
+public interface ResponseLearner {
+    /** Number of groups of neighbouring blocks, over which evidence is counted; 0 without any. */
+    public val groups: Int
+
+    /** [kind] as it fits best; null where the log holds no evidence on it. */
+    public fun candidate(kind: ResponseKind): CandidateResponse?
+}
+
+/**
+ * Fits one kind of response to scores that blocks of a log give it.
+ *
+ * @param groupOf group of each block. @param groups number of groups.
+ * @param total sum of the scores at the logarithms of the parameters. @param scores one score a block, likewise.
+ */
+internal class ResponseFit(
+    private val kind: ResponseKind,
+    private val groupOf: IntArray,
+    private val groups: Int,
+    private val total: (DoubleArray) -> Double,
+    private val scores: (DoubleArray) -> DoubleArray,
+) {
+    private val size = kind.parameters.size
+
+    /** The best parameters, searched from those that have the mean delay [delay], s. */
+    fun best(delay: Double): CandidateResponse {
+        val logs = starts(delay).map { start ->
+            Search.simplex(start, DoubleArray(size) { STEP }, EVALUATIONS * size, CLOSE, total)
+        }.maxBy { if (size == 0) 0.0 else total(it) }
+        return judged(logs)
+    }
+
+    /** The best parameters near [logs]. */
+    fun near(logs: DoubleArray): CandidateResponse =
+        judged(Search.simplex(logs, DoubleArray(size) { STEP }, EVALUATIONS * maxOf(1, size), CLOSE, total))
+
+    private fun starts(delay: Double): List<DoubleArray> {
+        fun logs(vararg times: Double) = DoubleArray(times.size) { ln(times[it]) }
+        return when (kind) {
+            ResponseKind.NONE, ResponseKind.SLEW -> listOf(logs())
+            ResponseKind.FIRST_ORDER, ResponseKind.DEAD_TIME -> listOf(logs(delay))
+            ResponseKind.SECOND_ORDER -> listOf(logs(delay / 2))
+            ResponseKind.DEAD_TIME_AND_LAG -> listOf(logs(delay / 3, delay * 2 / 3), logs(delay * 2 / 3, delay / 3))
+            ResponseKind.ASYMMETRIC -> listOf(logs(delay * MORE, delay / MORE), logs(delay / MORE, delay * MORE))
+        }
+    }
+
+    private fun judged(logs: DoubleArray): CandidateResponse {
+        val at = scores(logs)
+        fun moved(move: DoubleArray) = scores(DoubleArray(size) { logs[it] + move[it] })
+        val curvature = ScoreCurvature(size, groupOf, groups)
+        if (size > 0) curvature.take(CURVATURE_STEP, ::moved)
+        val heldOut = DoubleArray(groups) { group ->
+            val each = if (size == 0) at else moved(curvature.without(group))
+            groupOf.indices.sumOf { if (groupOf[it] == group) each[it] else 0.0 }
+        }
+        val covariance = if (size > 0) curvature.covariance() else emptyArray()
+        return CandidateResponse(
+            kind,
+            List(size) { exp(logs[it]) },
+            List(size) { sqrt(covariance[it][it]) },
+            ScoreCurvature.axes(covariance),
+            at.sum(),
+            heldOut,
+        )
+    }
+
+    private companion object {
+        const val STEP = 0.3
+        const val EVALUATIONS = 40
+        const val CLOSE = 0.005
+        const val MORE = 1.2
+        const val CURVATURE_STEP = 0.15
+    }
+}

@@ -1,0 +1,117 @@
+package stillwater.estimate
+
+import kotlin.math.hypot
+
+/**
+ * A short run of a track and the runs of other passes through the same water that it is held against.
+ *
+ * @property firsts first node of each run, the passes before, the block itself last.
+ * @property lengths nodes in each run, in the same order.
+ * @property nearest distance from the middle of the block to the nearest other pass, m.
+ */
+internal class RevisitBlock(val firsts: IntArray, val lengths: IntArray, val nearest: Double) {
+    /** First node of the block. */
+    val start: Int get() = firsts.last()
+}
+
+/**
+ * Finds where a track comes back to water it has been in, or near to: crossings, neighbouring legs, casts.
+ *
+ * A pass is a local minimum in time of the distance to the block's middle. Of the passes not much farther away than
+ * passes usually are, the last before the block and the first after it are taken, and one more either way where the
+ * other side has none.
+ */
+internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBlocks: Int) {
+    private class Pass(val node: Int, val distance: Double)
+
+    /** The blocks in the order of time; empty where the track never comes back. */
+    fun find(): List<RevisitBlock> {
+        val starts = starts()
+        val passes = starts.map { passes(it) }
+        val nearest = passes.mapNotNull { found -> found.minOfOrNull { it.distance } }.sorted()
+        if (nearest.isEmpty()) return emptyList()
+        val reach = FARTHEST * nearest[nearest.size / 2] + ownLength()
+        return starts.indices.mapNotNull { block(starts[it], passes[it].filter { pass -> pass.distance <= reach }) }
+    }
+
+    /** Usual way along a block, m. */
+    private fun ownLength(): Double {
+        val lengths = starts().map { nodes.distance(it, it + BLOCK - 1) }.sorted()
+        return if (lengths.isEmpty()) 0.0 else lengths[lengths.size / 2] / 2
+    }
+
+    private fun starts(): List<Int> {
+        val all = ArrayList<Int>()
+        var i = 0
+        while (i + BLOCK <= nodes.size) {
+            if (nodes.first[i + BLOCK - 1] == nodes.first[i]) {
+                all += i
+                i += BLOCK
+            } else {
+                i++
+            }
+        }
+        if (all.size <= mostBlocks) return all
+        return List(mostBlocks) { all[(it.toLong() * all.size / mostBlocks).toInt()] }
+    }
+
+    private fun passes(start: Int): List<Pass> {
+        val x = nodes.xs[start + BLOCK / 2]
+        val y = nodes.ys[start + BLOCK / 2]
+        val distances = DoubleArray(nodes.size) { hypot(nodes.xs[it] - x, nodes.ys[it] - y) }
+        val found = ArrayList<Pass>()
+        var i = 0
+        while (i < nodes.size) {
+            val near = i in start - OWN..start + BLOCK + OWN
+            if (!near && isMinimum(distances, i)) {
+                found += Pass(i, distances[i])
+                i += BLOCK
+            } else {
+                i++
+            }
+        }
+        return found
+    }
+
+    private fun isMinimum(distances: DoubleArray, node: Int): Boolean {
+        val here = distances[node]
+        for (other in maxOf(0, node - BLOCK)..minOf(nodes.size - 1, node + BLOCK)) {
+            if (distances[other] < here || (distances[other] == here && other < node)) return false
+        }
+        return true
+    }
+
+    private fun block(start: Int, passes: List<Pass>): RevisitBlock? {
+        val before = passes.filter { it.node < start }.takeLast(2).reversed()
+        val after = passes.filter { it.node > start }.take(2)
+        val chosen = listOfNotNull(before.getOrNull(0), after.getOrNull(0)).toMutableList()
+        if (chosen.size < 2) (before.getOrNull(1) ?: after.getOrNull(1))?.let { chosen += it }
+        if (chosen.isEmpty()) return null
+        val ranges = chosen.map { run(it.node, start) }.filter { it.last - it.first + 1 >= FEWEST }
+        if (ranges.isEmpty()) return null
+        val firsts = ranges.map { it.first } + start
+        val lengths = ranges.map { it.last - it.first + 1 } + BLOCK
+        return RevisitBlock(firsts.toIntArray(), lengths.toIntArray(), chosen.minOf { it.distance })
+    }
+
+    /** Nodes about [node], in its stretch and not in the block at [start]. */
+    private fun run(node: Int, start: Int): IntRange {
+        var from = maxOf(nodes.first[node], node - RUN / 2)
+        var to = minOf(nodes.size - 1, node + RUN / 2 - 1)
+        while (nodes.first[to] != nodes.first[node]) to--
+        if (node < start) to = minOf(to, start - 1) else from = maxOf(from, start + BLOCK)
+        return from..to
+    }
+
+    companion object {
+        /** Nodes in a block. */
+        const val BLOCK = 12
+
+        /** Nodes in a run of another pass. */
+        const val RUN = 20
+
+        private const val FEWEST = 6
+        private const val OWN = 2 * BLOCK
+        private const val FARTHEST = 1.6
+    }
+}

@@ -1,0 +1,191 @@
+package stillwater.estimate
+
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Learns a sensor's response from where its track comes back to the same water: a slow sensor drags old water along, so
+ * that passes in different directions disagree unless the response is undone.
+ *
+ * Only the phase of the response is used, because its amplitude cannot be told from how smooth the water is. Model and
+ * derivation: core/docs/TrackCorrection.md. Confined to one thread.
+ *
+ */
+public class RevisitLearner private constructor(
+    private val even: PhaseCorrection,
+    private val thinning: Int,
+    private var learnedScale: FieldScale? = null,
+    private var amplitude: Double = 1.0,
+    private var delay: Double = 0.0,
+) : ResponseLearner {
+    private val nodes = TrackNodes(even, thinning)
+    private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().let {
+        if (it.size <
+            FEWEST_BLOCKS
+        ) {
+            emptyList()
+        } else {
+            it
+        }
+    }
+    private val likelihood = RevisitLikelihood(nodes, found)
+    private val corrected = DoubleArray(even.size)
+    private val values = DoubleArray(nodes.size)
+    private val groupOf = (found.size / GROUP).coerceIn(2, MOST_GROUPS).let { count ->
+        IntArray(found.size) { (it.toLong() * count / found.size).toInt() }
+    }
+
+    /**
+     * Number of short runs of the track that other passes foretell; 0 where the log says nothing about the response.
+     */
+    public val blocks: Int get() = found.size
+
+    /** Usual distance from a block to the nearest other pass, m; NaN without any. */
+    public val passDistance: Double
+        get() = if (found.isEmpty()) Double.NaN else found.map { it.nearest }.sorted()[found.size / 2]
+
+    override val groups: Int get() = (groupOf.lastOrNull() ?: -1) + 1
+
+    init {
+        val known = learnedScale
+        if (known != null) {
+            likelihood.assume(known)
+        } else if (found.isNotEmpty()) {
+            learnField()
+        }
+    }
+
+    /**
+     * First the delay with which the passes agree best under any of some guesses at the water, then the water's
+     * scales at
+     * that delay: at no delay water would be found that changes from pass to pass.
+     */
+    private fun learnField() {
+        val extent = listOf(nodes.xs, nodes.ys).maxOf { at -> at.max() - at.min() }
+        val delays =
+            listOf(0.0) + (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
+        var best = Double.NEGATIVE_INFINITY
+        var bestScale: FieldScale? = null
+        for (part in LENGTHS) {
+            for (own in OWNS) {
+                val guess = FieldScale(extent / part, own, nodes.step * RevisitBlocks.RUN, FIRST_NOISE)
+                likelihood.assume(guess)
+                for (candidate in delays) {
+                    take(if (candidate > 0) ResponseKind.FIRST_ORDER.response(candidate) else Response())
+                    val total = likelihood.total(likelihood.bestAmplitude())
+                    if (total > best) {
+                        best = total
+                        bestScale = guess
+                        delay = maxOf(candidate, delays[1])
+                    }
+                }
+            }
+        }
+        take(ResponseKind.FIRST_ORDER.response(delay))
+        settle(fitted(requireNotNull(bestScale), Smoothness.entries, EVALUATIONS))
+    }
+
+    /** The same learner for another thread. */
+    public fun copy(): RevisitLearner = RevisitLearner(even.copy(), thinning, learnedScale, amplitude, delay)
+
+    private fun settle(scale: FieldScale) {
+        learnedScale = scale
+        likelihood.assume(scale)
+        likelihood.take(values)
+        amplitude = likelihood.bestAmplitude()
+    }
+
+    private fun fitted(start: FieldScale, among: List<Smoothness>, evaluations: Int): FieldScale {
+        fun at(logs: DoubleArray, smoothness: Smoothness) =
+            FieldScale(exp(logs[0]), exp(logs[1]), exp(logs[2]), exp(logs[3]), smoothness)
+
+        fun total(logs: DoubleArray, smoothness: Smoothness): Double {
+            if (logs.any { abs(it) > MOST_LOG } || logs[3] < LEAST_NOISE) return Double.NEGATIVE_INFINITY
+            likelihood.assume(at(logs, smoothness))
+            likelihood.take(values)
+            return likelihood.total(likelihood.bestAmplitude())
+        }
+        val logs = doubleArrayOf(ln(start.length), ln(start.own), ln(start.ownTime), ln(start.noise))
+        return among.map { smoothness ->
+            val best = Search.simplex(
+                logs,
+                DoubleArray(logs.size) {
+                    1.0
+                },
+                evaluations,
+                CLOSE,
+            ) { total(it, smoothness) }
+            at(best, smoothness) to total(best, smoothness)
+        }.maxBy { it.second }.first
+    }
+
+    private fun take(response: Response) {
+        even.correct(response, corrected)
+        nodes.means(corrected, values)
+        likelihood.take(values)
+    }
+
+    private fun total(kind: ResponseKind, logs: DoubleArray): Double {
+        if (logs.any { it > ln(MOST_STEPS * even.step * thinning) || it < ln(LEAST_STEPS * even.step) }) {
+            return Double.NEGATIVE_INFINITY
+        }
+        return scores(kind, logs).sum()
+    }
+
+    /**
+     * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect
+     * on
+     * the score would otherwise hide that of a dead time.
+     */
+    private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
+        even.correct(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }), corrected)
+        val scores = DoubleArray(found.size)
+        val shifts = -((thinning - 1) / 2)..thinning / 2
+        for (shift in shifts) {
+            nodes.means(corrected, values, shift)
+            likelihood.take(values)
+            for (block in scores.indices) scores[block] += likelihood.score(block, amplitude) / thinning
+        }
+        return scores
+    }
+
+    override fun candidate(kind: ResponseKind): CandidateResponse? {
+        if (found.isEmpty() || kind == ResponseKind.SLEW) return null
+        val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
+        return fit.best(delay)
+    }
+
+    public companion object {
+        /** A learner for [series]; long ones are best cut to some ten thousand readings. */
+        public fun of(series: TrackSeries): RevisitLearner {
+            val even = PhaseCorrection(series.withFreshPositions())
+            val thinning = maxOf(1, Math.round(even.size.toDouble() / TARGET_NODES).toInt())
+            val learner = RevisitLearner(even, thinning)
+            // Nodes longer than the delay hide what tells one response from another.
+            val finer = (learner.delay / (NODES_A_DELAY * even.step)).toInt().coerceAtLeast(1)
+            return if (learner.blocks > 0 && finer < thinning) RevisitLearner(even, finer) else learner
+        }
+
+        private const val NODES_A_DELAY = 2.0
+
+        private const val TARGET_NODES = 1500
+        private const val MOST_BLOCKS = 150
+        private const val FEWEST_BLOCKS = 8
+        private const val GROUP = 6
+        private const val MOST_GROUPS = 20
+        private val LENGTHS = listOf(2.0, 6.0, 18.0)
+        private val OWNS = listOf(0.03, 0.3)
+        private const val FIRST_NOISE = 1e-3
+        private const val EVALUATIONS = 60
+        private const val CLOSE = 0.05
+        private const val MOST_LOG = 25.0
+        private const val LEAST_NOISE = -16.0
+        private const val DELAY_FROM = 0.25
+        private const val DELAY_FACTOR = 1.6
+        private const val DELAYS = 16
+        private const val MOST_STEPS = 40.0
+        private const val LEAST_STEPS = 0.01
+    }
+}

@@ -1,0 +1,184 @@
+package stillwater.estimate
+
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * A response and how likely it is.
+ *
+ * @property responses responses about the best one of its kind that together have its mean and spread, equally likely.
+ * @property weight probability of the kind, above 0.
+ */
+public class LikelyResponse(public val responses: List<Response>, public val weight: Double)
+
+/**
+ * The water along a track with its 95 % interval at each reading.
+ *
+ * @property values best value of the field where and when the reading was taken, sensor units, length n.
+ * @property lower lower end of the interval, length n. @property upper upper end, length n.
+ * @property silent readings at which the sensor was at its rate limit and said one side only, length n.
+ */
+public class CorrectedTrack internal constructor(
+    public val values: DoubleArray,
+    public val lower: DoubleArray,
+    public val upper: DoubleArray,
+    public val silent: BooleanArray,
+)
+
+/**
+ * Undoes a sensor's response along a whole track, with an honest interval: what the sensor has smoothed away is not
+ * made
+ * up, but left open as far as the water is rough, which is learned from the log.
+ *
+ * Model and derivation: core/docs/TrackCorrection.md, (6) to (9). Linear in the number of readings. Confined to one
+ * thread.
+ *
+ * @param series the readings. Retained.
+ * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
+ */
+public class TrackCorrector(private val series: TrackSeries, private val resolution: Double = 0.0) {
+    init {
+        require(resolution >= 0 && resolution.isFinite()) { "resolution ($resolution) must be at least 0 and finite" }
+    }
+
+    /** One response with all that goes with it. */
+    private inner class Part(val response: Response, val along: AlongTrack, val weight: Double) {
+        val sides = SensorSides(series, response, resolution)
+    }
+
+    /** The field if [candidates] are the responses that the log leaves open. */
+    public fun correct(candidates: List<LikelyResponse>): CorrectedTrack {
+        require(candidates.isNotEmpty()) { "candidates must not be empty" }
+        val total = candidates.sumOf { it.weight }
+        val parts = candidates.flatMap { candidate ->
+            val along = fitted(candidate.responses.first())
+            candidate.responses.map { Part(it, along, candidate.weight / total / candidate.responses.size) }
+        }
+        val track = CorrectedTrack(
+            DoubleArray(series.size),
+            DoubleArray(series.size),
+            DoubleArray(series.size),
+            BooleanArray(series.size) { row -> parts.any { it.sides.silent[row] } },
+        )
+        pieces(PIECE) { rows, from, to ->
+            val mixture = NormalMixture(to - from)
+            for (part in parts) run(part, rows, from, to, mixture)
+            mixture.write(track, from)
+        }
+        return track
+    }
+
+    private fun stretch(rows: IntRange, sides: SensorSides) = Stretch(
+        series.times.copyOfRange(rows.first, rows.last + 1),
+        DoubleArray(rows.last - rows.first + 1) { series.values[rows.first + it] - level },
+        sides.silent.copyOfRange(rows.first, rows.last + 1),
+        sides.rising.copyOfRange(rows.first, rows.last + 1),
+    )
+
+    private fun run(part: Part, rows: IntRange, from: Int, to: Int, mixture: NormalMixture) {
+        val stretch = stretch(rows, part.sides)
+        val mean = DoubleArray(stretch.size)
+        val variance = DoubleArray(stretch.size)
+        val agitation = agitation(stretch, part.response, part.along)
+        TrackSmoother(stretch, part.response, part.along, agitation, series.medianStep).smooth(mean, variance)
+        for (row in from until to) {
+            val i = row - rows.first
+            val side = if (!stretch.silent[i]) {
+                0
+            } else if (stretch.rising[i]) {
+                1
+            } else {
+                -1
+            }
+            mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, series.values[row])
+        }
+    }
+
+    private val level = if (series.size == 0) 0.0 else series.values.average()
+
+    /** How much livelier than usual the water is at each reading, from the readings' own surprises. */
+    private fun agitation(stretch: Stretch, response: Response, along: AlongTrack): DoubleArray {
+        val factor = DoubleArray(stretch.size) { 1.0 }
+        repeat(ADAPTATIONS) {
+            val smoother = TrackSmoother(stretch, response, along, factor, series.medianStep)
+            smoother.logLikelihood()
+            val surprise = DoubleArray(stretch.size) { i ->
+                val v = smoother.innovations[i]
+                // A single wild reading is not lively water.
+                if (v.isNaN()) 1.0 else minOf(v * v / smoother.variances[i], LARGEST_SURPRISE)
+            }
+            val sums = DoubleArray(stretch.size + 1)
+            for (i in surprise.indices) sums[i + 1] = sums[i] + surprise[i]
+            for (i in factor.indices) {
+                val from = maxOf(0, i - WINDOW)
+                val to = minOf(stretch.size, i + WINDOW + 1)
+                val ratio = (PRIOR + sums[to] - sums[from]) / (PRIOR + to - from)
+                factor[i] = (factor[i] * ratio * ratio).coerceIn(CALMEST, LIVELIEST)
+            }
+        }
+        return factor
+    }
+
+    /** The water's liveliness under [response], by the density of the readings in the longest piece. */
+    private fun fitted(response: Response): AlongTrack {
+        var sample = 0..0
+        pieces(SAMPLE) { rows, _, _ -> if (rows.last - rows.first > sample.last - sample.first) sample = rows }
+        val stretch = stretch(sample, SensorSides(series, response, resolution))
+        val calm = DoubleArray(stretch.size) { 1.0 }
+        val spread = sqrt(stretch.values.sumOf { it * it } / stretch.size).coerceAtLeast(LEAST + resolution)
+        val least = ln(maxOf(resolution / sqrt(12.0), spread * SMALLEST_NOISE))
+        fun at(logs: DoubleArray, smoothness: Smoothness) =
+            AlongTrack(exp(logs[0]), exp(logs[1]), exp(maxOf(logs[2], least)), smoothness)
+
+        fun total(logs: DoubleArray, smoothness: Smoothness): Double {
+            // A weak belief keeps what the readings leave open within the log's own scales.
+            val belief = (logs[0] - ln(spread)).let { it * it / 8 } +
+                (logs[1] + ln(RATE_STEPS * series.medianStep)).let { it * it / 32 }
+            return TrackSmoother(stretch, response, at(logs, smoothness), calm, series.medianStep).logLikelihood() -
+                belief
+        }
+        val start =
+            doubleArrayOf(ln(spread), -ln(RATE_STEPS * series.medianStep), maxOf(least, ln(spread * FIRST_NOISE)))
+        return Smoothness.entries.map { smoothness ->
+            val best = Search.simplex(start, doubleArrayOf(0.7, 1.0, 1.0), EVALUATIONS, CLOSE) { total(it, smoothness) }
+            at(best, smoothness) to total(best, smoothness)
+        }.maxBy { it.second }.first
+    }
+
+    /**
+     * Hands the track on in stretches without gaps, long ones in pieces that overlap: all rows, and those that count.
+     */
+    private fun pieces(most: Int, each: (rows: IntRange, from: Int, to: Int) -> Unit) {
+        var begin = 0
+        while (begin < series.size) {
+            var end = begin + 1
+            while (end < series.size && series.times[end] - series.times[end - 1] <= series.gapLimit) end++
+            var from = begin
+            while (from < end) {
+                val to = minOf(end, from + most)
+                each(maxOf(begin, from - OVERLAP) until minOf(end, to + OVERLAP), from, to)
+                from = to
+            }
+            begin = end
+        }
+    }
+
+    private companion object {
+        const val PIECE = 20_000
+        const val OVERLAP = 500
+        const val SAMPLE = 2000
+        const val EVALUATIONS = 60
+        const val CLOSE = 0.05
+        const val RATE_STEPS = 30.0
+        const val FIRST_NOISE = 0.02
+        const val SMALLEST_NOISE = 1e-5
+        const val LEAST = 1e-12
+        const val ADAPTATIONS = 2
+        const val WINDOW = 30
+        const val PRIOR = 60.0
+        const val LARGEST_SURPRISE = 25.0
+        const val CALMEST = 0.02
+        const val LIVELIEST = 50.0
+    }
+}

@@ -1,0 +1,223 @@
+package stillwater.estimate
+
+import kotlin.math.PI
+import kotlin.math.ln
+
+/**
+ * One stretch of readings without gaps, for [TrackSmoother].
+ *
+ * @property times s, growing, length n. @property values readings about their level, sensor units, length n.
+ * @property silent readings that say nothing about the field (the sensor is at its limit), length n.
+ * @property rising whether the sensor rises, length n.
+ */
+internal class Stretch(
+    val times: DoubleArray,
+    val values: DoubleArray,
+    val silent: BooleanArray,
+    val rising: BooleanArray,
+) {
+    val size: Int get() = times.size
+}
+
+/**
+ * The field along a stretch given all its readings: Kalman filter forwards, then Bryson and Frazier's smoother
+ * backwards
+ * (Bierman 1977, doi:10.1137/0714031), which inverts no matrix.
+ *
+ * @param stretch the readings. @param response the sensor's. @param along the water's.
+ * @param agitation factor on the variance of the field's change over each reading, length n. Retained.
+ */
+internal class TrackSmoother(
+    private val stretch: Stretch,
+    private val response: Response,
+    private val along: AlongTrack,
+    private val agitation: DoubleArray,
+    usual: Double,
+) {
+    private val motion = FieldMotion(along, response.lags, usual)
+    private val size = motion.size
+
+    /** Events in the order of time: reading k seen (2k) a dead time early, field at reading k wanted (2k + 1). */
+    private val order: IntArray = order()
+    private val x = DoubleArray(size)
+    private var p = motion.start()
+    private var work = DoubleArray(size * size)
+
+    /** Innovation of each reading and its variance; NaN where it says nothing. */
+    val innovations: DoubleArray = DoubleArray(stretch.size)
+    val variances: DoubleArray = DoubleArray(stretch.size)
+
+    private fun eventTime(event: Int) = stretch.times[event / 2] - if (event % 2 == 0) response.deadTime else 0.0
+
+    private fun order(): IntArray {
+        val merged = IntArray(2 * stretch.size)
+        var seen = 0
+        var wanted = 0
+        for (i in merged.indices) {
+            val isSeen = wanted == stretch.size ||
+                (seen < stretch.size && stretch.times[seen] - response.deadTime <= stretch.times[wanted])
+            merged[i] = if (isSeen) 2 * seen++ else 2 * wanted++ + 1
+        }
+        return merged
+    }
+
+    /** Logarithm of the density of the readings. */
+    fun logLikelihood(): Double {
+        forward(null)
+        var sum = 0.0
+        for (k in 0 until stretch.size) {
+            if (innovations[k].isNaN()) continue
+            sum -= (ln(2 * PI * variances[k]) + innovations[k] * innovations[k] / variances[k]) / 2
+        }
+        return sum
+    }
+
+    /** What the backward pass needs of each event. */
+    private class Tape(events: Int, size: Int) {
+        val moves = arrayOfNulls<Transition>(events)
+        val gains = DoubleArray(events * size)
+        val rows = DoubleArray(events * size)
+        val means = DoubleArray(events)
+    }
+
+    private fun forward(tape: Tape?) {
+        x.fill(0.0)
+        p = motion.start()
+        var time = eventTime(order[0])
+        for (i in order.indices) {
+            val event = order[i]
+            val next = eventTime(event)
+            if (next > time) {
+                val transition = motion.over(next - time, stretch.rising[event / 2])
+                predict(transition, agitation[event / 2])
+                tape?.moves?.set(i, transition)
+                time = next
+            }
+            if (event % 2 == 0) see(event / 2, tape, i) else note(tape, i)
+        }
+    }
+
+    private fun predict(transition: Transition, factor: Double) {
+        val f = transition.move
+        val moved = DoubleArray(size)
+        for (i in 0 until size) {
+            var sum = 0.0
+            for (j in 0 until size) sum += f[i * size + j] * x[j]
+            moved[i] = sum
+            for (j in 0 until size) {
+                var s = 0.0
+                for (k in 0 until size) s += f[i * size + k] * p[k * size + j]
+                work[i * size + j] = s
+            }
+        }
+        moved.copyInto(x)
+        for (i in 0 until size) {
+            for (j in 0..i) {
+                var s = factor * transition.spread[i * size + j]
+                for (k in 0 until size) s += work[i * size + k] * f[j * size + k]
+                p[i * size + j] = s
+                p[j * size + i] = s
+            }
+        }
+    }
+
+    /** The sensor shows its last lag, or the field itself. */
+    private val shown = if (response.lags.isEmpty()) 0 else size - 1
+
+    private fun see(reading: Int, tape: Tape?, event: Int) {
+        if (stretch.silent[reading]) {
+            innovations[reading] = Double.NaN
+            variances[reading] = Double.NaN
+            return
+        }
+        val innovation = stretch.values[reading] - x[shown]
+        val variance = p[shown * size + shown] + along.noise * along.noise
+        innovations[reading] = innovation
+        variances[reading] = variance
+        for (i in 0 until size) {
+            val gain = p[i * size + shown] / variance
+            x[i] += gain * innovation
+            work[i] = gain
+            tape?.gains?.set(event * size + i, gain)
+        }
+        for (i in 0 until size) {
+            for (j in 0..i) {
+                p[i * size + j] -= work[i] * work[j] * variance
+                p[j * size + i] = p[i * size + j]
+            }
+        }
+    }
+
+    private fun note(tape: Tape?, event: Int) {
+        if (tape == null) return
+        tape.means[event] = x[0]
+        for (j in 0 until size) tape.rows[event * size + j] = p[j]
+    }
+
+    /** Mean and variance of the field at each reading's time and place, into [mean] and [variance]. Modified. */
+    fun smooth(mean: DoubleArray, variance: DoubleArray) {
+        val tape = Tape(order.size, size)
+        forward(tape)
+        val lambda = DoubleArray(size)
+        val big = DoubleArray(size * size)
+        val half = DoubleArray(size * size)
+        for (i in order.indices.reversed()) {
+            val event = order[i]
+            if (event % 2 == 1) {
+                var m = tape.means[i]
+                var v = tape.rows[i * size]
+                for (a in 0 until size) {
+                    m -= tape.rows[i * size + a] * lambda[a]
+                    for (b in 0 until size) v -= tape.rows[i * size + a] * big[a * size + b] * tape.rows[i * size + b]
+                }
+                mean[event / 2] = m
+                variance[event / 2] = maxOf(v, 0.0)
+            } else if (!innovations[event / 2].isNaN()) {
+                forget(tape, i, event / 2, lambda, big)
+            }
+            tape.moves[i]?.let { back(it.move, lambda, big, half) }
+        }
+    }
+
+    /** λ ← Cᵀλ − h v/S, Λ ← CᵀΛC + h hᵀ/S, with C = I − K hᵀ. */
+    private fun forget(tape: Tape, event: Int, reading: Int, lambda: DoubleArray, big: DoubleArray) {
+        var along = 0.0
+        val row = DoubleArray(size)
+        for (a in 0 until size) {
+            val gain = tape.gains[event * size + a]
+            along += gain * lambda[a]
+            for (b in 0 until size) row[b] += gain * big[a * size + b]
+        }
+        var twice = 0.0
+        for (b in 0 until size) twice += row[b] * tape.gains[event * size + b]
+        lambda[shown] -= along + innovations[reading] / variances[reading]
+        for (b in 0 until size) {
+            big[shown * size + b] -= row[b]
+            big[b * size + shown] -= row[b]
+        }
+        big[shown * size + shown] += twice + 1 / variances[reading]
+    }
+
+    /** λ ← Fᵀλ, Λ ← FᵀΛF. */
+    private fun back(f: DoubleArray, lambda: DoubleArray, big: DoubleArray, half: DoubleArray) {
+        val moved = DoubleArray(size)
+        for (i in 0 until size) {
+            var s = 0.0
+            for (k in 0 until size) s += f[k * size + i] * lambda[k]
+            moved[i] = s
+            for (j in 0 until size) {
+                var t = 0.0
+                for (k in 0 until size) t += big[i * size + k] * f[k * size + j]
+                half[i * size + j] = t
+            }
+        }
+        moved.copyInto(lambda)
+        for (i in 0 until size) {
+            for (j in 0 until size) {
+                var s = 0.0
+                for (k in 0 until size) s += f[k * size + i] * half[k * size + j]
+                big[i * size + j] = s
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+package stillwater.estimate
+
+import org.junit.jupiter.api.Test
+import stillwater.sensor.SensorStage
+import kotlin.math.abs
+import kotlin.math.cos
+import kotlin.math.sin
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class TrackCorrectionTest {
+    private val lag = listOf(SensorStage.Lag(10.0))
+
+    private fun choice(log: LawnmowerLog): ResponseChoice {
+        val learner = RevisitLearner.of(log.series)
+        val kinds = ResponseKind.entries - ResponseKind.SLEW
+        return ResponseChoice.of(kinds.mapNotNull(learner::candidate), Random(1))
+    }
+
+    private fun covered(log: LawnmowerLog, track: CorrectedTrack): Double {
+        val inside = log.truth.indices.count { log.truth[it] in track.lower[it]..track.upper[it] }
+        return inside.toDouble() / log.truth.size
+    }
+
+    @Test
+    fun correctedPhaseOfASineIsThatOfTheTruth() {
+        val omega = 0.1
+        val response = Response(3.0, listOf(ResponseLag(8.0), ResponseLag(5.0)))
+        val phase = omega * 3 + kotlin.math.atan(omega * 8) + kotlin.math.atan(omega * 5)
+        val times = DoubleArray(2000) { it.toDouble() }
+        val series = TrackSeries(times, times, DoubleArray(2000), DoubleArray(2000) { sin(omega * it - phase) })
+        val corrected = DoubleArray(2000).also { PhaseCorrection(series).correct(response, it) }
+        // A twentieth of the amplitude: what the ends of the series leave in its middle.
+        for (i in 500 until 1500) assertEquals(sin(omega * i), corrected[i], 0.05)
+    }
+
+    @Test
+    fun transformThereAndBackGivesTheSame() {
+        val fourier = Fourier(64)
+        val re = DoubleArray(64) { cos(0.7 * it) + it % 5 }
+        val im = DoubleArray(64)
+        val before = re.copyOf()
+        fourier.transform(re, im, backwards = false)
+        assertEquals(before.sum(), re[0], 1e-9)
+        fourier.transform(re, im, backwards = true)
+        for (i in re.indices) assertEquals(before[i], re[i] / 64, 1e-12)
+    }
+
+    @Test
+    fun repeatedFixesAreSpreadOverTheWayToTheNextOne() {
+        val series = TrackSeries(
+            DoubleArray(5) { it.toDouble() },
+            doubleArrayOf(0.0, 0.0, 0.0, 3.0, 4.0),
+            DoubleArray(5),
+            DoubleArray(5),
+        )
+        assertEquals(listOf(0.0, 1.0, 2.0, 3.0, 4.0), series.withFreshPositions().xs.toList())
+    }
+
+    @Test
+    fun timeConstantIsFoundWithoutAnyHint() {
+        val found = choice(LawnmowerLog(seed = 11, lag, legs = 8))
+        val standing = found.standings.first { it.candidate.kind == ResponseKind.FIRST_ORDER }
+        assertTrue(standing.isOpen, "the true response must stay open")
+        // Four of its own standard errors, and no more than a quarter.
+        val error = 4 * standing.candidate.relativeErrors[0] * standing.candidate.parameters[0]
+        assertEquals(10.0, standing.candidate.parameters[0], minOf(2.5, maxOf(error, 1.0)))
+        assertFalse(found.open.any { it.kind == ResponseKind.NONE }, "a lag of 10 s is not none")
+        assertFalse(found.open.any { it.kind == ResponseKind.ASYMMETRIC }, "the sensor is symmetric")
+    }
+
+    @Test
+    fun noLagIsNotRuledOutWhereThereIsNone() {
+        val found = choice(LawnmowerLog(seed = 12, emptyList(), legs = 8))
+        assertTrue(found.open.any { it.kind == ResponseKind.NONE })
+    }
+
+    @Test
+    fun intervalsCoverTheWaterWhereTheSensorIsGiven() {
+        val sensors = listOf(
+            lag to Response(lags = listOf(ResponseLag(10.0))),
+            listOf(SensorStage.Delay(8.0)) to Response(8.0),
+            listOf(SensorStage.Lag(6.0), SensorStage.Lag(6.0)) to Response(lags = List(2) { ResponseLag(6.0) }),
+            listOf(SensorStage.Asymmetric(13.0, 7.0)) to Response(lags = listOf(ResponseLag(13.0, 7.0))),
+        )
+        for ((stages, response) in sensors) {
+            val log = LawnmowerLog(seed = 14, stages)
+            val track = TrackCorrector(log.series, 0.01).correct(listOf(LikelyResponse(listOf(response), 1.0)))
+            // 95 % of 2700 rows that are alike over some ten rows: two standard errors of 270 rows are 2.7 %.
+            assertEquals(0.95, covered(log, track), 0.04, "$response")
+        }
+    }
+
+    @Test
+    fun constantReadingsStayAsTheyAre() {
+        val times = DoubleArray(200) { it.toDouble() }
+        val series = TrackSeries(times, times, DoubleArray(200), DoubleArray(200) { 7.0 })
+        val track = TrackCorrector(series).correct(listOf(LikelyResponse(listOf(Response(5.0)), 1.0)))
+        for (i in 0 until 200) {
+            // The level is known to rounding; the interval holds it.
+            assertEquals(7.0, track.values[i], 1e-6)
+            assertTrue(7.0 in track.lower[i]..track.upper[i])
+        }
+    }
+
+    @Test
+    fun trackThatNeverComesBackSaysNothing() {
+        val times = DoubleArray(500) { it.toDouble() }
+        val learner = RevisitLearner.of(
+            TrackSeries(
+                times,
+                times,
+                DoubleArray(500),
+                DoubleArray(500) {
+                    sin(it / 30.0)
+                },
+            ),
+        )
+        assertEquals(0, learner.blocks)
+        assertEquals(null, learner.candidate(ResponseKind.FIRST_ORDER))
+    }
+
+    @Test
+    fun referenceGivesTimeConstantGainAndOffset() {
+        val log = LawnmowerLog(seed = 15, lag)
+        val series = log.series
+        val scaled = TrackSeries(
+            series.times,
+            series.xs,
+            series.ys,
+            DoubleArray(series.size) {
+                2 * series.values[it] -
+                    30
+            },
+        )
+        val learner = ReferenceLearner(scaled, log.truth)
+        val candidate = requireNotNull(learner.candidate(ResponseKind.FIRST_ORDER))
+        // A twentieth: the reference is known each second only.
+        assertEquals(10.0, candidate.parameters[0], 0.5)
+        val (gain, offset) = learner.calibration(candidate.response)
+        assertEquals(2.0, gain, 0.02)
+        assertEquals(-30.0, offset, 2.0)
+    }
+
+    @Test
+    fun badSeriesAreRefusedWithTheRule() {
+        val two = doubleArrayOf(0.0, 1.0)
+        assertFailsWith<IllegalArgumentException> { TrackSeries(doubleArrayOf(1.0, 1.0), two, two, two) }
+        assertFailsWith<IllegalArgumentException> { TrackSeries(two, two, two, doubleArrayOf(1.0, Double.NaN)) }
+        assertFailsWith<IllegalArgumentException> { TrackSeries(two, two, two, doubleArrayOf(1.0)) }
+        assertFailsWith<IllegalArgumentException> { Response(-1.0) }
+        assertFailsWith<IllegalArgumentException> { ResponseLag(0.0) }
+        assertTrue(abs(Response(2.0, listOf(ResponseLag(4.0))).meanDelay - 6) < 1e-12)
+    }
+}

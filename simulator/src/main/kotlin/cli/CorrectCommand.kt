@@ -1,0 +1,137 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.CliktCommand
+import com.github.ajalt.clikt.core.CliktError
+import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.context
+import com.github.ajalt.clikt.core.terminal
+import com.github.ajalt.clikt.parameters.arguments.argument
+import com.github.ajalt.clikt.parameters.arguments.help
+import com.github.ajalt.clikt.parameters.groups.provideDelegate
+import com.github.ajalt.clikt.parameters.options.convert
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.option
+import stillwater.correct.CorrectFiles
+import stillwater.correct.CorrectedLog
+import stillwater.io.LogProblem
+import stillwater.io.SurveyLog
+import stillwater.report.OutputDirectory
+import stillwater.report.OutputException
+import java.nio.file.Files
+import java.nio.file.Path
+
+/** `stillwater correct`: a log with its sensor's response undone, row by row. */
+class CorrectCommand : CliktCommand("correct") {
+    init {
+        context { helpFormatter = { OneLineErrors(it) } }
+    }
+
+    private val log by argument("LOG").help("survey CSV or Platypus log")
+    private val out by option(
+        "--out",
+        metavar = "DIR",
+        help = "directory for the results",
+    ).default("stillwater-correct")
+    private val logOptions by LogOptions()
+    private val reference by option(
+        "--reference",
+        metavar = "COLUMN",
+        help = "column with a fast sensor of the same quantity, or the known truth, to learn the sensor from; CSV only",
+    )
+    private val sensor by option(
+        "--sensor",
+        metavar = "FILE",
+        help = "sensor spec (JSON), taken as given; without it the sensor is learned from the log",
+    )
+    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
+        .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
+    private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
+    private val json by option("--json", help = "print the summary as JSON").flag()
+
+    override fun help(context: Context) = "Undo a sensor's lag in a boat's log, with a 95 % interval for every row."
+
+    override fun helpEpilog(context: Context) = helpEnd(
+        "Writes corrected.csv (every row of the log and corrected, corrected_low, corrected_high), sensor.json " +
+            "(the sensor, " +
+            "for --sensor), summary.json, figures as SVG and PNG, and report.html into DIR; nothing at all when " +
+            "something " +
+            "is wrong with the log.",
+        listOf(
+            "stillwater correct survey.csv --value odo_percent_sat --unit %sat",
+            "stillwater correct profiles.csv --x pres_dbar --value doxy_umol",
+            "stillwater correct survey.csv --value slow --reference fast --out corrected",
+            "stillwater correct survey.csv --value odo_percent_sat --sensor sensor.json",
+        ),
+    )
+
+    override fun run() {
+        try {
+            work()
+        } catch (wrong: BadFlag) {
+            throw wrong.of(currentContext)
+        } catch (problem: LogProblem) {
+            throw failure(problem.message.orEmpty())
+        } catch (problem: OutputException) {
+            throw failure(problem.message.orEmpty())
+        }
+    }
+
+    private fun work() {
+        if (sensor != null &&
+            reference != null
+        ) {
+            throw failure("--sensor: expected either --sensor or --reference, found both")
+        }
+        val spec = sensor?.let(SensorFile::read)
+        val file = Path.of(log)
+        val choice = logOptions.choice()
+        val conditions = reference?.let { mapOf(CorrectedLog.REFERENCE to it) }.orEmpty()
+        val opened = SurveyLog.open(file, choice.copy(conditions = conditions))
+        if (reference != null && opened.format.startsWith("Platypus")) {
+            throw failure("--reference: expected a CSV log, found a Platypus log")
+        }
+        OutputDirectory(Path.of(out)).use { directory ->
+            val bytes = Files.size(file)
+            val shown = !quiet && bytes >= WORTH_SHOWING
+            val result = WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
+                try {
+                    CorrectedLog.of(opened, spec, reference != null, progress::advance)
+                } catch (wrong: IllegalArgumentException) {
+                    throw if (spec ==
+                        null
+                    ) {
+                        wrong
+                    } else {
+                        BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
+                    }
+                }
+            }
+            val files = CorrectFiles(result, unit, commandLine())
+            val drawing = files.write(directory)
+            val written = directory.commit()
+            when {
+                json -> echo(files.json(drawing).trimEnd())
+                !quiet -> {
+                    files.lines().forEach { echo(it) }
+                    for (warning in files.warnings + drawing) echo("warning: $warning", err = true)
+                    echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}")
+                }
+            }
+        }
+    }
+
+    private fun commandLine(): String = commandLineText(
+        "stillwater correct",
+        log,
+        logOptions.flags() +
+            listOf("--out" to out, "--reference" to reference, "--sensor" to sensor, "--unit" to unit),
+    )
+
+    private fun failure(message: String) = CliktError("stillwater correct: $message", statusCode = BAD_INPUT)
+
+    private companion object {
+        /** Smaller files are done before a bar can be read, bytes. */
+        const val WORTH_SHOWING = 8_000_000L
+    }
+}

@@ -1,0 +1,101 @@
+package stillwater.correct
+
+import stillwater.plot.Bar
+import stillwater.plot.Bars
+import stillwater.plot.Figure
+import stillwater.plot.LinePlot
+import stillwater.plot.Series
+
+/** A figure with its file's name and what stands under it. */
+internal class CorrectFigure(val name: String, val figure: Figure, val caption: String)
+
+/** Draws a [CorrectedLog]. */
+internal class CorrectFigures(private val result: CorrectedLog, private val summary: CorrectSummary) {
+    /** All that there is something to draw for. */
+    fun draw(): List<CorrectFigure> = listOfNotNull(track(), legs(), evidence())
+
+    private fun track(): CorrectFigure {
+        val shown = window()
+        fun of(values: DoubleArray) = values.copyOfRange(shown.first, shown.last + 1)
+        val start = result.series.times[0]
+        val seconds = of(result.series.times).also { for (i in it.indices) it[i] -= start }
+        val figure = LinePlot(
+            "Measured and corrected",
+            "the ${shown.last - shown.first + 1} readings in which the two differ most",
+            listOf(
+                Series("measured", seconds, of(result.series.values)),
+                Series("corrected", seconds, of(result.track.values), of(result.track.lower), of(result.track.upper)),
+            ),
+            "Time since the first reading (s)",
+            summary.quantity,
+        ).draw()
+        return CorrectFigure("corrected", figure, "The band is the 95 % interval of the water's value at each reading.")
+    }
+
+    /** The stretch of at most [SHOWN] readings with the largest differences between measured and corrected. */
+    private fun window(): IntRange {
+        val n = result.series.size
+        if (n <= SHOWN) return 0 until n
+        var sum = 0.0
+        var best = 0.0
+        var end = SHOWN - 1
+        for (i in 0 until n) {
+            sum += difference(i)
+            if (i >= SHOWN) sum -= difference(i - SHOWN)
+            if (i >= SHOWN - 1 && sum > best) {
+                best = sum
+                end = i
+            }
+        }
+        return end - SHOWN + 1..end
+    }
+
+    private fun difference(i: Int) = (result.track.values[i] - result.series.values[i]).let { it * it }
+
+    private fun legs(): CorrectFigure? {
+        val before = result.before ?: return null
+        val after = result.after ?: return null
+        fun bar(name: String, mean: Double, error: Double) =
+            Bar(name, mean, maxOf(0.0, mean - 2 * error), mean + 2 * error)
+        val figure = Bars(
+            "Disagreement of opposite legs",
+            "each leg against the mean of its two neighbours",
+            listOf(
+                bar("as measured", before.opposite.mean, before.opposite.standardError),
+                bar("corrected", after.opposite.mean, after.opposite.standardError),
+            ),
+            "Mean absolute difference (${summary.quantity})",
+        ).draw()
+        return CorrectFigure(
+            "legs",
+            figure,
+            "Whiskers are two standard errors. The water's own change from leg to leg is in both.",
+        )
+    }
+
+    private fun evidence(): CorrectFigure? {
+        val standings = result.choice?.standings ?: return null
+        val figure = Bars(
+            "What the log says about the sensor's response",
+            "log score on held-out runs of the track, behind the best",
+            standings.sortedBy { it.behind }.map {
+                val name = summary.words(it.candidate) + if (it.isOpen) ", open" else ""
+                Bar(name, it.behind, maxOf(0.0, it.behind - 2 * it.error), it.behind + 2 * it.error)
+            },
+            "Behind the best (natural logarithm of the density)",
+        ).draw()
+        return CorrectFigure(
+            "evidence",
+            figure,
+            "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked " +
+                "open is " +
+                "not ruled out.",
+        )
+    }
+
+    companion object {
+        /** Names of all figures there may be. */
+        val NAMES = listOf("corrected", "legs", "evidence")
+        private const val SHOWN = 600
+    }
+}

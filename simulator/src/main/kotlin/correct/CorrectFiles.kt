@@ -1,0 +1,165 @@
+package stillwater.correct
+
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.buildJsonArray
+import kotlinx.serialization.json.buildJsonObject
+import kotlinx.serialization.json.put
+import kotlinx.serialization.json.putJsonArray
+import kotlinx.serialization.json.putJsonObject
+import stillwater.io.AnnotatedLog
+import stillwater.report.HtmlReport
+import stillwater.report.OutputDirectory
+import stillwater.report.Program
+import stillwater.report.Provenance
+import stillwater.report.Table
+import stillwater.report.writeFigures
+
+/**
+ * Writes what a [CorrectedLog] gives: corrected.csv, sensor.json, summary.json, figures and report.html.
+ *
+ * corrected.csv has every row of the log with its own columns and corrected, corrected_low, corrected_high; rows that
+ * are no
+ * reading have these empty.
+ *
+ * @param result what to write. @param unit unit of the quantity, or null. @param command the command as typed.
+ */
+class CorrectFiles(private val result: CorrectedLog, unit: String?, private val command: String) {
+    private val summary = CorrectSummary(result, unit)
+
+    /** Rows of the log that are no reading; known once written. */
+    private var otherRows = 0L
+
+    /** Warnings for the user, one line each. */
+    val warnings: List<String>
+        get() = summary.warnings +
+            listOfNotNull("$otherRows rows could not be used and have empty cells".takeIf { otherRows > 0 })
+
+    /** The five lines for the terminal. */
+    fun lines(): List<String> = summary.facts.take(TERMINAL_LINES).map { (name, value) -> "$name: $value" }
+
+    /** Writes all files into [directory], which the caller commits; returns warnings about the figures. */
+    fun write(directory: OutputDirectory): List<String> {
+        directory.retire(CorrectFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") })
+        val series = result.series
+        val track = result.track
+        otherRows = directory.stream("corrected.csv") { out ->
+            AnnotatedLog(result.log, COLUMNS, series.times, series.xs, series.ys, series.values).write(out) { k ->
+                listOf(track.values[k], track.lower[k], track.upper[k]).map(::cell)
+            }
+        }
+        directory.write("sensor.json", result.spec.toJson() + "\n")
+        val figures = CorrectFigures(result, summary).draw()
+        val drawing = directory.writeFigures(figures.map { it.name to it.figure })
+        directory.write("summary.json", json(drawing))
+        directory.write("report.html", page(figures))
+        return drawing
+    }
+
+    /** Seven digits are far finer than any interval. */
+    private fun cell(value: Double): String? =
+        if (value.isFinite()) String.format(java.util.Locale.ROOT, "%.7g", value).toDouble().toString() else null
+
+    /** The summary for machines. */
+    fun json(drawing: List<String>): String =
+        FORMAT.encodeToString(JsonObject.serializer(), summaryJson(drawing)) + "\n"
+
+    private fun summaryJson(drawing: List<String>) = buildJsonObject {
+        put("log", result.log.file.toString())
+        put("quantity", result.log.quantity)
+        put("readings", result.series.size)
+        put("other_rows", otherRows)
+        putJsonObject("skipped") { result.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
+        putJsonArray("warnings") { (warnings + drawing).forEach { add(JsonPrimitive(it)) } }
+        put("sensor_from", result.origin.name.lowercase())
+        put("ambiguous", result.choice?.isAmbiguous ?: false)
+        put("open", buildJsonArray { result.choice?.open?.forEach { add(JsonPrimitive(it.kind.label)) } })
+        putJsonArray("candidates") {
+            result.choice?.standings?.forEach { standing ->
+                add(
+                    buildJsonObject {
+                        put("response", standing.candidate.kind.label)
+                        putJsonObject("parameters") {
+                            standing.candidate.kind.parameters.forEachIndexed { i, name ->
+                                val interval = standing.candidate.interval(i)
+                                putJsonObject(name) {
+                                    put("value", standing.candidate.parameters[i])
+                                    put("low", interval.start)
+                                    put("high", interval.endInclusive)
+                                }
+                            }
+                        }
+                        put("mean_delay_s", standing.candidate.response.meanDelay)
+                        put("held_out_score", standing.candidate.heldOutScore)
+                        put("behind", standing.behind)
+                        put("behind_error", standing.error.takeIf { it.isFinite() })
+                        put("open", standing.isOpen)
+                        put("weight", standing.weight)
+                    },
+                )
+            }
+        }
+        result.before?.let { put("opposite_legs_before", it.opposite.mean) }
+        result.after?.let { put("opposite_legs_after", it.opposite.mean) }
+        put("mean_half_width", summary.halfWidth)
+        put("learned_on", result.learnedOn)
+        put("blocks", result.blocks)
+    }
+
+    private fun page(figures: List<CorrectFigure>): String {
+        val page = HtmlReport(
+            "Correction of ${summary.quantity}",
+            "${result.log.file.fileName}, ${result.log.format}",
+            Provenance(
+                Program.VERSION,
+                command,
+                CorrectedLog.SEED.takeIf { result.choice != null },
+                "Bootstrap seed",
+            ),
+        )
+        summary.facts.forEach { (name, value) -> page.summary(name, value) }
+        warnings.forEach(page::warning)
+        for (figure in figures) page.section(figure.figure.title) { figure(figure.figure, figure.caption) }
+        result.choice?.let { choice ->
+            page.section("Candidates") {
+                table(
+                    Table.of(choice.standings) {
+                        text("Response") { summary.words(it.candidate) }
+                        number("Mean delay (s)") { it.candidate.response.meanDelay }
+                        number("Behind the best") { it.behind }
+                        number("Standard error") { it.error }
+                        text("Open") { if (it.isOpen) "yes" else "no" }
+                        number("Weight") { it.weight }
+                    },
+                )
+            }
+        }
+        page.section("How it was made") { HOW.forEach(::paragraph) }
+        return page.render()
+    }
+
+    private companion object {
+        const val TERMINAL_LINES = 5
+        val COLUMNS = listOf("corrected", "corrected_low", "corrected_high")
+        val FORMAT = Json { prettyPrint = true }
+        val HOW = listOf(
+            "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
+                "response " +
+                "is undone in phase only, and short runs of the track are foretold from the other passes near " +
+                "them; the " +
+                "better they agree, the higher its score. Parameters are fitted without the group of runs that is " +
+                "scored.",
+            "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
+                "from the " +
+                "scatter between groups of neighbouring runs. What is not ruled out stays open, and the corrected " +
+                "value is " +
+                "the mean over it.",
+            "The value and its interval come from a Kalman smoother with the sensor's response in its state. How " +
+                "rough the " +
+                "water is along the track and how noisy the readings are is learned from the log; detail that the " +
+                "sensor has " +
+                "smoothed away is not made up but left open in the interval.",
+        )
+    }
+}

@@ -1,0 +1,127 @@
+package stillwater.correct
+
+import stillwater.estimate.CandidateResponse
+import stillwater.estimate.ResponseKind
+import stillwater.survey.Wording.Companion.digits
+import stillwater.survey.Wording.Companion.duration
+import stillwater.survey.Wording.Companion.percent
+
+/**
+ * A [CorrectedLog] in words.
+ *
+ * @param result what it is about. @param unit unit of the quantity, or null.
+ */
+internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
+    /** The unit after a number, with a blank before it; empty without one. */
+    val unitAfter: String = unit?.let { " $it" }.orEmpty()
+
+    /** The quantity with its unit. */
+    val quantity: String = unit?.let { "${result.log.quantity} ($it)" } ?: result.log.quantity
+
+    /** The sensor in one sentence. */
+    val sensor: String
+        get() {
+            val choice = result.choice
+            return when {
+                result.origin == SensorOrigin.NOTHING ->
+                    "not learned: nothing in the log shows it; taken as " +
+                        "without lag"
+                choice == null -> "${describe(result.spec.stages.map { it.toString() })}, ${result.origin.label}"
+                choice.isAmbiguous -> "cannot be told apart on this log: ${choice.open.joinToString(
+                    "; ",
+                    transform = ::words,
+                )}"
+                else -> words(choice.first)
+            }
+        }
+
+    private fun describe(stages: List<String>) = if (stages.isEmpty()) "without lag" else stages.joinToString(", then ")
+
+    /** [candidate] with its parameters and their 95 % intervals. */
+    fun words(candidate: CandidateResponse): String {
+        if (candidate.kind == ResponseKind.NONE) return "no lag"
+        val parameters = candidate.kind.parameters.indices.joinToString(", ") { i ->
+            val interval = candidate.interval(i)
+            val value = digits(candidate.parameters[i], 3)
+            "${parameterName(candidate.kind.parameters[i])} $value" +
+                " (${digits(interval.start, 3)} to ${digits(interval.endInclusive, 3)})"
+        }
+        return "${candidate.kind.label}: $parameters"
+    }
+
+    private fun parameterName(name: String) = when (name) {
+        "rate_per_s" -> "rate per s"
+        else -> name.removeSuffix("_s").replace('_', ' ') + " in s"
+    }
+
+    /** Mean half width of the intervals, sensor units. */
+    val halfWidth: Double
+        get() = result.track.lower.indices.sumOf { result.track.upper[it] - result.track.lower[it] } /
+            (2 * maxOf(1, result.track.lower.size))
+
+    /** Names and values, in order; the first five go to the terminal. */
+    val facts: List<Pair<String, String>>
+        get() = buildList {
+            add("sensor" to sensor)
+            add("evidence" to evidence())
+            add("opposite legs" to legs())
+            add("rows" to rows())
+            add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average")
+            add("format" to result.log.format)
+            add("duration" to duration(result.statistics.duration))
+            val resolution = result.statistics.resolution
+            add("resolution" to if (resolution.isFinite()) digits(resolution) + unitAfter else "none found")
+        }
+
+    private fun evidence(): String = when (result.origin) {
+        SensorOrigin.REVISITS ->
+            "${result.blocks} runs of the track foretold by other passes, from ${result.learnedOn} readings"
+        SensorOrigin.REFERENCE -> "${result.learnedOn} readings with a reference"
+        else -> result.origin.label
+    }
+
+    private fun legs(): String {
+        val before = result.before
+        val after = result.after
+        if (before == null || after == null) return "none to compare"
+        val change = 1 - after.opposite.mean / before.opposite.mean
+        val words = if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
+        return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, " +
+            "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words)"
+    }
+
+    private fun rows(): String {
+        val skipped = result.pass.skipped.entries.joinToString("") { "; ${it.value} ${it.key}" }
+        return "${result.series.size} corrected$skipped"
+    }
+
+    /** What the user should know, one line each. */
+    val warnings: List<String>
+        get() = buildList {
+            when {
+                result.origin == SensorOrigin.NOTHING -> add(
+                    "no pass comes near another, so that nothing shows how the sensor responds: the values are " +
+                        "smoothed only; " +
+                        "give --sensor or --reference",
+                )
+                result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->
+                    add("a lag is not told from none: the intervals cover both")
+                result.choice?.isAmbiguous == true -> add(
+                    "the log leaves ${result.choice.open.size} responses open (${result.choice.open.joinToString {
+                        it.kind.label
+                    }}): " +
+                        "the intervals cover them all; sensor.json holds the most likely",
+                )
+            }
+            val silent = result.track.silent.count { it }
+            if (silent >
+                0
+            ) {
+                add("at $silent readings the sensor ran at its limit and shows the water from one side only")
+            }
+            if (result.learnedOn in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
+                add("the sensor was learned on the ${result.learnedOn} readings in the middle of the log")
+            }
+            if (result.withoutReference > 0) add("${result.withoutReference} readings have no reference")
+        }
+}

@@ -1,0 +1,271 @@
+package stillwater.correct
+
+import kotlinx.coroutines.Dispatchers
+import kotlinx.coroutines.async
+import kotlinx.coroutines.awaitAll
+import kotlinx.coroutines.runBlocking
+import stillwater.estimate.CandidateResponse
+import stillwater.estimate.CorrectedTrack
+import stillwater.estimate.LikelyResponse
+import stillwater.estimate.ReferenceLearner
+import stillwater.estimate.Response
+import stillwater.estimate.ResponseChoice
+import stillwater.estimate.ResponseKind
+import stillwater.estimate.ResponseLearner
+import stillwater.estimate.RevisitLearner
+import stillwater.estimate.TrackCorrector
+import stillwater.estimate.TrackSeries
+import stillwater.estimate.UndoableSensor
+import stillwater.estimate.rateLimit
+import stillwater.io.LogPass
+import stillwater.io.LogProblem
+import stillwater.io.SurveyLog
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import stillwater.survey.LegComparison
+import stillwater.survey.LegFinder
+import stillwater.survey.LegMismatch
+import stillwater.survey.SurveyScan
+import stillwater.survey.SurveyStatistics
+import stillwater.survey.Track
+import kotlin.random.Random
+
+/** Where a [CorrectedLog]'s sensor comes from. */
+enum class SensorOrigin(val label: String) {
+    GIVEN("given"),
+    REVISITS("learned from passes through the same water"),
+    REFERENCE("learned from the reference column"),
+    RATE("learned from the rate at which readings often run and that they do not exceed"),
+    NOTHING("none: the log holds no evidence on the sensor"),
+}
+
+/**
+ * A log with its sensor's response undone.
+ *
+ * @property log the log. @property pass what reading it came to. @property series its readings.
+ * @property origin where the sensor comes from. @property choice the candidates and what is left open, or null where
+ * nothing
+ *   was chosen. @property spec the sensor, the most likely if several are open. @property track the field along the
+ * track.
+ * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
+ * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
+ * @property withoutReference readings left out because the reference is missing there.
+ */
+class CorrectedLog internal constructor(
+    val log: SurveyLog,
+    val pass: LogPass,
+    val series: TrackSeries,
+    val origin: SensorOrigin,
+    val choice: ResponseChoice?,
+    val spec: SensorSpec,
+    val track: CorrectedTrack,
+    val statistics: SurveyStatistics,
+    val before: LegMismatch?,
+    val after: LegMismatch?,
+    val learnedOn: Int,
+    val blocks: Int,
+    val withoutReference: Int,
+) {
+    /** What a log says about its sensor. */
+    private class Learned(
+        val origin: SensorOrigin,
+        val choice: ResponseChoice?,
+        val likely: List<LikelyResponse>,
+        val stages: List<SensorStage>,
+        val readings: Int,
+        val blocks: Int,
+        val withoutReference: Int = 0,
+    )
+
+    companion object {
+        /** Name of the condition that holds the reference. */
+        const val REFERENCE = "reference"
+
+        /** More readings than this are learned on in the middle of a log only. */
+        const val MOST_LEARNED = 20_000
+
+        /** Seed of the bootstrap. */
+        const val SEED = 1L
+
+        private const val FEWEST = 30
+
+        /**
+         * Reads [log] and corrects it.
+         *
+         * @param given the sensor, or null to learn it. @param hasReference whether readings carry [REFERENCE].
+         * @param progress told how many bytes have been read.
+         * @throws LogProblem if the log cannot be used.
+         * @throws IllegalArgumentException if [given] cannot be undone.
+         */
+        fun of(log: SurveyLog, given: SensorSpec?, hasReference: Boolean, progress: (Long) -> Unit = {}): CorrectedLog {
+            val undone = given?.let(UndoableSensor::of)
+            val rows = Rows()
+            val scan = SurveyScan()
+            val pass = log.read(progress) { time, x, y, value, conditions ->
+                rows.add(time.seconds, x, y, value, conditions[REFERENCE])
+                scan.take(time, x, y, value, conditions)
+            }
+            if (pass.readings < FEWEST) {
+                throw LogProblem(
+                    log.file,
+                    null,
+                    null,
+                    "at least $FEWEST readings of ${log.quantity}",
+                    "${pass.readings}",
+                )
+            }
+            val statistics = scan.statistics()
+            val series = rows.series()
+            val resolution = statistics.resolution.takeIf { it.isFinite() } ?: 0.0
+            val learned = when {
+                undone != null -> Learned(
+                    SensorOrigin.GIVEN,
+                    null,
+                    listOf(LikelyResponse(listOf(undone.response), 1.0)),
+                    given.stages,
+                    0,
+                    0,
+                )
+                hasReference -> byReference(log, series, rows.references())
+                else -> byRevisits(series)
+            }
+            val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
+            val sensor = UndoableSensor.of(spec)
+            val track = TrackCorrector(sensor.calibrated(series), resolution / kotlin.math.abs(sensor.gain))
+                .correct(learned.likely)
+            return CorrectedLog(
+                log,
+                pass,
+                series,
+                learned.origin,
+                learned.choice,
+                spec,
+                track,
+                statistics,
+                legs(series, series.values),
+                legs(series, track.values),
+                learned.readings,
+                learned.blocks,
+                learned.withoutReference,
+            )
+        }
+
+        private fun quantum(resolution: Double) =
+            if (resolution > 0) listOf(SensorStage.Quantum(resolution)) else emptyList()
+
+        private fun byRevisits(series: TrackSeries): Learned {
+            val rate = series.rateLimit()
+            if (rate.isFinite()) {
+                val response = ResponseKind.SLEW.response(rate)
+                val likely = listOf(LikelyResponse(listOf(response), 1.0))
+                return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
+            }
+            val part = series.middle(MOST_LEARNED)
+            val learner = RevisitLearner.of(part)
+            val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
+                ?: return Learned(
+                    SensorOrigin.NOTHING,
+                    null,
+                    listOf(LikelyResponse(listOf(Response()), 1.0)),
+                    emptyList(),
+                    part.size,
+                    0,
+                )
+            val stages = choice.first.response.stages()
+            return Learned(SensorOrigin.REVISITS, choice, choice.likely(), stages, part.size, learner.blocks)
+        }
+
+        private fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
+            val known = (0 until series.size).filter { references[it].isFinite() }
+            if (known.size < FEWEST) {
+                val expected = "at least $FEWEST readings with a reference"
+                throw LogProblem(log.file, null, null, expected, "${known.size}")
+            }
+            val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
+            val part = series.at(usable)
+            val reference = DoubleArray(usable.size) { references[usable[it]] }
+            val learner = ReferenceLearner(part, reference)
+            val choice = requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference) })
+            val response = choice.first.response
+            val (gain, offset) = learner.calibration(response)
+            val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
+            return Learned(
+                SensorOrigin.REFERENCE,
+                choice,
+                choice.likely(),
+                stages,
+                part.size,
+                learner.groups,
+                series.size - known.size,
+            )
+        }
+
+        /** All [kinds] on all cores; each task has a learner of its own, the first one [learner]. */
+        private fun choice(
+            learner: ResponseLearner,
+            kinds: List<ResponseKind>,
+            another: () -> ResponseLearner,
+        ): ResponseChoice? {
+            if (learner.groups == 0) return null
+            val half = kinds.size / 2
+            val found: List<CandidateResponse> = runBlocking(Dispatchers.Default) {
+                listOf(
+                    async { kinds.take(half).mapNotNull(another()::candidate) },
+                    async { kinds.drop(half).mapNotNull(learner::candidate) },
+                ).awaitAll().flatten()
+            }
+            return if (found.isEmpty()) null else ResponseChoice.of(found, Random(SEED))
+        }
+
+        private fun legs(series: TrackSeries, values: DoubleArray): LegMismatch? {
+            val scan = SurveyScan()
+            for (i in 0 until series.size) {
+                scan.take(
+                    stillwater.model.BoatTime(series.times[i]),
+                    series.xs[i],
+                    series.ys[i],
+                    values[i],
+                    Conditions.NONE,
+                )
+            }
+            val statistics = scan.statistics()
+            val track: Track = scan.track()
+            return LegComparison(statistics, track).compare(LegFinder(statistics).find(track))
+        }
+    }
+}
+
+/** Rows of a log as they come. */
+private class Rows {
+    private var columns = Array(COLUMNS) { DoubleArray(FIRST) }
+    private var size = 0
+
+    fun add(vararg row: Double) {
+        if (size == columns[0].size) columns = Array(COLUMNS) { columns[it].copyOf(2 * size) }
+        for (i in row.indices) columns[i][size] = row[i]
+        size++
+    }
+
+    fun series() = TrackSeries(of(0), of(1), of(2), of(3))
+
+    fun references(): DoubleArray = of(4)
+
+    private fun of(column: Int) = columns[column].copyOf(size)
+
+    private companion object {
+        const val COLUMNS = 5
+        const val FIRST = 1024
+    }
+}
+
+private fun TrackSeries.at(rows: List<Int>): TrackSeries {
+    fun of(values: DoubleArray) = DoubleArray(rows.size) { values[rows[it]] }
+    return TrackSeries(of(times), of(xs), of(ys), of(values))
+}
+
+private fun TrackSeries.middle(most: Int): TrackSeries {
+    if (size <= most) return this
+    val from = (size - most) / 2
+    return at((from until from + most).toList())
+}

@@ -1,0 +1,78 @@
+package stillwater.io
+
+import de.siegmar.fastcsv.reader.CsvReader
+import de.siegmar.fastcsv.writer.CsvWriter
+import de.siegmar.fastcsv.writer.LineDelimiter
+import java.io.OutputStream
+import java.io.OutputStreamWriter
+
+/**
+ * Writes a log again as CSV, every row with its own columns as they are, and some more.
+ *
+ * @param log the log. @param names the columns added. @param times times of the readings that [log] yields, s. Not
+ * modified.
+ */
+internal class AnnotatedLog(
+    private val log: SurveyLog,
+    private val names: List<String>,
+    private val times: DoubleArray,
+    private val xs: DoubleArray,
+    private val ys: DoubleArray,
+    private val values: DoubleArray,
+) {
+    /**
+     * Writes all rows to [out], which is closed; [cells] gives what is added to reading k, null for nothing. Logs
+     * that are
+     * not CSV get a row a reading with the columns time_s, x_m, y_m and the quantity.
+     *
+     * @return number of rows written that are no reading; their added cells are empty.
+     */
+    fun write(out: OutputStream, cells: (Int) -> List<String?>?): Long =
+        if (log is CsvSurvey) csv(log, out, cells) else plain(out, cells)
+
+    private fun plain(out: OutputStream, cells: (Int) -> List<String?>?): Long {
+        writer(out, ',').use { writer ->
+            writer.writeRecord(listOf("time_s", "x_m", "y_m", log.quantity) + names)
+            for (k in times.indices) {
+                val own = listOf(times[k], xs[k], ys[k], values[k]).map { it.toString() }
+                writer.writeRecord(own + (cells(k) ?: empty))
+            }
+        }
+        return 0
+    }
+
+    private val empty = List<String?>(names.size) { null }
+
+    private fun csv(survey: CsvSurvey, out: OutputStream, cells: (Int) -> List<String?>?): Long {
+        var next = 0
+        var other = 0L
+        val reader = CsvReader.builder().fieldSeparator(survey.separator).skipEmptyLines(true)
+            .allowExtraFields(true).allowMissingFields(true).ofCsvRecord(survey.content.reader { })
+        writer(out, survey.separator).use { writer ->
+            var headerSeen = false
+            for (row in reader) {
+                val fields = row.fields
+                if (fields.all { it.isBlank() }) continue
+                if (!headerSeen) {
+                    headerSeen = true
+                    writer.writeRecord(fields + names)
+                    continue
+                }
+                val isReading = next < times.size && isRow(survey, fields, next)
+                writer.writeRecord(fields + ((if (isReading) cells(next) else null) ?: empty))
+                if (isReading) next++ else other++
+            }
+        }
+        check(next == times.size) { "${times.size - next} readings of ${log.file} were not found again" }
+        return other
+    }
+
+    private fun isRow(survey: CsvSurvey, fields: List<String>, k: Int): Boolean {
+        val time = fields.getOrNull(survey.columns.time)?.let { DecimalText.parse(it) } ?: return false
+        val value = fields.getOrNull(survey.columns.value)?.let { DecimalText.parse(it) } ?: return false
+        return time == times[k] && value == values[k]
+    }
+
+    private fun writer(out: OutputStream, separator: Char) = CsvWriter.builder().fieldSeparator(separator)
+        .lineDelimiter(LineDelimiter.LF).build(OutputStreamWriter(out, Charsets.UTF_8))
+}

@@ -1,0 +1,144 @@
+package stillwater.correct
+
+import com.github.ajalt.clikt.core.subcommands
+import com.github.ajalt.clikt.testing.CliktCommandTestResult
+import com.github.ajalt.clikt.testing.test
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.double
+import kotlinx.serialization.json.jsonArray
+import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
+import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import stillwater.cli.CorrectCommand
+import stillwater.cli.Stillwater
+import stillwater.sensor.SensorSpec
+import java.nio.file.Files
+import java.nio.file.Path
+import kotlin.io.path.exists
+import kotlin.io.path.readLines
+import kotlin.io.path.readText
+import kotlin.io.path.writeText
+import kotlin.math.sin
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class CorrectCommandTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private val out: Path get() = directory.resolve("results")
+
+    private fun run(vararg arguments: String): CliktCommandTestResult =
+        Stillwater().subcommands(CorrectCommand()).test(listOf("correct") + arguments + listOf("--out", out.toString()))
+
+    private fun log(text: String): String = directory.resolve("log.csv").also { it.writeText(text) }.toString()
+
+    private fun survey(rows: Int = 120) = buildString {
+        appendLine("time_s,x_m,y_m,slow,fast,note")
+        for (i in 0 until rows) appendLine("$i,$i,0,${water(i - 5)},${water(i)},\"a, b\"")
+    }
+
+    /** Two waves, with the two digits that an instrument shows. */
+    private fun water(t: Int) = Math.round(100 * (sin(t / 9.0) + sin(t / 4.1))) / 100.0
+
+    private fun spec(json: String): String = directory.resolve("sensor.json").also { it.writeText(json) }.toString()
+
+    @Test
+    fun everyRowIsWrittenWithItsOwnColumns() {
+        val text = survey().replace("\n7,7,", "\n7,,")
+        val result = run(log(text), "--value", "slow", "--skip-bad-rows")
+        assertEquals(0, result.statusCode, result.output)
+        val lines = out.resolve("corrected.csv").readLines()
+        assertEquals(121, lines.size)
+        assertEquals("time_s,x_m,y_m,slow,fast,note,corrected,corrected_low,corrected_high", lines[0])
+        assertTrue(lines[8].endsWith(",,,"), lines[8])
+        assertContains(lines[1], "\"a, b\"")
+        assertContains(result.stderr, "1 rows could not be used")
+        for (name in listOf("sensor.json", "summary.json", "report.html", "corrected.svg", "corrected.png")) {
+            assertTrue(out.resolve(name).exists(), name)
+        }
+    }
+
+    @Test
+    fun trackWithoutRevisitsSaysSoAndDoesNotInventASensor() {
+        val result = run(log(survey()), "--value", "slow")
+        assertContains(result.stderr, "no pass comes near another")
+        assertEquals("nothing", summary().getValue("sensor_from").jsonPrimitive.content)
+    }
+
+    @Test
+    fun referenceColumnTeachesTheDelayAndTheSpecIsReadAgain() {
+        val file = log(survey(600))
+        assertEquals(0, run(file, "--value", "slow", "--reference", "fast").statusCode)
+        val candidate = summary().getValue("candidates").jsonArray.map { it.jsonObject }
+            .first { it.getValue("response").jsonPrimitive.content == "dead-time" }
+        // 5 s late. Half a second: the reference is known each second, and between, a straight line smooths its
+        // rounding.
+        assertEquals(5.0, candidate.getValue("mean_delay_s").jsonPrimitive.double, 0.5)
+        val learned = out.resolve("sensor.json")
+        SensorSpec.fromJson(learned.readText())
+        val copy = directory.resolve("learned.json").also { Files.copy(learned, it) }
+        assertEquals(0, run(file, "--value", "slow", "--sensor", copy.toString()).statusCode)
+        assertEquals("given", summary().getValue("sensor_from").jsonPrimitive.content)
+    }
+
+    @Test
+    fun badInputIsOneLineAndLeavesNothing() {
+        val file = log(survey())
+        val twice = """{"name": "s", "stages": [{"type": "hysteresis", "width": 1.0}]}"""
+        val cases = listOf(
+            listOf(file) to "--value",
+            listOf(file, "--value", "fog") to "fog",
+            listOf(file, "--value", "slow", "--reference", "fog") to "fog",
+            listOf(file, "--value", "slow", "--sensor", "none.json") to "no such file",
+            listOf(file, "--value", "slow", "--sensor", spec(twice)) to "cannot",
+            listOf(file, "--value", "slow", "--sensor", spec(twice), "--reference", "fast") to "both",
+            listOf(directory.resolve("short.csv").also { it.writeText(survey(5)) }.toString(), "--value", "slow") to
+                "at least 30",
+        )
+        for ((arguments, word) in cases) {
+            val result = run(*arguments.toTypedArray())
+            assertEquals(2, result.statusCode, "$arguments: ${result.output}")
+            assertContains(result.stderr, word)
+            assertEquals(1, result.stderr.trim().lines().size, result.stderr)
+            assertFalse(out.exists(), "$arguments")
+        }
+    }
+
+    @Test
+    fun lacHertelsLegsAgreeBetterAndDeadTimeAndTimeConstantStayOpen() {
+        val data = System.getenv("STILLWATER_DATA")
+        assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")
+        val file = Path.of(data).resolve("lac_hertel_asv/survey.csv").toString()
+        assertEquals(0, run(file, "--value", "odo_percent_sat").statusCode)
+        val summary = summary()
+        val gain = 1 - summary.number("opposite_legs_after") / summary.number("opposite_legs_before")
+        // Issue 3 asks for 46 %; it is 57 %.
+        assertTrue(gain >= 0.46, "$gain")
+        val open = summary.getValue("open").jsonArray.map { it.jsonPrimitive.content }
+        assertTrue("first-order-lag" in open && "dead-time" in open, "$open")
+        assertFalse("none" in open, "$open")
+    }
+
+    @Test
+    fun gordonsFloatIsNotCalledAsymmetric() {
+        val data = System.getenv("STILLWATER_DATA")
+        assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")
+        val file = Path.of(data).resolve("gordon2020_float/profiles.csv").toString()
+        assertEquals(0, run(file, "--x", "pres_dbar", "--value", "doxy_umol").statusCode)
+        val summary = summary()
+        assertFalse("asymmetric-lag" in summary.getValue("open").jsonArray.map { it.jsonPrimitive.content })
+        val first = summary.getValue("candidates").jsonArray.map { it.jsonObject }
+            .first { it.getValue("response").jsonPrimitive.content == "first-order-lag" }
+        // Source's own fit: 76 s; two standard errors are 6 s.
+        assertEquals(76.0, first.getValue("mean_delay_s").jsonPrimitive.double, 8.0)
+    }
+
+    private fun summary() = Json.parseToJsonElement(out.resolve("summary.json").readText()).jsonObject
+
+    private fun kotlinx.serialization.json.JsonObject.number(name: String) = getValue(name).jsonPrimitive.double
+}
