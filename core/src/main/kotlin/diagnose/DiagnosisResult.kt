@@ -78,6 +78,7 @@ public class Candidate internal constructor(
     public val parameters: List<Estimate>,
     public val trainRmse: Double,
     public val heldOutRmse: Double,
+    public val heldOutLL: Double,
     public val pValue: Double,
     public val adjustedPValue: Double,
     public val predicted: DoubleArray,

@@ -19,7 +19,7 @@ public data class DiagnosisSettings(
     val base: SensorSpec? = null,
     val level: Double = 0.01,
     val structureLevel: Double = 0.005,
-    val separation: Double = 6.0,
+    val separation: Double = 9.0,
     val mostCauses: Int = 3,
     val noiseShare: Double = 20.0,
     val heldOutBelow: Double = 0.05,

@@ -20,6 +20,8 @@ internal object HeldOut {
     /** The score of [fit]'s model; each fold is fitted anew from [fit]'s numbers under its noise. */
     fun score(fit: ModelFit, used: BooleanArray): HeldOutScore {
         val n = used.size
+        // Only the first stretch shows what the sensor had seen before the log: it stays as it was found.
+        val free = fit.free.copyOf().also { it[ResponseModel.FIRST] = false }
         var squareSum = 0.0
         var rows = 0
         var likelihood = 0.0
@@ -28,7 +30,7 @@ internal object HeldOut {
             val trained = BooleanArray(n) { used[it] && !held[it] }
             val times = fit.model.series.times
             val train = CorrelatedNoise(times, fit.noise.share, fit.noise.time, trained)
-            val refit = Fitting.fit(fit.model, fit.numbers, fit.free, trained, fit.noise.time, noise = train)
+            val refit = Fitting.fit(fit.model, fit.numbers, free, trained, fit.noise.time, noise = train)
             val test = CorrelatedNoise(times, fit.noise.share, fit.noise.time, held)
             val z = DoubleArray(n)
             test.whiten(refit.residuals, z)

@@ -122,7 +122,7 @@ internal class DetectableSize(
             HiddenEffect.TEMPERATURE to 0.2,
             HiddenEffect.SLEW to 20.0,
             HiddenEffect.QUANTISATION to 60.0,
-            HiddenEffect.SATURATION to 3.0,
+            HiddenEffect.SATURATION to 5.0,
             HiddenEffect.OUTLIERS to 300.0,
             HiddenEffect.POSITION to 30.0,
             HiddenEffect.VALUE_LAG to 1.0,

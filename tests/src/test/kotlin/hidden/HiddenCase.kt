@@ -61,7 +61,8 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         val size = rows * per + 1
         val step = period / per
         val track = HiddenTrack.draw(kind, random, size, step, speed)
-        val length = speed * timeConstant * (3 + 5 * random.nextDouble())
+        // The shortest wave, half of it at the highest speed, still has some eight rows.
+        val length = maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
         val field: Field =
             if (kind == TrackKind.BENCH) BenchField(random, size * step, 6 * period, 6 * timeConstant)
             else WaveField(random, length)

@@ -157,8 +157,8 @@ internal class HiddenSensor(
             if (t > share) value += gain * spread * strength(HiddenEffect.STEPS) * if (k % 2 == 0) 1 else -1
         }
         if (HiddenEffect.SATURATION in effects) {
-            // Strength 1 cuts at one spread above the mean, 2 at the mean.
-            val end = gain * (middle + spread * (2 - strength(HiddenEffect.SATURATION))) + offset
+            // Strength 3 cuts at two spreads above the mean, 5 at the mean.
+            val end = gain * (middle + spread * (5 - strength(HiddenEffect.SATURATION))) + offset
             value = minOf(value, end)
         }
         return value

@@ -93,11 +93,37 @@ internal class HiddenTrack(
                 track.speed[i] = v
                 track.heading[i] = heading
             }
-            return track
+            return if (kind == TrackKind.SURVEY) track.rounded((TURN_RADIUS_SECONDS / step).toInt()) else track
         }
 
         private fun wobble(kind: TrackKind) = if (kind == TrackKind.TOW) 0.0005 else 0.02
         private const val TURN_SECONDS = 20.0
+        private const val TURN_RADIUS_SECONDS = 3.0
+    }
+
+    /** The same way with round corners: the mean over [half] steps before and after, twice. */
+    private fun rounded(half: Int): HiddenTrack {
+        val east = smooth(smooth(x, half), half)
+        val north = smooth(smooth(y, half), half)
+        val last = x.size - 1
+        val heading = DoubleArray(x.size) { i ->
+            val from = minOf(i, last - 1)
+            kotlin.math.atan2(north[from + 1] - north[from], east[from + 1] - east[from])
+        }
+        val speed = DoubleArray(x.size) { i ->
+            val from = minOf(i, last - 1)
+            hypot(north[from + 1] - north[from], east[from + 1] - east[from]) / step
+        }
+        return HiddenTrack(step, east, north, speed, heading)
+    }
+
+    private fun smooth(column: DoubleArray, half: Int): DoubleArray {
+        val sums = DoubleArray(column.size + 1)
+        for (i in column.indices) sums[i + 1] = sums[i] + column[i]
+        return DoubleArray(column.size) { i ->
+            val reach = minOf(half, i, column.size - 1 - i)
+            (sums[i + reach + 1] - sums[i - reach]) / (2 * reach + 1)
+        }
     }
 
     /** A speed that changes from stretch to stretch and slowly within each. */
@@ -116,22 +142,40 @@ internal class HiddenTrack(
         }
     }
 
-    /** Parallel legs up and down, then the same across, as far as the way goes. */
+    /** Parallel legs up and down, then the same across, back to the start and again, as far as the way goes. */
     private class Legs(random: Random, total: Double) {
         private val side = kotlin.math.sqrt(total * SPACING / 2).coerceAtLeast(3 * SPACING)
         private val count = (side / SPACING).toInt().coerceAtLeast(2)
-        private val turned = random.nextBoolean()
+        private val corners = ArrayList<Pair<Double, Double>>()
+        private val ways = ArrayList<Double>()
+        private var next = 1
+
+        init {
+            var turned = random.nextBoolean()
+            corners += 0.0 to 0.0
+            ways += 0.0
+            while (ways.last() < total) {
+                for (leg in 0 until count) {
+                    val from = if (leg % 2 == 0) 0.0 else side
+                    for (u in listOf(from, side - from)) add(if (turned) leg * SPACING to u else u to leg * SPACING)
+                }
+                add(0.0 to 0.0)
+                turned = !turned
+            }
+        }
+
+        private fun add(corner: Pair<Double, Double>) {
+            val length = hypot(corner.first - corners.last().first, corner.second - corners.last().second)
+            if (length == 0.0) return
+            corners += corner
+            ways += ways.last() + length
+        }
 
         fun at(way: Double): Pair<Double, Double> {
-            val round = count * (side + SPACING)
-            val second = (way / round).toInt() % 2 == 1
-            val along = way % round
-            val leg = (along / (side + SPACING)).toInt()
-            val rest = along - leg * (side + SPACING)
-            val run = minOf(rest, side)
-            val u = if (leg % 2 == 0) run else side - run
-            val v = leg * SPACING + maxOf(rest - side, 0.0)
-            return if (second != turned) v to u else u to v
+            while (next < ways.size - 1 && ways[next] < way) next++
+            val share = ((way - ways[next - 1]) / (ways[next] - ways[next - 1])).coerceIn(0.0, 1.0)
+            val (x, y) = corners[next - 1]
+            return x + share * (corners[next].first - x) to y + share * (corners[next].second - y)
         }
 
         private companion object {
