@@ -5,12 +5,6 @@ import com.github.ajalt.clikt.parameters.options.option
 import stillwater.sensor.FirstOrderLag
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
-import java.io.IOException
-import java.nio.charset.CharacterCodingException
-import java.nio.file.AccessDeniedException
-import java.nio.file.Files
-import java.nio.file.NoSuchFileException
-import java.nio.file.Path
 
 /** The options that change the simulated sensor. */
 class SensorOptions : OptionGroup(name = "Sensor") {
@@ -41,7 +35,7 @@ class SensorOptions : OptionGroup(name = "Sensor") {
             if (listOf(alpha, noise, quantum).any { it != null }) {
                 throw BadFlag("--sensor", "either --sensor or --alpha, --noise and --quantum", "both")
             }
-            return read(file)
+            return SensorFile.read("--sensor", file)
         }
         if (listOf(alpha, noise, quantum).all { it == null }) return preset
         val response = alpha?.let { listOf(SensorStage.Lag(FirstOrderLag.timeConstant(it, period))) }
@@ -63,38 +57,11 @@ class SensorOptions : OptionGroup(name = "Sensor") {
     fun flags(): List<Pair<String, Any?>> =
         listOf("--sensor" to sensor, "--alpha" to alpha, "--noise" to noise, "--quantum" to quantum)
 
-    private fun read(file: String): SensorSpec {
-        val expected = "a sensor spec in $file"
-        return try {
-            SensorSpec.fromJson(text(Path.of(file)))
-        } catch (problem: NoSuchFileException) {
-            throw BadFlag("--sensor", expected, "no such file (${problem.file})")
-        } catch (problem: AccessDeniedException) {
-            throw BadFlag("--sensor", expected, "no permission to read it (${problem.file})")
-        } catch (_: CharacterCodingException) {
-            throw BadFlag("--sensor", expected, "bytes that are no UTF-8 text")
-        } catch (problem: IOException) {
-            throw BadFlag("--sensor", expected, problem.message ?: problem.javaClass.simpleName)
-        } catch (problem: IllegalArgumentException) {
-            throw BadFlag("--sensor", expected, problem.message.orEmpty().removePrefix("not a sensor spec: "))
-        }
-    }
-
-    /** The text of [file], unless it is longer than any sensor spec. */
-    private fun text(file: Path): String {
-        if (Files.isDirectory(file)) throw IOException("a directory")
-        val bytes = Files.newInputStream(file).use { it.readNBytes(LONGEST_SPEC + 1) }
-        if (bytes.size > LONGEST_SPEC) throw IOException("a file of more than $LONGEST_SPEC bytes")
-        return bytes.decodeToString(throwOnInvalidSequence = true)
-    }
-
     private companion object {
         /** Smaller ones have no finite time constant. */
         const val SMALLEST_ALPHA = 1e-300
 
         /** A million times the range of the fields; squares of errors stay numbers. */
         const val MOST_NOISE = 1e6
-
-        const val LONGEST_SPEC = 1_000_000
     }
 }

@@ -17,6 +17,7 @@ fun main(args: Array<String>) {
         if (!only.isNullOrEmpty() && only != "none" && only != "all" && t.effects.keys.none { it.label == only }) continue
         val file = dir.resolve("case.csv")
         case.write(file)
+        args.getOrNull(4)?.let { Files.copy(file, Path.of(it), StandardCopyOption.REPLACE_EXISTING) }
         val start = System.nanoTime()
         val log = SurveyLog.open(file, LogChoice(value = "value", conditions = mapOf("reference" to "reference", "speed" to "speed_mps", "temperature" to "temperature_c", "salinity" to "salinity", "heading" to "heading_rad")))
         val r = log.readings()
