@@ -47,7 +47,7 @@ internal class CorrelatedNoise(times: DoubleArray, val share: Double, val time: 
         logDeterminant = sum
     }
 
-    /** Whitens [column] into [out], both of length n; rows not in use become 0. [column] is not modified. */
+    /** Whitens [column] into [out], which may be the same, both of length n; rows not in use become 0. */
     fun whiten(column: DoubleArray, out: DoubleArray) {
         var state = 0.0
         for (i in column.indices) {

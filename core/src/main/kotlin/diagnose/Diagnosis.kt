@@ -22,16 +22,17 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
     private val search = CauseSearch(series, scales, used, settings)
     private val warnings = ArrayList<String>()
 
-    /** The answer. The log must have a reference. */
+    /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
-        require(series.reference != null) { "series has no reference" }
+        if (series.reference == null) return BlindDiagnosis(series, settings).run()
         var base = base()
-        val spikes = Spikes.of(base.whitened, scales.resolution)
+        val mixture = Spikes.ratio(base.whitened)
+        val spikes = Spikes.of(base.whitened)
         if (spikes.isNotEmpty()) {
             spikes.forEach { used[it] = false }
             base = base()
         }
-        return Weighing(base, spikes).result()
+        return Weighing(base, spikes, mixture).result()
     }
 
     private fun base(): ModelFit {
@@ -56,21 +57,27 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
         }
 
     /** The weighing of all causes on top of [base]. */
-    private inner class Weighing(private val base: ModelFit, private val spikes: List<Int>) {
+    private inner class Weighing(private val base: ModelFit, private val spikes: List<Int>, private val mixture: Mixture) {
         private val baseHeldOut = HeldOut.score(base, used)
-        private val outlierP = Evidence.poissonTail(spikes.size, series.size * BEYOND)
+        private val lone = Evidence.poissonTail(spikes.size, series.size * BEYOND)
+        private val outlierP = if (mixture.size > FARTHEST * sqrt(base.variance)) {
+            minOf(lone, Evidence.pValue(mixture.ratio, 3))
+        } else {
+            lone
+        }
         private val terms = terms()
         private val first = terms.map { search.attempt(base, baseHeldOut, it) }
 
         fun result(): DiagnosisResult {
-            val outliers = outlierP * (terms.size + 1) < settings.level && spikes.size >= FEWEST_SPIKES
+            val outliers = outlierP * (terms.size + 1) < settings.level
             val chosen = forward()
             val last = chosen.lastOrNull()?.fit ?: base
             val sets = sets(chosen, last)
-            val left = Structure(last).dependences()
+            val left = Structure(last, used, search.longest).dependences()
             val verdict = verdict(sets, outliers, left.first(), chosen)
             val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
-            val size = if (outliers) SpikeSize.of(spikes, last.residuals, sqrt(last.variance)) else null
+            val seen = SpikeSize.of(spikes, last.residuals, sqrt(last.variance)) ?: SpikeSize(mixture.share, mixture.size)
+            val size = seen.takeIf { outliers }
             val sensor = ExtendedSensor(last, size)
             val extended = if (named) sensor.spec("extended") else null
             warn(left, named)
@@ -288,7 +295,7 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
     private companion object {
         const val HELD = 6.0
         const val BEYOND = 4e-5
-        const val FEWEST_SPIKES = 2
+        const val FARTHEST = 4.5
         const val FEWEST_ROWS = 60
         const val NORMAL_95 = 1.96
         const val LEFT = 0.25

@@ -69,7 +69,7 @@ public class ModelAssessment internal constructor(
  * @property cause the cause. @property condition what it depends on, where that has a name.
  * @property parameters its numbers, if it were at work. @property trainRmse with it, sensor units.
  * @property heldOutRmse the same on held-out blocks; the base's where the cause was not worth a look.
- * @property pValue of its gain by chance. @property adjustedPValue for all causes tried, after Holm.
+ * @property heldOutLogLikelihood of those blocks; NaN where it was not taken. @property pValue of its gain by chance. @property adjustedPValue for all causes tried, after Holm.
  * @property predicted what the model with it shows, sensor units, length n. Not to be modified.
  */
 public class Candidate internal constructor(
@@ -78,7 +78,7 @@ public class Candidate internal constructor(
     public val parameters: List<Estimate>,
     public val trainRmse: Double,
     public val heldOutRmse: Double,
-    public val heldOutLL: Double,
+    public val heldOutLogLikelihood: Double,
     public val pValue: Double,
     public val adjustedPValue: Double,
     public val predicted: DoubleArray,

@@ -18,8 +18,8 @@ import stillwater.sensor.SensorSpec
 public data class DiagnosisSettings(
     val base: SensorSpec? = null,
     val level: Double = 0.01,
-    val structureLevel: Double = 0.005,
-    val separation: Double = 9.0,
+    val structureLevel: Double = 0.01,
+    val separation: Double = 6.5,
     val mostCauses: Int = 3,
     val noiseShare: Double = 20.0,
     val heldOutBelow: Double = 0.05,

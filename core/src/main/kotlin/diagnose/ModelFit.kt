@@ -119,9 +119,11 @@ internal object Fitting {
     }
 
     /** Whitened derivatives of the prediction by each free parameter of [fit]. */
-    fun jacobian(fit: ModelFit): Array<DoubleArray> {
-        val n = fit.model.series.size
-        val shifted = DoubleArray(n)
+    fun jacobian(fit: ModelFit): Array<DoubleArray> =
+        derivatives(fit).onEach { column -> fit.noise.whiten(column, column) }.toTypedArray()
+
+    /** Derivatives of the prediction by each free parameter of [fit]. */
+    fun derivatives(fit: ModelFit): List<DoubleArray> {
         val values = fit.model.series.values
         return fit.free.indices.filter { fit.free[it] }.map { i ->
             val parameter = fit.model.parameters[i]
@@ -130,11 +132,12 @@ internal object Fitting {
             val forward = if (parameter.logarithmic) numbers[i] * exp(size) else numbers[i] + size
             val sign = if (forward > parameter.upper) -1 else 1
             numbers[i] = if (parameter.logarithmic) numbers[i] * exp(sign * size) else numbers[i] + sign * size
+            val shifted = DoubleArray(values.size)
             fit.model.predict(numbers, shifted)
             // Prediction = reading − residual.
-            for (r in 0 until n) shifted[r] = (shifted[r] - (values[r] - fit.residuals[r])) / (sign * size)
-            DoubleArray(n).also { fit.noise.whiten(shifted, it) }
-        }.toTypedArray()
+            for (r in shifted.indices) shifted[r] = (shifted[r] - (values[r] - fit.residuals[r])) / (sign * size)
+            shifted
+        }
     }
 
     private fun scale(model: ResponseModel, parameter: Parameter): Double = when (parameter.unit) {

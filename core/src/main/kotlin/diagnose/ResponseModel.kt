@@ -47,7 +47,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
         if (Cause.TWO_PATH_RESPONSE in causes) {
             val at = slot(Cause.TWO_PATH_RESPONSE)
-            lag(work, second, p[at], 0.0)
+            // A path slower than a part of the log is a drift.
+            lag(work, second, minOf(p[at], maxOf(2.0, series.duration / SLOWEST / p[TIME_CONSTANT])), 0.0)
             lag(work, out, 1.0, asymmetry)
             for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
         } else {
@@ -183,6 +184,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         const val FIRST = 3
         const val BASE = 4
         private const val HARMONICS = 4
+        private const val SLOWEST = 8
     }
 }
 

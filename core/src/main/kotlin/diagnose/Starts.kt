@@ -4,14 +4,29 @@ import kotlin.math.abs
 import kotlin.math.sqrt
 
 /** Where a fit of a model with one more cause begins: several places, because some causes have more than one optimum. */
-internal class Starts(private val fit: ModelFit, private val model: ResponseModel, private val term: Term) {
+internal class Starts(
+    private val fit: ModelFit,
+    private val model: ResponseModel,
+    private val term: Term,
+    private val small: Boolean = false,
+) {
     private val series = model.series
     private val scales = model.scales
     private val tau = fit.numbers[ResponseModel.TIME_CONSTANT]
     private val spread = sqrt(squares(fit.residuals) / maxOf(series.size, 1))
 
     /** The places, as full sets of numbers. */
-    fun all(): List<DoubleArray> = when (term.cause) {
+    fun all(): List<DoubleArray> = when {
+        small && term.cause in IN_PROPORTION -> listOf(with(STEPS.getValue(term.cause)))
+        small && term.cause == Cause.DRIFT -> listOf(with(scales.range / series.duration))
+        small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(1.0))
+        small && term.cause == Cause.DEAD_TIME -> listOf(with(series.period))
+        small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(with(series.period))
+        small && term.cause == Cause.POSITION_OFFSET -> listOf(with(scales.ordinarySpeed * series.period))
+        else -> of(term.cause)
+    }
+
+    private fun of(cause: Cause): List<DoubleArray> = when (cause) {
         Cause.ASYMMETRIC_RESPONSE -> listOf(0.2, -0.2).map { with(it) }
         Cause.SECOND_ORDER_RESPONSE -> listOf(0.1, 0.35, 0.8).map { share ->
             with(tau * share).also { it[ResponseModel.TIME_CONSTANT] = tau * (1 - share / 2) }
@@ -66,5 +81,15 @@ internal class Starts(private val fit: ModelFit, private val model: ResponseMode
     private fun with(vararg values: Double): DoubleArray = extended().also { numbers ->
         val at = model.slot(term)
         values.forEachIndexed { k, value -> numbers[at + k] = value }
+    }
+
+    private companion object {
+        /** Causes whose effect is nearly in proportion to a number, and a small value of it. */
+        val STEPS = mapOf(
+            Cause.ASYMMETRIC_RESPONSE to 0.1,
+            Cause.FLOW_DEPENDENT_RESPONSE to 0.1,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE to 0.01,
+        )
+        val IN_PROPORTION = STEPS.keys
     }
 }

@@ -4,6 +4,7 @@ import stillwater.model.Conditions
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
+import kotlin.math.expm1
 import kotlin.math.sin
 import kotlin.math.sqrt
 
@@ -22,11 +23,12 @@ public data class Dependence(
 )
 
 /** Looks for any dependence of residuals that no cause of the list need explain. */
-internal class Structure(private val fit: ModelFit) {
+internal class Structure(private val fit: ModelFit, private val used: BooleanArray, private val longest: Double) {
     private val series = fit.model.series
     private val scales = fit.model.scales
     private val n = series.size
     private val basis = Evidence.orthonormal(fit.jacobian.toList())
+    private val derivatives = Fitting.derivatives(fit)
     private val square = squares(fit.whitened)
     private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
     private val rate = DoubleArray(n) { i ->
@@ -48,8 +50,28 @@ internal class Structure(private val fit: ModelFit) {
         if (directions.isEmpty()) return Dependence(name, 0.0, 1, 1.0)
         val explained = directions.sumOf { direction -> dot(direction, fit.whitened).let { it * it } }
         val inflation = Evidence.inflation(directions, fit.whitened)
-        val ratio = Evidence.ratio(square, square - explained, fit.noise.rows) / inflation
+        val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
+        val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
+        val ratio = (if (worth) maxOf(quick, fitted(columns)) else quick) / inflation
         return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
+    }
+
+    /** Twice the gain in log-likelihood with [columns] in the model and the noise fitted anew: what they explain was noise before. */
+    private fun fitted(columns: List<DoubleArray>): Double {
+        val all = derivatives + columns
+        var noise = fit.noise
+        var best = fit.score
+        repeat(2) {
+            val whitened = all.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }.toTypedArray()
+            val z = DoubleArray(n).also { noise.whiten(fit.residuals, it) }
+            val step = SymmetricSystem.of(whitened, z).solve(0.0)
+            val rest = fit.residuals.copyOf()
+            for (k in all.indices) for (i in 0 until n) rest[i] -= step[k] * all[k][i]
+            noise = CorrelatedNoise.of(series, rest, used, longest)
+            noise.whiten(rest, z)
+            best = maxOf(best, noise.twiceLogLikelihood(squares(z)))
+        }
+        return best - fit.score
     }
 
     private fun groups(): List<Pair<String, List<DoubleArray>>> = buildList {
@@ -59,9 +81,9 @@ internal class Structure(private val fit: ModelFit) {
         add("the rate of change (not in proportion)" to listOf(absolute(slope), times(slope, absolute(slope)), power(slope, 2)))
         add("time (a slow wandering)" to slow())
         add("what was there before (the response has another shape)" to response())
-        add("the rate of change, more at some values than at others" to listOf(times(slope, value), times(slope, power(value, 2))))
+        add("the rate of change, more at some values than at others" to moved(slope, value))
         val age = standard(DoubleArray(n) { series.times[it] })
-        add("the rate of change, more at some times than at others" to listOf(times(slope, age), times(slope, power(age, 2))))
+        add("the rate of change, more at some times than at others" to moved(slope, age))
         add("the value, more at some times than at others" to listOf(times(value, age), times(value, power(age, 2))))
         if (moves()) track(value, slope)
         for ((name, column) in scales.centred) {
@@ -80,12 +102,30 @@ internal class Structure(private val fit: ModelFit) {
         val twiceToo = DoubleArray(n) { sin(2 * heading[it]) }
         add("the heading" to listOf(east, north, twice, twiceToo))
         add("the value, more on some headings than on others" to listOf(times(value, east), times(value, north)))
-        add("the rate of change, more on some headings than on others" to listOf(times(slope, east), times(slope, north)))
+        add(
+            "the rate of change, more on some headings than on others" to
+                listOf(followed(times(slope, east)), followed(times(slope, north))),
+        )
         val speed = standard(series.speed)
         add("the speed" to listOf(speed, power(speed, 2)))
         val x = standard(series.x)
         val y = standard(series.y)
         add("the position" to listOf(x, y, times(x, y), power(x, 2), power(y, 2)))
+    }
+
+    /** What a time constant that depends on [other], straight or curved, would add: its sources, as the lag shows them. */
+    private fun moved(slope: DoubleArray, other: DoubleArray) =
+        listOf(followed(times(slope, other)), followed(times(slope, power(other, 2))))
+
+    /** [column] seen through the base lag. */
+    private fun followed(column: DoubleArray): DoubleArray {
+        val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
+        var state = 0.0
+        return DoubleArray(n) { i ->
+            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
+            state += -expm1(-dt / tau) * (column[i] - state)
+            state
+        }
     }
 
     private fun moves(): Boolean = median(series.speed) > 0.02
@@ -164,5 +204,6 @@ internal class Structure(private val fit: ModelFit) {
 
     private companion object {
         const val MOST_FREQUENCIES = 2500
+        const val WORTH_A_FIT = 0.3
     }
 }

@@ -31,7 +31,7 @@ fun main(args: Array<String>) {
         time += System.nanoTime() - start
         val v = d.verdict
         val got = when (v) { is Verdict.Named -> v.causes.map { it.label }.toString(); is Verdict.Ambiguous -> v.sets.map { s -> s.map { it.label } }.toString(); is Verdict.Unexplained -> v.what; is Verdict.InsufficientData -> v.why; else -> "" }
-        if (args.getOrNull(3) != null) { println("  base heldout %.3f %.5f".format(d.baseline.heldOutLogLikelihood, d.baseline.heldOutRmse)); d.candidates.take(4).forEach { c -> println("   ${c.cause.label} ${c.parameters.map { it.name + "=" + "%.4g".format(it.value) + " " + it.interval }} train %.5f held %.5f p %.2e ll %.3f".format(c.trainRmse, c.heldOutRmse, c.adjustedPValue, c.heldOutLL)) } }
+        if (args.getOrNull(3) != null) { println("  base heldout %.3f %.5f".format(d.baseline.heldOutLogLikelihood, d.baseline.heldOutRmse)); d.candidates.take(4).forEach { c -> println("   ${c.cause.label} ${c.parameters.map { it.name + "=" + "%.4g".format(it.value) + " " + it.interval }} train %.5f held %.5f p %.2e ll %.3f".format(c.trainRmse, c.heldOutRmse, c.adjustedPValue, c.heldOutLogLikelihood)) } }
         println("$seed ${t.track} n=${s.size} tau=%.1f TRUE ".format(t.timeConstant) + t.effects.entries.joinToString { "${it.key.label}=%.3g(%.2fx)".format(it.value, t.multiples[it.key]) } + " | ${v.label} $got | " +
             d.candidates.take(3).joinToString { "${it.cause.label}:%.1e".format(it.adjustedPValue) } + " | left ${d.dependences[0].description.take(30)} %.1f %.1e".format(d.dependences[0].ratio, d.dependences[0].adjusted) + " | tau %.2f noise %.2f/%.1f".format(d.baseline.parameters[0].value, d.baseline.noiseShare, d.baseline.noiseTime))
     }
