@@ -32,9 +32,9 @@ internal class BlindTrial(
 internal class BlindDiagnosis(private val series: MeasuredSeries, private val settings: DiagnosisSettings) {
     private val n = series.size
     private val search = BlindSearch(series)
-    private val lag = search.best()
-    private val delay = search.delay(lag.scales)
-    private val none = search.fit(BlindResponse(0.0, 0.0), lag.scales)
+    private val delay = search.best()
+    private val lag = search.fit(BlindResponse(delay.response.deadTime, 0.0), delay.scales)
+    private val none = search.fit(BlindResponse(0.0, 0.0), delay.scales)
     private val water = series.withReference(lag.water())
     private val scales = Scales(water)
     private val start = doubleArrayOf(maxOf(lag.response.timeConstant, series.period / 50), 1.0, 0.0, 0.0)
@@ -62,12 +62,9 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     }
 
     private fun result(first: List<BlindTrial>, chosen: List<BlindTrial>): DiagnosisResult {
-        val seen = lag.score - none.score
-        val responseSet = if (seen > LAG_SEEN && lag.score - delay.score < settings.separation) {
-            listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
-        } else {
-            null
-        }
+        val seen = minOf(delay.score - none.score, SCORE * sure(none))
+        // What a lag does to the amplitude could as well be the water's smoothness: only a reference tells them apart.
+        val responseSet = if (seen > LAG_SEEN) listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME) else null
         val verdict = verdict(first, chosen, seen, responseSet)
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val extended = chosen.lastOrNull()?.takeIf { named }
@@ -84,6 +81,14 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             emptyList(),
             warnings(seen, responseSet != null),
         )
+    }
+
+    private val foretold = delay.foretold(STRETCHES)
+
+    /** How sure the log's stretches are that the delay foretells them better than [other]: Student's t. */
+    private fun sure(other: BlindFit): Double {
+        val others = other.foretold(STRETCHES)
+        return Evidence.t(DoubleArray(STRETCHES) { foretold[it] - others[it] })
     }
 
     private fun warnings(seen: Double, ambiguous: Boolean) = buildList {
@@ -115,7 +120,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             (listOf(trial.term.cause) + twin + others.map { it.term.cause }).distinct()
         } + listOfNotNull(responseSet)
         if (sets.isEmpty()) {
-            val probe = search.fit(BlindResponse(PROBE * series.period, 0.0), lag.scales)
+            val probe = search.fit(BlindResponse(0.0, PROBE * series.period), delay.scales)
             val blind = seen < LAG_SEEN && none.score - probe.score < LAG_SEEN
             return if (blind) {
                 Verdict.InsufficientData("passes over the same water are too few or too noisy to show a lag")
@@ -138,10 +143,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     }
 
     private fun terms(): List<Term> = buildList {
+        // A second lag, a slow path or a dead time beside the lag change what only a reference shows: see [result].
         add(Term(Cause.ASYMMETRIC_RESPONSE))
-        add(Term(Cause.SECOND_ORDER_RESPONSE))
-        add(Term(Cause.TWO_PATH_RESPONSE))
-        add(Term(Cause.DEAD_TIME))
         add(Term(Cause.SLEW_LIMIT))
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
         if (spread > 0.03) add(Term(Cause.FLOW_DEPENDENT_RESPONSE))
@@ -197,13 +200,30 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             share / length,
             spread / abs(length),
             maxOf(ratio - 2 * ln(looks.toDouble()), 0.0),
-            minOf(1.0, looks * Evidence.pValue(ratio, 1)),
-            agrees(unlike, spread),
+            minOf(1.0, looks * maxOf(Evidence.pValue(ratio, 1), Evidence.student(between(unlike), STRETCHES - 1))),
+            agrees(unlike),
         )
     }
 
+    /**
+     * How sure the log's stretches together are that the cause is there: Student's t of its size, with the size's own
+     * spread between the stretches as the error, so that it holds whatever the noise is.
+     */
+    private fun between(unlike: DoubleArray): Double {
+        val scores = DoubleArray(STRETCHES)
+        val weights = DoubleArray(STRETCHES)
+        for (i in 0 until n) {
+            val stretch = (i.toLong() * STRETCHES / n).toInt()
+            scores[stretch] += unlike[i] * lag.residuals[i]
+            weights[stretch] += unlike[i] * unlike[i]
+        }
+        val size = scores.sum() / weights.sum()
+        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } } * STRETCHES / (STRETCHES - 1)
+        return scores.sum() / sqrt(maxOf(error, 1e-300))
+    }
+
     /** Whether both halves of the log show the cause, in the same direction, and of sizes that do not contradict. */
-    private fun agrees(unlike: DoubleArray, spread: Double): Boolean {
+    private fun agrees(unlike: DoubleArray): Boolean {
         val sizes = DoubleArray(2)
         val weights = DoubleArray(2)
         for (i in 0 until n) {
@@ -214,18 +234,31 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         if (weights.any { it < 1e-3 * (weights[0] + weights[1]) }) return false
         val a = sizes[0] / weights[0]
         val b = sizes[1] / weights[1]
-        val error = spread * sqrt(1 / weights[0] + 1 / weights[1])
-        return a * b > 0 && abs(a - b) < CONTRADICTION * error
+        return a * b > 0 && abs(a - b) < MOST_APART * abs(a + b) / 2
     }
 
+    /** The lag's time, with an interval from how much stretches of the log differ about it. */
     private fun timeConstant(): Estimate {
-        val near = search.fit(BlindResponse(lag.response.timeConstant * STRETCH, 0.0), lag.scales)
-        val far = search.fit(BlindResponse(lag.response.timeConstant / STRETCH, 0.0), lag.scales)
-        val bend = (2 * lag.score - near.score - far.score) / (2 * ln(STRETCH) * ln(STRETCH))
-        val tau = lag.response.timeConstant
-        val reach = if (bend > 0) NORMAL_95 / sqrt(bend) else Double.NaN
-        val interval = if (reach.isFinite() && tau > 0) Interval(tau * exp(-minOf(reach, 20.0)), tau * exp(minOf(reach, 20.0))) else null
+        val tau = start[0]
+        val longer = DoubleArray(n)
+        plain.predict(start.copyOf().also { it[0] *= STRETCH }, longer)
+        val column = delay.whiten(DoubleArray(n) { (longer[it] - shown[it]) / ln(STRETCH) })
+        val reach = STUDENT_95 * errorOf(delay.unlike(column))
+        val interval = if (reach < 20) Interval(tau * exp(-reach), tau * exp(reach)) else null
         return Estimate("time_constant_s", "s", tau, interval)
+    }
+
+    private fun errorOf(unlike: DoubleArray): Double {
+        val scores = DoubleArray(STRETCHES)
+        val weights = DoubleArray(STRETCHES)
+        for (i in 0 until n) {
+            val stretch = (i.toLong() * STRETCHES / n).toInt()
+            scores[stretch] += unlike[i] * delay.residuals[i]
+            weights[stretch] += unlike[i] * unlike[i]
+        }
+        val size = scores.sum() / weights.sum()
+        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } } * STRETCHES / (STRETCHES - 1)
+        return sqrt(error) / weights.sum()
     }
 
     private fun estimates(trial: BlindTrial): List<Estimate> {
@@ -308,11 +341,19 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
 
     private companion object {
         const val LAG_SEEN = 12.0
+
+        /** A t of 3 counts as a likelihood ratio of [LAG_SEEN]. */
+        const val SCORE = 4.0
         const val PROBE = 5.0
         const val STRETCH = 1.1
         const val FEWEST_ROWS = 60
         const val NORMAL_95 = 1.96
-        const val CONTRADICTION = 3.0
+
+        /** The same of Student's t with 11 degrees of freedom. */
+        const val STUDENT_95 = 2.2
+        const val STRETCHES = 12
+        const val MOST_APART = 1.5
+
         val SEVERAL = setOf(Cause.SLEW_LIMIT, Cause.HYSTERESIS, Cause.SATURATION, Cause.TWO_PATH_RESPONSE)
     }
 }

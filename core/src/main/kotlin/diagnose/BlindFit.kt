@@ -2,8 +2,11 @@ package stillwater.diagnose
 
 import kotlin.math.ln
 
-/** What is believed of an [UnknownField] and of the noise: [length], m; [ratio] of noise to field variance; [noiseTime], s. */
-internal data class BlindScales(val length: Double, val ratio: Double, val noiseTime: Double)
+/**
+ * What is believed of an [UnknownField] and of the noise: [length], m; [duration], s; [ratio] of noise to field variance;
+ * [noiseTime], s.
+ */
+internal data class BlindScales(val length: Double, val duration: Double, val ratio: Double, val noiseTime: Double)
 
 /**
  * A log without a reference under one response and one set of scales, with the field integrated out.
@@ -14,7 +17,7 @@ internal class BlindFit(
     val field: UnknownField,
     val response: BlindResponse,
     val scales: BlindScales,
-    precision: Pair<Array<DoubleArray>, Double>,
+    private val precision: Pair<Array<DoubleArray>, Double>,
 ) {
     private val n = field.series.size
     private val rows = field.rows(response, scales.noiseTime)
@@ -77,71 +80,103 @@ internal class BlindFit(
         return DoubleArray(n) { column[it] - shown[it] }
     }
 
+    /**
+     * How well each of [count] stretches of the log is foretold by all others: logarithms of the densities of their
+     * readings, up to a constant that all fits with these [scales] share; and the square sum of the errors, last.
+     */
+    fun foretold(count: Int): DoubleArray {
+        val k = field.size
+        val matrix = Array(k) { i -> DoubleArray(k) { j -> scales.ratio * precision.first[i][j] } }
+        rows.addSquare(matrix)
+        val centred = centred()
+        val right = rows.transposed(centred, k)
+        val squares = DoubleArray(count)
+        val determinants = DoubleArray(count)
+        var errors = 0.0
+        for (block in 0 until count) {
+            val inside = { i: Int -> (i.toLong() * count / n).toInt() == block }
+            val others = Array(k) { matrix[it].copyOf() }
+            rows.addSquare(others, -1.0, inside)
+            val without = DenseCholesky(others)
+            val own = DoubleArray(n) { if (inside(it)) centred[it] else 0.0 }
+            val part = rows.transposed(own, k)
+            val beta = without.back(without.half(DoubleArray(k) { right[it] - part[it] }))
+            val shown = rows.times(beta)
+            val error = DoubleArray(n) { if (inside(it)) centred[it] - shown[it] else 0.0 }
+            val half = factor.half(rows.transposed(error, k))
+            errors += dot(error, error)
+            squares[block] = dot(error, error) - dot(half, half)
+            determinants[block] = factor.logDeterminant - without.logDeterminant
+        }
+        val variance = squares.sum() / n
+        return DoubleArray(count + 1) { b ->
+            if (b == count) errors else -0.5 * (squares[b] / variance + determinants[b] + n.toDouble() / count * ln(variance))
+        }
+    }
+
     /** The readings less their mean, whitened. */
     fun readings(): DoubleArray = centred()
 }
 
 /** Finds the likeliest response and scales for a log without a reference. */
 internal class BlindSearch(private val series: MeasuredSeries) {
-    private val extent = maxOf(series.x.max() - series.x.min(), series.y.max() - series.y.min())
-
-    /** Grid as fine as the boat's way in two rows, or as the number of nodes allows. */
-    val field: UnknownField = run {
-        var spacing = maxOf(2 * series.period * median(series.speed), extent / 400, 1e-9)
-        var found = UnknownField(series, spacing)
-        while (found.size > MOST_NODES) {
-            spacing *= 1.25
-            found = UnknownField(series, spacing)
-        }
-        found
-    }
-
-    private val precisions = HashMap<Double, Pair<Array<DoubleArray>, Double>>()
+    /** The water; nodes as close as their number allows. */
+    val field = UnknownField(series, MOST_NODES)
+    private val precisions = HashMap<Pair<Double, Double>, Pair<Array<DoubleArray>, Double>>()
 
     /** The fit under [response] and [scales]. */
-    fun fit(response: BlindResponse, scales: BlindScales) =
-        BlindFit(field, response, scales, precisions.getOrPut(scales.length) { field.precision(scales.length) })
+    fun fit(response: BlindResponse, scales: BlindScales) = BlindFit(
+        field,
+        response,
+        scales,
+        precisions.getOrPut(scales.length to scales.duration) { field.precision(scales.length, scales.duration) },
+    )
 
-    /** The likeliest first-order lag with the scales that suit it. */
+    /**
+     * The likeliest delay with the scales that suit it. A lag also smooths, and how smooth the water is nobody knows: its
+     * amplitude would be mistaken for that. A delay is phase alone.
+     */
     fun best(): BlindFit {
-        var fit = fit(BlindResponse(3 * series.period, 0.0), BlindScales(4 * field.spacing, 0.01, 0.0))
+        val near = maxOf(field.spacing, 1e-9)
+        var fit = fit(
+            BlindResponse(0.0, 3 * series.period),
+            BlindScales(LENGTHS[1] * near, DURATIONS[0] * series.duration, RATIOS[2], NOISE_TIMES[1] * series.period),
+        )
         fun offer(next: BlindFit) {
             if (next.score > fit.score) fit = next
         }
         repeat(2) {
-            for (length in LENGTHS) offer(fit(fit.response, fit.scales.copy(length = length * field.spacing)))
+            for (length in LENGTHS) offer(fit(fit.response, fit.scales.copy(length = length * near)))
+            for (duration in DURATIONS) offer(fit(fit.response, fit.scales.copy(duration = duration * series.duration)))
             for (ratio in RATIOS) offer(fit(fit.response, fit.scales.copy(ratio = ratio)))
             for (steps in NOISE_TIMES) offer(fit(fit.response, fit.scales.copy(noiseTime = steps * series.period)))
-            for (steps in LAGS) offer(fit(BlindResponse(steps * series.period, 0.0), fit.scales))
+            for (steps in LAGS) offer(fit(BlindResponse(0.0, steps * series.period), fit.scales))
         }
-        return refined(fit) { BlindResponse(it, 0.0) }
+        return refined(fit) { BlindResponse(0.0, it) }
     }
 
     /** [fit] with the likeliest time near its own that [response] makes a response of. */
     fun refined(fit: BlindFit, response: (Double) -> BlindResponse): BlindFit {
         var best = fit
-        var width = 0.35
+        var width = 0.3
         repeat(REFINEMENTS) {
             val time = maxOf(best.response.timeConstant, best.response.deadTime, 0.1 * series.period)
             for (factor in doubleArrayOf(1 - width, 1 + width)) {
                 val next = fit(response(time * factor), best.scales)
                 if (next.score > best.score) best = next
             }
-            width /= 1.7
+            width /= 2
         }
         return best
     }
 
-    /** The likeliest pure delay under [scales]. */
-    fun delay(scales: BlindScales): BlindFit =
-        refined(LAGS.map { fit(BlindResponse(0.0, it * series.period), scales) }.maxBy { it.score }) { BlindResponse(0.0, it) }
-
     private companion object {
-        const val MOST_NODES = 320
-        const val REFINEMENTS = 6
-        val LENGTHS = doubleArrayOf(2.0, 6.0, 16.0, 40.0)
-        val RATIOS = doubleArrayOf(1e-5, 1e-4, 1e-3, 0.003, 0.03, 0.1)
-        val NOISE_TIMES = doubleArrayOf(0.0, 0.7, 2.0, 6.0, 20.0)
-        val LAGS = doubleArrayOf(0.1, 0.7, 1.4, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 23.0, 45.0, 90.0)
+        const val MOST_NODES = 400
+        const val REFINEMENTS = 4
+        val LENGTHS = doubleArrayOf(3.0, 8.0, 20.0, 50.0)
+        val DURATIONS = doubleArrayOf(3.0, 0.7, 0.2)
+        val RATIOS = doubleArrayOf(1e-5, 1e-4, 1e-3, 0.01)
+        val NOISE_TIMES = doubleArrayOf(0.0, 1.0, 4.0, 15.0)
+        val LAGS = doubleArrayOf(0.1, 1.0, 2.0, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 35.0)
     }
 }

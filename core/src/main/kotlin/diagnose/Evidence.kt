@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.hipparchus.special.Beta
 import org.hipparchus.special.Gamma
 import kotlin.math.ln
 import kotlin.math.sqrt
@@ -55,6 +56,17 @@ internal object Evidence {
             total += if (rows > 0) blocks / rows else 1.0
         }
         return maxOf(1.0, total / columns.size)
+    }
+
+    /** Probability of a Student's t of at least ±[t] with [degrees] of freedom. */
+    fun student(t: Double, degrees: Int): Double =
+        if (!t.isFinite()) 1.0 else Beta.regularizedBeta(degrees / (degrees + t * t), degrees / 2.0, 0.5)
+
+    /** Mean of [differences] over its standard error. */
+    fun t(differences: DoubleArray): Double {
+        val mean = differences.average()
+        val spread = sqrt(differences.sumOf { (it - mean) * (it - mean) } / (differences.size - 1))
+        return mean / maxOf(spread / sqrt(differences.size.toDouble()), 1e-300)
     }
 
     /** [column] less its projection on [basis], an orthonormal set; as new array. */

@@ -2,51 +2,38 @@ package stillwater.diagnose
 
 import kotlin.math.abs
 import kotlin.math.exp
-import kotlin.math.floor
 import kotlin.math.hypot
 import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
- * The water where nobody knows it: values at the nodes of a grid around the track, a Gaussian process between them.
+ * The water where nobody knows it: its values at nodes along the track, a Gaussian process in place and time.
  *
- * A reading is y = Σ a β + e: a are the bilinear weights of the nodes along the track, as late as a dead time says and
- * seen through a lag; β ~ N(0, s² C) with C Matérn 3/2 of length ℓ; e is noise with correlation exp(−Δt/T). All
- * linear, so the likelihood with β integrated out costs one factorisation of the nodes' matrix.
- *
- * @property spacing side of the grid's cells, m.
+ * A reading is y = Σ a β + e: a are the weights of the two nodes beside a moment, as late as a dead time says and seen
+ * through a lag; β ~ N(0, s² C) with C Matérn 3/2 of r, r² = (Δx² + Δy²)/ℓ² + Δt²/T²; e is noise whose correlation fades.
+ * All linear, so the likelihood with β integrated out costs one factorisation of the nodes' matrix. Passes over the same
+ * water are tied by C.
  */
-internal class UnknownField(val series: MeasuredSeries, val spacing: Double) {
+internal class UnknownField(val series: MeasuredSeries, most: Int) {
     private val n = series.size
-    private val nodes = HashMap<Long, Int>()
-    private val places = ArrayList<DoubleArray>()
+    private val stride = maxOf(1, (n + most - 1) / most)
 
-    init {
-        for (i in 0 until n) weights(series.x[i], series.y[i], create = true) { _, _ -> }
-    }
+    /** Number of nodes: every few rows, and the last. */
+    val size: Int = if ((n - 1) % stride == 0) (n - 1) / stride + 1 else (n - 1) / stride + 2
+    private val at = IntArray(size) { minOf(it * stride, n - 1) }
+    private val times = DoubleArray(size) { series.times[at[it]] }
+    private val x = smooth(series.x)
+    private val y = smooth(series.y)
 
-    /** Number of nodes. */
-    val size: Int get() = places.size
+    /** Usual distance between neighbouring nodes, m. */
+    val spacing: Double = median(DoubleArray(size - 1) { hypot(x[it + 1] - x[it], y[it + 1] - y[it]) })
 
-    private inline fun weights(x: Double, y: Double, create: Boolean, take: (Int, Double) -> Unit) {
-        val column = floor(x / spacing)
-        val row = floor(y / spacing)
-        val u = x / spacing - column
-        val v = y / spacing - row
-        for (k in 0 until 4) {
-            val c = column + k % 2
-            val r = row + k / 2
-            val weight = (if (k % 2 == 0) 1 - u else u) * (if (k / 2 == 0) 1 - v else v)
-            if (weight < 1e-9) continue
-            val key = (c.toLong() shl 32) xor (r.toLong() and 0xffffffffL)
-            val node = nodes[key] ?: if (create) {
-                places += doubleArrayOf(c * spacing, r * spacing)
-                (places.size - 1).also { nodes[key] = it }
-            } else {
-                -1
-            }
-            if (node >= 0) take(node, weight)
-        }
+    /** Positions at the nodes as means over the rows around them: fixes jitter. */
+    private fun smooth(column: DoubleArray) = DoubleArray(size) { k ->
+        val reach = minOf(stride / 2 + 1, at[k], n - 1 - at[k])
+        var sum = 0.0
+        for (i in at[k] - reach..at[k] + reach) sum += column[i]
+        sum / (2 * reach + 1)
     }
 
     /** Rows of the nodes' weights, whitened for noise of correlation time [noiseTime], s; 0 is white. */
@@ -55,21 +42,21 @@ internal class UnknownField(val series: MeasuredSeries, val spacing: Double) {
         val before = DoubleArray(size)
         val rows = NodeRows(n)
         val active = ArrayList<Int>()
-        var cursor = 0
+        var node = 0
         for (i in 0 until n) {
             val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
             val restart = i == 0 || dt > series.gap
             val fade = if (restart || response.timeConstant <= 0) 0.0 else exp(-dt / response.timeConstant)
             for (k in active) state[k] *= fade
             val wanted = series.times[i] - response.deadTime - dt / 2 * fade
-            while (cursor < n - 2 && series.times[cursor + 1] < wanted) cursor++
-            while (cursor > 0 && series.times[cursor] > wanted) cursor--
-            val share = ((wanted - series.times[cursor]) / (series.times[cursor + 1] - series.times[cursor])).coerceIn(0.0, 1.0)
-            val x = series.x[cursor] + share * (series.x[cursor + 1] - series.x[cursor])
-            val y = series.y[cursor] + share * (series.y[cursor + 1] - series.y[cursor])
-            weights(x, y, create = false) { node, weight ->
-                if (state[node] == 0.0) active += node
-                state[node] += (1 - fade) * weight
+            while (node < size - 2 && times[node + 1] < wanted) node++
+            while (node > 0 && times[node] > wanted) node--
+            val share = ((wanted - times[node]) / (times[node + 1] - times[node])).coerceIn(0.0, 1.0)
+            for (side in 0..1) {
+                val weight = (1 - fade) * if (side == 0) 1 - share else share
+                if (weight <= 0) continue
+                if (state[node + side] == 0.0) active += node + side
+                state[node + side] += weight
             }
             active.removeAll { k -> (abs(state[k]) < FAINT).also { if (it) state[k] = 0.0 } }
             rows.add(active, state, before, if (restart || noiseTime <= 0) 0.0 else exp(-dt / noiseTime))
@@ -77,20 +64,27 @@ internal class UnknownField(val series: MeasuredSeries, val spacing: Double) {
         return rows
     }
 
-    /** The value of the field [beta] at each row's place, length n. */
-    fun along(beta: DoubleArray): DoubleArray = DoubleArray(n) { i ->
-        var sum = 0.0
-        weights(series.x[i], series.y[i], create = false) { node, weight -> sum += weight * beta[node] }
-        sum
+    /** The value of the field [beta] at each row, length n. */
+    fun along(beta: DoubleArray): DoubleArray {
+        var node = 0
+        return DoubleArray(n) { i ->
+            while (node < size - 2 && times[node + 1] < series.times[i]) node++
+            val share = (series.times[i] - times[node]) / (times[node + 1] - times[node])
+            (1 - share) * beta[node] + share * beta[node + 1]
+        }
     }
 
-    /** The inverse of Matérn's correlation between the nodes for [length], m, and the logarithm of its determinant. */
-    fun precision(length: Double): Pair<Array<DoubleArray>, Double> {
-        val k = size
-        val matrix = Array(k) { i ->
-            DoubleArray(k) { j ->
-                val r = sqrt(3.0) * hypot(places[i][0] - places[j][0], places[i][1] - places[j][1]) / length
-                (1 + r) * exp(-r) + if (i == j) 1e-6 else 0.0
+    /**
+     * The inverse of Matérn's correlation between the nodes for [length], m, and [duration], s, and the logarithm of its
+     * determinant.
+     */
+    fun precision(length: Double, duration: Double): Pair<Array<DoubleArray>, Double> {
+        val matrix = Array(size) { i ->
+            DoubleArray(size) { j ->
+                val away = hypot(x[i] - x[j], y[i] - y[j]) / length
+                val later = (times[i] - times[j]) / duration
+                val r = sqrt(3.0) * hypot(away, later)
+                (1 + r) * exp(-r) + if (i == j) 1e-5 else 0.0
             }
         }
         val factor = DenseCholesky(matrix)
@@ -98,7 +92,7 @@ internal class UnknownField(val series: MeasuredSeries, val spacing: Double) {
     }
 
     private companion object {
-        const val FAINT = 1e-4
+        const val FAINT = 1e-3
     }
 }
 
@@ -168,14 +162,15 @@ internal class NodeRows(private val n: Int) {
         sum
     }
 
-    /** Adds RowsᵀRows to the lower half of [matrix]. */
-    fun addSquare(matrix: Array<DoubleArray>) {
-        for (i in 0 until n) {
+    /** Adds [times] RowsᵀRows, of the rows for which [use] holds, to the lower half of [matrix]. */
+    inline fun addSquare(matrix: Array<DoubleArray>, times: Double = 1.0, use: (Int) -> Boolean = { true }) {
+        for (i in columns.indices) {
+            if (!use(i)) continue
             val c = columns[i]
             val w = weights[i]
             for (k in c.indices) {
                 val target = matrix[c[k]]
-                for (l in c.indices) if (c[l] <= c[k]) target[c[l]] += w[k] * w[l]
+                for (l in c.indices) if (c[l] <= c[k]) target[c[l]] += times * w[k] * w[l]
             }
         }
     }

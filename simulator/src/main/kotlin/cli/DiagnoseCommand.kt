@@ -57,6 +57,10 @@ class DiagnoseCommand : CliktCommand("diagnose") {
         metavar = "FILE",
         help = "sensor spec (JSON) as it is believed to be, taken as given; without it a first-order lag is fitted",
     )
+    private val numbersOnly by option(
+        "--numbers-only",
+        help = "no figures, no report and no comparison of maps: diagnosis.json, extended-sensor.json and residuals.csv",
+    ).flag()
     private val quiet by option("--quiet", help = "no summary").flag()
     private val json by option("--json", help = "print diagnosis.json instead of a summary").flag()
 
@@ -97,21 +101,21 @@ class DiagnoseCommand : CliktCommand("diagnose") {
             }
             val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
             val diagnosed = Diagnosed(read, result, worth(read, result))
-            val drawing = DiagnosisFiles(diagnosed, commandLine()).write(directory)
+            val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {
                 json -> echo(DiagnosisJson.text(diagnosed).trimEnd())
                 !quiet -> {
                     diagnosed.lines().forEach { echo(it) }
                     for (warning in diagnosed.warnings + drawing) echo("warning: $warning", err = true)
-                    echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve("report.html")}", err = true)
+                    echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve(if (numbersOnly) "diagnosis.json" else "report.html")}", err = true)
                 }
             }
         }
     }
 
     private fun worth(read: DiagnosisLog, result: stillwater.diagnose.DiagnosisResult): MapWorth? {
-        val extended = result.extendedSensor ?: return null
+        val extended = result.extendedSensor?.takeIf { !numbersOnly } ?: return null
         val truth = if (reference != null) read.columns.reference else read.columns.values
         val threads = Runtime.getRuntime().availableProcessors()
         return runBlocking { MapWorth.of(result.baseSensor, extended, truth.min(), truth.max(), threads) }
@@ -120,7 +124,7 @@ class DiagnoseCommand : CliktCommand("diagnose") {
     private fun commandLine(): String {
         val own = listOf("--reference" to reference) +
             conditions.map { (name, column) -> "--condition" to "$name=$column" } +
-            listOf("--sensor" to sensor, "--out" to out)
+            listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
         return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
     }
 

@@ -10,17 +10,21 @@ import stillwater.report.writeFigures
  * extended-sensor.json is written where something was named; without it the base sensor is the best there is, and stands in
  * diagnosis.json.
  *
- * @param diagnosed what to write. @param command the command as typed, for the report.
+ * @param diagnosed what to write. @param command the command as typed, for the report. @param numbersOnly whether figures
+ * and report are left out.
  */
-internal class DiagnosisFiles(private val diagnosed: Diagnosed, private val command: String) {
+internal class DiagnosisFiles(
+    private val diagnosed: Diagnosed,
+    private val command: String,
+    private val numbersOnly: Boolean = false,
+) {
     /**
      * Writes all files into [directory], which the caller commits.
      *
      * @return warnings for the user, one line each.
      */
     fun write(directory: OutputDirectory): List<String> {
-        val figures = DiagnosisFigures(diagnosed).draw()
-        directory.retire(DiagnosisFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") } + "extended-sensor.json")
+        directory.retire(DiagnosisFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") } + "extended-sensor.json" + "report.html")
         directory.write("diagnosis.json", DiagnosisJson.text(diagnosed))
         diagnosed.result.extendedSensor?.let { directory.write("extended-sensor.json", it.toJson() + "\n") }
         directory.stream("residuals.csv") { out ->
@@ -29,6 +33,8 @@ internal class DiagnosisFiles(private val diagnosed: Diagnosed, private val comm
             // Closing it writes what it has buffered.
             table.close()
         }
+        if (numbersOnly) return emptyList()
+        val figures = DiagnosisFigures(diagnosed).draw()
         val warnings = directory.writeFigures(figures.map { it.name to it.figure })
         directory.write("report.html", DiagnosisReport(diagnosed, figures, command).render())
         return warnings

@@ -19,6 +19,7 @@ internal data class HiddenTruth(
     val effects: Map<HiddenEffect, Double>,
     val multiples: Map<HiddenEffect, Double>,
     val timeConstant: Double,
+    val noise: Double,
 )
 
 /**
@@ -49,7 +50,7 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
     private val drawn = draw()
 
     /** What is hidden; the scorer's alone. */
-    val truth = HiddenTruth(kind, drawn.mapValues { it.value.first }, drawn.mapValues { it.value.second }, timeConstant)
+    val truth = HiddenTruth(kind, drawn.mapValues { it.value.first }, drawn.mapValues { it.value.second }, timeConstant, noise.spread)
 
     private fun kinds() = if (withReference) {
         TrackKind.entries
