@@ -143,7 +143,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     }
 
     private fun terms(): List<Term> = buildList {
-        // A second lag, a slow path or a dead time beside the lag change what only a reference shows: see [result].
+        // A second lag, a slow path, a dead time beside the lag or an offset along the track change what only a reference shows: see [result].
         add(Term(Cause.ASYMMETRIC_RESPONSE))
         add(Term(Cause.SLEW_LIMIT))
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
@@ -155,7 +155,6 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         add(Term(Cause.DRIFT))
         add(Term(Cause.HYSTERESIS))
         add(Term(Cause.SATURATION))
-        if (spread > 0.03) add(Term(Cause.POSITION_OFFSET))
     }
 
     /** [column], whitened, less what [basis] has of it, at unit length in the metric of what no field can imitate. */

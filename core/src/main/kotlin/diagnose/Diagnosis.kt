@@ -26,13 +26,12 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
     public fun run(): DiagnosisResult {
         if (series.reference == null) return BlindDiagnosis(series, settings).run()
         var base = base()
-        val mixture = Spikes.ratio(base.whitened)
         val spikes = Spikes.of(base.whitened)
         if (spikes.isNotEmpty()) {
             spikes.forEach { used[it] = false }
             base = base()
         }
-        return Weighing(base, spikes, mixture).result()
+        return Weighing(base, spikes).result()
     }
 
     private fun base(): ModelFit {
@@ -57,33 +56,27 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
         }
 
     /** The weighing of all causes on top of [base]. */
-    private inner class Weighing(private val base: ModelFit, private val spikes: List<Int>, private val mixture: Mixture) {
+    private inner class Weighing(private val base: ModelFit, private val spikes: List<Int>) {
         private val baseHeldOut = HeldOut.score(base, used)
-        private val lone = Evidence.poissonTail(spikes.size, series.size * BEYOND)
-        private val outlierP = if (mixture.size > FARTHEST * sqrt(base.variance)) {
-            minOf(lone, Evidence.pValue(mixture.ratio, 3))
-        } else {
-            lone
-        }
         private val terms = terms()
         private val first = terms.map { search.attempt(base, baseHeldOut, it) }
 
         fun result(): DiagnosisResult {
-            val outliers = outlierP * (terms.size + 1) < settings.level
             val chosen = forward()
             val last = chosen.lastOrNull()?.fit ?: base
+            val loose = Loose(last)
+            val outliers = loose.pValue * (terms.size + 1) < settings.level
             val sets = sets(chosen, last)
             val left = Structure(last, used, search.longest).dependences()
             val verdict = verdict(sets, outliers, left.first(), chosen)
             val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
-            val seen = SpikeSize.of(spikes, last.residuals, sqrt(last.variance)) ?: SpikeSize(mixture.share, mixture.size)
-            val size = seen.takeIf { outliers }
+            val size = loose.size().takeIf { outliers }
             val sensor = ExtendedSensor(last, size)
             val extended = if (named) sensor.spec("extended") else null
             warn(left, named)
             return DiagnosisResult(
                 verdict,
-                candidates(size),
+                candidates(size, loose.pValue),
                 assessment(base, baseHeldOut),
                 if (named) assessment(last, HeldOut.score(last, used)) else null,
                 settings.base ?: ExtendedSensor(base, null).spec("base"),
@@ -214,7 +207,7 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             return null
         }
 
-        private fun candidates(size: SpikeSize?): List<Candidate> {
+        private fun candidates(size: SpikeSize?, outlierP: Double): List<Candidate> {
             val p = first.map { it.pValue } + outlierP
             val adjusted = Evidence.holm(p)
             val list = first.mapIndexed { i, trial ->
@@ -256,6 +249,25 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             fit.noise.time,
             fit.whitened.let { z -> DoubleArray(z.size) { z[it] / sqrt(maxOf(fit.variance, 1e-300)) } },
         )
+    }
+
+    /** Single readings that the model of [fit] leaves far off, among all rows. */
+    private inner class Loose(private val fit: ModelFit) {
+        private val z = DoubleArray(series.size).also { out ->
+            val all = BooleanArray(series.size) { true }
+            CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, all).whiten(fit.residuals, out)
+        }
+        private val spikes = Spikes.of(z)
+        private val mixture = Spikes.ratio(z)
+
+        /** Of there being outliers, by their number or by the tails of all residuals. */
+        val pValue: Double = Evidence.poissonTail(spikes.size, series.size * BEYOND).let { lone ->
+            val far = mixture.size > FARTHEST * sqrt(fit.variance)
+            if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
+        }
+
+        fun size(): SpikeSize =
+            SpikeSize.of(spikes, fit.residuals, sqrt(fit.variance)) ?: SpikeSize(mixture.share, mixture.size)
     }
 
     private fun rmse(fit: ModelFit): Double {
