@@ -52,7 +52,9 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         var trials = first
         while (chosen.size < settings.mostCauses) {
             val adjusted = Evidence.holm(trials.map { it.pValue })
-            val best = trials.filterIndexed { i, t -> adjusted[i] < settings.level && t.agrees }.maxByOrNull { it.worth } ?: break
+            val best =
+                trials.filterIndexed { i, t -> adjusted[i] < settings.level && t.agrees }.maxByOrNull { it.worth }
+                    ?: break
             chosen += best
             offBasis(best.column, free)?.let { free += it }
             val taken = chosen.map { it.term.key }
@@ -76,7 +78,9 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             extended?.let { extendedAssessment(chosen) } ?: base.takeIf { named },
             spec("base", null),
             if (named) spec("extended", extended) else null,
-            (verdict as? Verdict.Ambiguous)?.let { v -> Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet()) },
+            (verdict as? Verdict.Ambiguous)?.let { v ->
+                Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet())
+            },
             emptyList(),
             emptyList(),
             warnings(seen, responseSet != null),
@@ -101,7 +105,12 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             add("The readings lag the water by ${"%.3g".format(java.util.Locale.ROOT, sum)} s as a first-order lag.")
         }
         if (ambiguous) {
-            add("A dead time of ${"%.3g".format(java.util.Locale.ROOT, delay.response.deadTime)} s explains the same as the lag.")
+            add(
+                "A dead time of ${"%.3g".format(
+                    java.util.Locale.ROOT,
+                    delay.response.deadTime,
+                )} s explains the same as the lag.",
+            )
         }
     }
 
@@ -113,8 +122,12 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     ): Verdict {
         if (n < FEWEST_ROWS) return Verdict.InsufficientData("there are $n rows only")
         val sets = chosen.mapIndexed { i, trial ->
-            val others = if (i > 0) emptyList() else first.filter {
-                it.term.key != trial.term.key && trial.worth - it.worth < settings.separation && it.ratio > 0
+            val others = if (i > 0) {
+                emptyList()
+            } else {
+                first.filter {
+                    it.term.key != trial.term.key && trial.worth - it.worth < settings.separation && it.ratio > 0
+                }
             }
             val twin = if (trial.term.cause == Cause.DRIFT) listOf(Cause.TIME_VARYING_FIELD) else emptyList()
             (listOf(trial.term.cause) + twin + others.map { it.term.cause }).distinct()
@@ -173,7 +186,9 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     private fun attempt(term: Term, free: List<DoubleArray>): BlindTrial? {
         val model = ResponseModel(water, listOf(term), false, scales)
         val fit = Fitting.at(plain, start, BooleanArray(4), CorrelatedNoise.white(water, all))
-        return Starts(fit, model, term, small = true).all().mapNotNull { trial(term, model, it, free) }.maxByOrNull { it.ratio }
+        return Starts(fit, model, term, small = true).all().mapNotNull {
+            trial(term, model, it, free)
+        }.maxByOrNull { it.ratio }
     }
 
     private fun trial(term: Term, model: ResponseModel, numbers: DoubleArray, free: List<DoubleArray>): BlindTrial? {
@@ -217,7 +232,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             weights[stretch] += unlike[i] * unlike[i]
         }
         val size = scores.sum() / weights.sum()
-        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } } * STRETCHES / (STRETCHES - 1)
+        val error =
+            scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } } * STRETCHES / (STRETCHES - 1)
         return scores.sum() / sqrt(maxOf(error, 1e-300))
     }
 
@@ -256,7 +272,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             weights[stretch] += unlike[i] * unlike[i]
         }
         val size = scores.sum() / weights.sum()
-        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } } * STRETCHES / (STRETCHES - 1)
+        val error =
+            scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } } * STRETCHES / (STRETCHES - 1)
         return sqrt(error) / weights.sum()
     }
 
@@ -272,7 +289,11 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         }
     }
 
-    private fun rmse(predicted: DoubleArray) = sqrt(series.values.indices.sumOf { (series.values[it] - predicted[it]).let { e -> e * e } } / n)
+    private fun rmse(predicted: DoubleArray) = sqrt(
+        series.values.indices.sumOf {
+            (series.values[it] - predicted[it]).let { e -> e * e }
+        } / n,
+    )
 
     private fun assessment(parameters: List<Estimate>, predicted: DoubleArray): ModelAssessment {
         val spread = sqrt(maxOf(lag.variance, 1e-300))

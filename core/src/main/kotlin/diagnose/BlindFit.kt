@@ -64,7 +64,9 @@ internal class BlindFit(
     fun water(): DoubleArray = field.along(beta).let { u -> DoubleArray(n) { u[it] + mean } }
 
     /** The readings without noise. */
-    fun predicted(): DoubleArray = rows.coloured(residuals).let { e -> DoubleArray(n) { field.series.values[it] - e[it] } }
+    fun predicted(): DoubleArray = rows.coloured(residuals).let { e ->
+        DoubleArray(n) { field.series.values[it] - e[it] }
+    }
 
     private fun half(column: DoubleArray) = halves.getOrPut(column) { factor.half(rows.transposed(column, field.size)) }
 
@@ -110,7 +112,14 @@ internal class BlindFit(
         }
         val variance = squares.sum() / n
         return DoubleArray(count + 1) { b ->
-            if (b == count) errors else -0.5 * (squares[b] / variance + determinants[b] + n.toDouble() / count * ln(variance))
+            if (b ==
+                count
+            ) {
+                errors
+            } else {
+                -0.5 *
+                    (squares[b] / variance + determinants[b] + n.toDouble() / count * ln(variance))
+            }
         }
     }
 

@@ -56,7 +56,8 @@ internal class CauseSearch(
     fun attempt(base: ModelFit, baseHeldOut: HeldOutScore, term: Term): Trial {
         val best = if (term.cause == Cause.OFFSET_STEPS) jumps(base) else extended(base, term)
         val free = best.free.count { it } - base.free.count { it }
-        val degrees = maxOf(free + best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }, 1)
+        val degrees =
+            maxOf(free + best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }, 1)
         val inflation = inflation(base, best)
         val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
         // The best of so many places gains twice the logarithm of their number by chance.

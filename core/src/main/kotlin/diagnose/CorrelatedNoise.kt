@@ -15,7 +15,12 @@ import kotlin.math.sqrt
  *
  * @property share φ, dimensionless, within 0..1. @property time τ, s, above 0.
  */
-internal class CorrelatedNoise(times: DoubleArray, val share: Double, val time: Double, private val used: BooleanArray) {
+internal class CorrelatedNoise(
+    times: DoubleArray,
+    val share: Double,
+    val time: Double,
+    private val used: BooleanArray,
+) {
     private val keep = DoubleArray(times.size)
     private val gain = DoubleArray(times.size)
     private val scale = DoubleArray(times.size)

@@ -16,7 +16,10 @@ import kotlin.math.sqrt
  *
  * Pure: the same log gives the same answer. Cost: of the order of a second for a thousand rows.
  */
-public class Diagnosis(private val series: MeasuredSeries, private val settings: DiagnosisSettings = DiagnosisSettings()) {
+public class Diagnosis(
+    private val series: MeasuredSeries,
+    private val settings: DiagnosisSettings = DiagnosisSettings(),
+) {
     private val scales = Scales(series)
     private val used = BooleanArray(series.size) { true }
     private val search = CauseSearch(series, scales, used, settings)
@@ -25,26 +28,39 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
         if (series.reference == null) return BlindDiagnosis(series, settings).run()
-        var base = base()
-        val spikes = Spikes.of(base.whitened)
-        if (spikes.isNotEmpty()) {
-            spikes.forEach { used[it] = false }
-            base = base()
-        }
-        return Weighing(base, spikes).result()
+        val first = weighing(null)
+        val last = first.last
+        // Whether steps are held shows only once the response is right: the other way is tried with what was named.
+        val other = ResponseModel(series, last.model.terms, !last.model.held, scales)
+        val turned = Fitting.fit(other, last.numbers, last.free, used, search.longest, guess = last.noise)
+        val better = first.chosen.isNotEmpty() && turned.score > last.score + HELD
+        return (if (better) weighing(other.held) else first).result()
     }
 
-    private fun base(): ModelFit {
+    private fun weighing(held: Boolean?): Weighing {
+        used.fill(true)
+        warnings.clear()
+        val rough = base(held)
+        val spikes = Spikes.of(rough.whitened)
+        spikes.forEach { used[it] = false }
+        return Weighing(if (spikes.isEmpty()) rough else base(held), spikes)
+    }
+
+    /** The base model; steps are held where [held], as the log says where that is null. */
+    private fun base(held: Boolean?): ModelFit {
         val given = settings.base?.let { GivenSensor(it, scales) }
-        val fits = listOf(false, true).map { held ->
-            val model = ResponseModel(series, given?.terms.orEmpty(), held, scales)
-            val free = BooleanArray(model.parameters.size) { given == null && it < ResponseModel.BASE }
-            free[ResponseModel.FIRST] = true
+        val fits = listOf(false, true).filter { held == null || it == held }.map { way ->
+            val model = ResponseModel(series, given?.terms.orEmpty(), way, scales)
+            val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
             val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
             starts.map { Fitting.fit(model, it, free, used, search.longest) }.maxBy { it.score }
         }
-        // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous.
-        return if (fits[1].score > fits[0].score + HELD) fits[1] else fits[0]
+        // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given
+        // sensor's numbers may be wrong, so that this is told with them free.
+        val best = if (fits.last().score > fits[0].score + HELD) fits.last() else fits[0]
+        if (given == null) return best
+        val free = BooleanArray(best.free.size) { it == ResponseModel.FIRST }
+        return Fitting.fit(best.model, given.numbers(best.model), free, used, search.longest)
     }
 
     private fun starts(model: ResponseModel): List<DoubleArray> =
@@ -61,9 +77,13 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
         private val terms = terms()
         private val first = terms.map { search.attempt(base, baseHeldOut, it) }
 
+        /** What was chosen, one after the other. */
+        val chosen = forward()
+
+        /** The model with all that was chosen. */
+        val last = chosen.lastOrNull()?.fit ?: base
+
         fun result(): DiagnosisResult {
-            val chosen = forward()
-            val last = chosen.lastOrNull()?.fit ?: base
             val loose = Loose(last)
             val outliers = loose.pValue * (terms.size + 1) < settings.level
             val sets = sets(chosen, last)
@@ -81,7 +101,9 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
                 if (named) assessment(last, HeldOut.score(last, used)) else null,
                 settings.base ?: ExtendedSensor(base, null).spec("base"),
                 extended,
-                (verdict as? Verdict.Ambiguous)?.let { v -> Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet()) },
+                (verdict as? Verdict.Ambiguous)?.let { v ->
+                    Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet())
+                },
                 left,
                 spikes,
                 warnings + if (named) sensor.losses else emptyList(),
@@ -94,7 +116,12 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
                 warnings += "Structure is left beside what was named: the residuals depend on ${most.description}."
             }
             val off = spikes.size
-            if (off > 0) warnings += "$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits."
+            if (off >
+                0
+            ) {
+                warnings +=
+                    "$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits."
+            }
         }
 
         private fun terms(): List<Term> = buildList {
@@ -130,9 +157,12 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             var heldOut = baseHeldOut
             while (chosen.size < settings.mostCauses) {
                 val adjusted = Evidence.holm(trials.map { it.pValue })
-                val best = trials.indices.filter { i ->
+                val worthy = trials.indices.filter { i ->
                     adjusted[i] < settings.level && trials[i].heldOut.logLikelihood > heldOut.logLikelihood
-                }.map { trials[it] }.maxByOrNull { it.worth } ?: break
+                }.map { trials[it] }
+                // A wrong number of the base makes everything else look significant: it comes first, if it is one.
+                val own = worthy.filter { it.term.cause in BASE_NUMBERS }
+                val best = own.ifEmpty { worthy }.maxByOrNull { it.worth } ?: break
                 chosen += best
                 fit = best.fit
                 heldOut = best.heldOut
@@ -171,9 +201,13 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             val others = chosen.filter { it !== trial }.map { it.term.key }
             val rest = if (chosen.size == 1) base else search.without(last, trial.term)
             val likely = first.filter { it.pValue < 0.01 || chosen.size == 1 }.map { it.term.copy(times = emptyList()) }
-            val trials = if (chosen.size == 1) first else likely.filter { it.key !in others }
-                .map { if (it.key == trial.term.key) null else search.attempt(rest, baseHeldOut, it) }
-                .filterNotNull()
+            val trials = if (chosen.size == 1) {
+                first
+            } else {
+                likely.filter { it.key !in others }
+                    .map { if (it.key == trial.term.key) null else search.attempt(rest, baseHeldOut, it) }
+                    .filterNotNull()
+            }
             val own = if (chosen.size == 1) trial.worth else last.score - rest.score - 2 * trial.degrees
             val same = trials.filter { it.term.key != trial.term.key && own - it.worth < settings.separation }
                 .sortedByDescending { it.worth }
@@ -191,7 +225,9 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             val structured = left.adjusted < settings.structureLevel
             val least = chosen.minOfOrNull { it.ratio } ?: 0.0
             return when {
-                structured && left.ratio > LEFT * least -> Verdict.Unexplained("the residuals depend on ${left.description}")
+                structured && left.ratio > LEFT * least -> Verdict.Unexplained(
+                    "the residuals depend on ${left.description}",
+                )
                 all.isEmpty() -> Verdict.Consistent
                 all.any { it.size > 1 } -> Verdict.Ambiguous(all)
                 else -> Verdict.Named(all.map { it.single() })
@@ -226,7 +262,12 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             val outliers = Candidate(
                 Cause.OUTLIERS,
                 null,
-                size?.let { listOf(Estimate("probability", "", it.probability, null), Estimate("size", "sensor units", it.size, null)) }
+                size?.let {
+                    listOf(
+                        Estimate("probability", "", it.probability, null),
+                        Estimate("size", "sensor units", it.size, null),
+                    )
+                }
                     .orEmpty(),
                 rmse(base),
                 baseHeldOut.rmse,
@@ -298,14 +339,27 @@ public class Diagnosis(private val series: MeasuredSeries, private val settings:
             val parameter = fit.model.parameters[i]
             val reach = NORMAL_95 * errors[i]
             val value = fit.numbers[i]
-            val ends = if (parameter.logarithmic) value * exp(-minOf(reach, 50.0)) to value * exp(minOf(reach, 50.0)) else value - reach to value + reach
-            val interval = if (fit.free[i] && reach.isFinite()) stillwater.model.Interval(ends.first, ends.second) else null
+            val ends = if (parameter.logarithmic) {
+                value * exp(-minOf(reach, 50.0)) to value * exp(minOf(reach, 50.0))
+            } else {
+                value -
+                    reach to
+                    value + reach
+            }
+            val interval = if (fit.free[i] &&
+                reach.isFinite()
+            ) {
+                stillwater.model.Interval(ends.first, ends.second)
+            } else {
+                null
+            }
             Estimate(parameter.name, parameter.unit, value, interval)
         }
     }
 
     private companion object {
         const val HELD = 6.0
+        val BASE_NUMBERS = setOf(Cause.TIME_CONSTANT, Cause.GAIN_OFFSET)
         const val BEYOND = 4e-5
         const val FARTHEST = 4.5
         const val FEWEST_ROWS = 60

@@ -24,7 +24,8 @@ internal class ExtendedSensor(private val fit: ModelFit, private val spikes: Spi
 
     private fun response(): List<SensorStage> = buildList {
         value(Cause.POSITION_OFFSET)?.let { behind ->
-            losses += "An offset of place belongs to the platform: the sensor file holds it as the delay at the usual speed."
+            losses +=
+                "An offset of place belongs to the platform: the sensor file holds it as the delay at the usual speed."
             val delay = behind / model.scales.ordinarySpeed
             if (delay > 0) add(SensorStage.Delay(delay))
         }
@@ -66,7 +67,15 @@ internal class ExtendedSensor(private val fit: ModelFit, private val spikes: Spi
                 Cause.DRIFT -> add(SensorStage.Drifting(numbers[at]))
                 Cause.OFFSET_STEPS -> {
                     var sum = 0.0
-                    add(SensorStage.Jumps(term.times, term.times.indices.map { k -> sum += numbers[at + k]; sum }))
+                    add(
+                        SensorStage.Jumps(
+                            term.times,
+                            term.times.indices.map { k ->
+                                sum += numbers[at + k]
+                                sum
+                            },
+                        ),
+                    )
                 }
                 else -> Unit
             }

@@ -37,8 +37,11 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
     private fun take(stage: SensorStage) {
         when (stage) {
             is SensorStage.Lag ->
-                if (timeConstant.isNaN()) timeConstant = stage.timeConstant
-                else put(Cause.SECOND_ORDER_RESPONSE, stage.timeConstant)
+                if (timeConstant.isNaN()) {
+                    timeConstant = stage.timeConstant
+                } else {
+                    put(Cause.SECOND_ORDER_RESPONSE, stage.timeConstant)
+                }
             is SensorStage.Asymmetric -> {
                 timeConstant = exp((ln(stage.rising) + ln(stage.falling)) / 2)
                 put(Cause.ASYMMETRIC_RESPONSE, ln(stage.rising / stage.falling))
@@ -48,7 +51,8 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
                 put(Cause.TWO_PATH_RESPONSE, stage.slow / stage.fast, stage.slowShare)
             }
             is SensorStage.FlowLag -> {
-                timeConstant = stage.timeConstant * exp(-stage.exponent * ln(scales.ordinarySpeed / stage.referenceSpeed))
+                timeConstant =
+                    stage.timeConstant * exp(-stage.exponent * ln(scales.ordinarySpeed / stage.referenceSpeed))
                 put(Cause.FLOW_DEPENDENT_RESPONSE, stage.exponent)
             }
             is SensorStage.TemperatureLag -> {

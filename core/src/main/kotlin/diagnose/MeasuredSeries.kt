@@ -25,13 +25,18 @@ public class MeasuredSeries(
     internal val conditions: Map<String, DoubleArray> = emptyMap(),
 ) {
     init {
-        val columns = listOf("x" to x, "y" to y, "values" to values) + listOfNotNull(reference?.let { "reference" to it })
+        val columns =
+            listOf("x" to x, "y" to y, "values" to values) + listOfNotNull(reference?.let { "reference" to it })
         for ((name, column) in columns) {
-            require(column.size == times.size) { "$name (${column.size} rows) must be as long as times (${times.size})" }
+            require(column.size == times.size) {
+                "$name (${column.size} rows) must be as long as times (${times.size})"
+            }
             require(column.all { it.isFinite() }) { "$name must be finite" }
         }
         for ((name, column) in conditions) {
-            require(column.size == times.size) { "$name (${column.size} rows) must be as long as times (${times.size})" }
+            require(column.size == times.size) {
+                "$name (${column.size} rows) must be as long as times (${times.size})"
+            }
         }
         require(times.all { it.isFinite() }) { "times must be finite" }
         for (i in 1 until times.size) {
@@ -51,7 +56,6 @@ public class MeasuredSeries(
 
     /** A longer step than this is a gap, over which the sensor is taken to have settled, s. */
     internal val gap: Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
-
 
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
     internal val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()

@@ -234,4 +234,3 @@ internal class Scales(val series: MeasuredSeries) {
         }
     }
 }
-

@@ -73,7 +73,10 @@ internal class Starts(
         for (old in fit.model.terms) {
             val from = fit.model.slotOrNull(old) ?: continue
             val to = model.slotOrNull(old) ?: continue
-            for (k in 0 until fit.model.width(old).coerceAtMost(model.width(old))) numbers[to + k] = fit.numbers[from + k]
+            for (k in 0 until fit.model.width(old).coerceAtMost(model.width(old))) {
+                numbers[to + k] =
+                    fit.numbers[from + k]
+            }
         }
         return numbers
     }

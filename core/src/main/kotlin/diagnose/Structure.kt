@@ -78,7 +78,10 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val value = standard(prediction)
         val slope = standard(rate)
         add("the value itself (a curved calibration)" to listOf(power(value, 2), power(value, 3), power(value, 4)))
-        add("the rate of change (not in proportion)" to listOf(absolute(slope), times(slope, absolute(slope)), power(slope, 2)))
+        add(
+            "the rate of change (not in proportion)" to
+                listOf(absolute(slope), times(slope, absolute(slope)), power(slope, 2)),
+        )
         add("time (a slow wandering)" to slow())
         add("what was there before (the response has another shape)" to response())
         add("the rate of change, more at some values than at others" to moved(slope, value))

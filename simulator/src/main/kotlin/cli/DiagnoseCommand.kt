@@ -108,7 +108,12 @@ class DiagnoseCommand : CliktCommand("diagnose") {
                 !quiet -> {
                     diagnosed.lines().forEach { echo(it) }
                     for (warning in diagnosed.warnings + drawing) echo("warning: $warning", err = true)
-                    echo("wrote ${written.size} files into $out, see ${Path.of(out).resolve(if (numbersOnly) "diagnosis.json" else "report.html")}", err = true)
+                    echo(
+                        "wrote ${written.size} files into $out, see ${Path.of(
+                            out,
+                        ).resolve(if (numbersOnly) "diagnosis.json" else "report.html")}",
+                        err = true,
+                    )
                 }
             }
         }

@@ -33,8 +33,11 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
     val answer: String = when (val verdict = result.verdict) {
         is Verdict.Named -> verdict.causes.joinToString(" ") { sentence(it) }
         is Verdict.Ambiguous -> verdict.sets.joinToString(" ") { set ->
-            if (set.size == 1) sentence(set.single())
-            else "One of ${set.joinToString(", ") { it.label }} is at work; this track cannot tell which."
+            if (set.size == 1) {
+                sentence(set.single())
+            } else {
+                "One of ${set.joinToString(", ") { it.label }} is at work; this track cannot tell which."
+            }
         }
         is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log."
         is Verdict.Unexplained -> "Something is at work that no cause of the list explains: ${verdict.what}."

@@ -51,7 +51,11 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
             result.extended?.let { Series("extended", time, it.predicted) },
         )
         val plot = LinePlot("Measured and predicted", "", series, "Time since the first row (s)", quantity)
-        return DiagnosisFigure("predicted", plot.draw(), "What was measured and what the simulation shows on the same track.")
+        return DiagnosisFigure(
+            "predicted",
+            plot.draw(),
+            "What was measured and what the simulation shows on the same track.",
+        )
     }
 
     private fun against(name: String, label: String, x: DoubleArray): DiagnosisFigure {
@@ -116,7 +120,16 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         val lags = minOf(MOST_LAGS, n / 4)
         val x = DoubleArray(lags) { it + 1.0 }
         val null95 = 1.96 / sqrt(n.toDouble())
-        val band = Series("no correlation (95 %)", x, DoubleArray(lags), DoubleArray(lags) { -null95 }, DoubleArray(lags) { null95 })
+        val band =
+            Series(
+                "no correlation (95 %)",
+                x,
+                DoubleArray(lags),
+                DoubleArray(lags) {
+                    -null95
+                },
+                DoubleArray(lags) { null95 },
+            )
         val plot = LinePlot(
             "Correlation of the residuals",
             "",
@@ -143,7 +156,9 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
             is Verdict.Ambiguous -> verdict.sets.flatten()
             else -> emptyList()
         }
-        return result.candidates.filter { it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05) }
+        return result.candidates.filter {
+            it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
+        }
             .distinctBy { it.cause }
     }
 
@@ -164,13 +179,26 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private fun rate() = DoubleArray(n) { i ->
         val from = maxOf(i - 1, 0)
         val to = minOf(i + 1, n - 1)
-        if (to == from) 0.0 else (result.baseline.predicted[to] - result.baseline.predicted[from]) / (time[to] - time[from])
+        if (to ==
+            from
+        ) {
+            0.0
+        } else {
+            (result.baseline.predicted[to] - result.baseline.predicted[from]) / (time[to] - time[from])
+        }
     }
 
     private fun speed() = DoubleArray(n) { i ->
         val from = maxOf(i - 3, 0)
         val to = minOf(i + 3, n - 1)
-        if (to == from) 0.0 else hypot(columns.x[to] - columns.x[from], columns.y[to] - columns.y[from]) / (time[to] - time[from])
+        if (to ==
+            from
+        ) {
+            0.0
+        } else {
+            hypot(columns.x[to] - columns.x[from], columns.y[to] - columns.y[from]) /
+                (time[to] - time[from])
+        }
     }
 
     private fun heading() = DoubleArray(n) { i ->

@@ -24,7 +24,11 @@ internal class DiagnosisFiles(
      * @return warnings for the user, one line each.
      */
     fun write(directory: OutputDirectory): List<String> {
-        directory.retire(DiagnosisFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") } + "extended-sensor.json" + "report.html")
+        directory.retire(
+            DiagnosisFigures.NAMES.flatMap {
+                listOf("$it.svg", "$it.png")
+            } + "extended-sensor.json" + "report.html",
+        )
         directory.write("diagnosis.json", DiagnosisJson.text(diagnosed))
         diagnosed.result.extendedSensor?.let { directory.write("extended-sensor.json", it.toJson() + "\n") }
         directory.stream("residuals.csv") { out ->

@@ -33,7 +33,9 @@ internal class DiagnosisReport(
         page.section("The answer") { answer() }
         page.section("Measured and predicted") { show("predicted") }
         if (figures.any { it.name.startsWith("cause-") }) {
-            page.section("The causes") { figures.filter { it.name.startsWith("cause-") }.forEach { figure(it.figure, it.caption) } }
+            page.section("The causes") {
+                figures.filter { it.name.startsWith("cause-") }.forEach { figure(it.figure, it.caption) }
+            }
         }
         page.section("All causes tried") { tried() }
         page.section("What the residuals depend on") { residuals() }
@@ -52,13 +54,17 @@ internal class DiagnosisReport(
         val before = result.baseline
         paragraph(
             "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
-                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}, and the log-likelihood rises by " +
+                "${three.format(
+                    before.heldOutRmse,
+                )} to ${three.format(after.heldOutRmse)}, and the log-likelihood rises by " +
                 "${three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)}.",
         )
         diagnosed.worth?.let { worth ->
             paragraph(
                 "Worth for a map: in ${worth.environments} simulated fields sampled by the extended sensor, the interval " +
-                    "filter's error is ${three.format(worth.before)} of the field's range with the base model's limits and " +
+                    "filter's error is ${three.format(
+                        worth.before,
+                    )} of the field's range with the base model's limits and " +
                     "${three.format(worth.after)} with the extended model's (standard error of the difference " +
                     "${three.format(worth.error)}).",
             )
@@ -69,7 +75,10 @@ internal class DiagnosisReport(
     private fun stillwater.report.ReportSection.tried() {
         table(
             Table.of(result.candidates) {
-                text("Cause") { candidate: Candidate -> candidate.cause.label + (candidate.condition?.let { " ($it)" } ?: "") }
+                text("Cause") { candidate: Candidate ->
+                    candidate.cause.label +
+                        (candidate.condition?.let { " ($it)" } ?: "")
+                }
                 text("Numbers (95 %)") { diagnosed.numbers(it) }
                 number("Residuals") { it.trainRmse }
                 number("On held-out blocks") { it.heldOutRmse }
@@ -79,7 +88,9 @@ internal class DiagnosisReport(
     }
 
     private fun stillwater.report.ReportSection.residuals() {
-        figures.filter { it.name.startsWith("residuals-") || it.name == "correlation" }.forEach { figure(it.figure, it.caption) }
+        figures.filter {
+            it.name.startsWith("residuals-") || it.name == "correlation"
+        }.forEach { figure(it.figure, it.caption) }
         val resolution = ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 }
         val z = (result.extended ?: result.baseline).whitened
         table(

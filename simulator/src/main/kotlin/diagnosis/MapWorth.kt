@@ -31,7 +31,13 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
          *
          * @param threads environments that run at once, at least 1.
          */
-        suspend fun of(base: SensorSpec, extended: SensorSpec, lowest: Double, highest: Double, threads: Int): MapWorth? {
+        suspend fun of(
+            base: SensorSpec,
+            extended: SensorSpec,
+            lowest: Double,
+            highest: Double,
+            threads: Int,
+        ): MapWorth? {
             if (!(highest > lowest)) return null
             val truth = inUnits(extended, lowest, highest - lowest)
             val old = limits(inUnits(base, lowest, highest - lowest))
@@ -95,7 +101,13 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
                     is SensorStage.Jumps -> stage.copy(offsets = stage.offsets.map { it / range })
                     is SensorStage.Backlash -> stage.copy(width = stage.width / range)
                     is SensorStage.Range ->
-                        SensorStage.Range(stage.lower?.let { (it - zero) / range }, stage.upper?.let { (it - zero) / range })
+                        SensorStage.Range(
+                            stage.lower?.let { (it - zero) / range },
+                            stage.upper?.let {
+                                (it - zero) /
+                                    range
+                            },
+                        )
                     is SensorStage.Outlying -> stage.copy(size = stage.size / range)
                     else -> stage
                 }

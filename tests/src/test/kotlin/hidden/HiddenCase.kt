@@ -50,7 +50,16 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
     private val drawn = draw()
 
     /** What is hidden; the scorer's alone. */
-    val truth = HiddenTruth(kind, drawn.mapValues { it.value.first }, drawn.mapValues { it.value.second }, timeConstant, noise.spread)
+    val truth =
+        HiddenTruth(
+            kind,
+            drawn.mapValues {
+                it.value.first
+            },
+            drawn.mapValues { it.value.second },
+            timeConstant,
+            noise.spread,
+        )
 
     private fun kinds() = if (withReference) {
         TrackKind.entries
@@ -65,14 +74,21 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         // The shortest wave, half of it at the highest speed, still has some eight rows.
         val length = maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
         val field: Field =
-            if (kind == TrackKind.BENCH) BenchField(random, size * step, 6 * period, 6 * timeConstant)
-            else WaveField(random, length)
+            if (kind == TrackKind.BENCH) {
+                BenchField(random, size * step, 6 * period, 6 * timeConstant)
+            } else {
+                WaveField(random, length)
+            }
         val warm = WaveField(random, 3 * length)
         val salt = WaveField(random, 2 * length)
+
         // On the bench temperature and salinity wander with time instead of place.
         fun along(other: Field, i: Int) =
-            if (kind == TrackKind.BENCH) other.truth(speed * i * step, 0.0, BoatTime(0.0))
-            else other.truth(track.x[i], track.y[i], BoatTime(0.0))
+            if (kind == TrackKind.BENCH) {
+                other.truth(speed * i * step, 0.0, BoatTime(0.0))
+            } else {
+                other.truth(track.x[i], track.y[i], BoatTime(0.0))
+            }
         return HiddenWorld(
             track,
             field,
@@ -101,7 +117,14 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         val size = DetectableSize(noise, { sensor(it).readings() }, { sensor(emptyMap(), it).readings() }, timeConstant)
         val found = wanted.associateWith { size.of(it, multiple) }
         // What no strength makes detectable on this track is not asked for.
-        return if (found.values.any { it == null }) emptyMap() else found.mapValues { checkNotNull(it.value) to multiple }
+        return if (found.values.any {
+                it == null
+            }
+        ) {
+            emptyMap()
+        } else {
+            found.mapValues { checkNotNull(it.value) to multiple }
+        }
     }
 
     private fun fits(effect: HiddenEffect): Boolean = when (effect) {
@@ -140,7 +163,13 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
                 world.salinity[i] + 0.003 * random.normal(),
                 world.track.heading[i],
             )
-            val known = if (withReference) listOf(world.truth(i) + 0.1 * noise.spread * random.normal()) else emptyList()
+            val known = if (withReference) {
+                listOf(
+                    world.truth(i) + 0.1 * noise.spread * random.normal(),
+                )
+            } else {
+                emptyList()
+            }
             lines += (numbers + known).joinToString(",") { "%.9g".format(Locale.ROOT, it) }
         }
         Files.write(file, lines)

@@ -65,7 +65,8 @@ internal class HiddenTrack(
     companion object {
         /** A track of [kind] with [count] fine steps of [step] s and a mean speed of [speed] m/s. */
         fun draw(kind: TrackKind, random: Random, count: Int, step: Double, speed: Double): HiddenTrack {
-            val track = HiddenTrack(step, DoubleArray(count), DoubleArray(count), DoubleArray(count), DoubleArray(count))
+            val track =
+                HiddenTrack(step, DoubleArray(count), DoubleArray(count), DoubleArray(count), DoubleArray(count))
             if (kind == TrackKind.BENCH) return track
             val pace = Pace(random, speed, count * step)
             val legs = Legs(random, speed * count * step)

@@ -78,11 +78,17 @@ internal class Scores(private val cases: List<ScoredCase>) {
     }
 
     /** False alarms over the cases without an effect, dimensionless. */
-    val falseAlarms: Double get() = cases.filter { it.isEmpty }.let { c -> c.count { it.alarmed } / maxOf(c.size, 1).toDouble() }
+    val falseAlarms: Double get() = cases.filter { it.isEmpty }.let { c ->
+        c.count { it.alarmed } /
+            maxOf(c.size, 1).toDouble()
+    }
 
     /** Share of single effects at the detectable size or above that are named, dimensionless. */
     val correct: Double
-        get() = cases.filter { it.isSingle && it.multiple >= 1 }.let { c -> c.count { it.correct } / maxOf(c.size, 1).toDouble() }
+        get() = cases.filter { it.isSingle && it.multiple >= 1 }.let { c ->
+            c.count { it.correct } /
+                maxOf(c.size, 1).toDouble()
+        }
 
     /** The bars' table, the power curves and the confusability matrix, Markdown. */
     fun markdown(): String = buildString {
@@ -91,20 +97,40 @@ internal class Scores(private val cases: List<ScoredCase>) {
         appendLine("| what | result |\n| --- | --- |")
         appendLine("| false alarms on no-effect cases | ${share(cases.filter { it.isEmpty }) { it.alarmed }} |")
         appendLine("| cause correct, or in a set of two, at 1x and above | ${share(strong) { it.correct }} |")
-        appendLine("| two effects at 2x: both in the answer | ${share(cases.filter { it.isDouble && it.multiple >= 2 }) { it.bothFound }} |")
+        appendLine(
+            "| two effects at 2x: both in the answer | ${share(
+                cases.filter {
+                    it.isDouble && it.multiple >= 2
+                },
+            ) { it.bothFound }} |",
+        )
         val outside = cases.filter { it.isOutside && it.multiple >= 1 }
-        appendLine("| outside the list, 1x and above: unexplained or insufficient | ${share(outside) { !it.named && it.answer.verdict != "consistent" }} |")
+        appendLine(
+            "| outside the list, 1x and above: unexplained or insufficient | ${share(outside) {
+                !it.named && it.answer.verdict != "consistent"
+            }} |",
+        )
         appendLine("| outside the list, 1x and above: a wrong name | ${share(outside) { it.named }} |")
         val numbers = single.filter { it.multiple >= 2 && it.correct && it.numberError.isFinite() }
-        appendLine("| number of the named cause within 10 % at 2x and above | ${share(numbers) { it.numberError < 0.1 }} |")
+        appendLine(
+            "| number of the named cause within 10 % at 2x and above | ${share(numbers) {
+                it.numberError < 0.1
+            }} |",
+        )
         val gains = strong.filter { it.correct && it.gainShare.isFinite() && it.multiple >= 1 }
-        appendLine("| held-out gain at least 85 % of the true model's, where named | ${share(gains) { it.gainShare >= 0.85 }} |")
+        appendLine(
+            "| held-out gain at least 85 % of the true model's, where named | ${share(gains) {
+                it.gainShare >= 0.85
+            }} |",
+        )
         appendLine("\nPower: share of single effects named correctly, by strength over the detectable size.\n")
         appendLine("| cause | 0.25 to 0.5 | 0.5 to 1 | 1 to 2 | 2 to 4 |\n| --- | --- | --- | --- | --- |")
         for (effect in HiddenEffect.entries.filter { it.listed }) {
             val own = single.filter { effect in it.truth.effects }
             val cells = listOf(0.25 to 0.5, 0.5 to 1.0, 1.0 to 2.0, 2.0 to 4.01).joinToString(" | ") { (from, to) ->
-                own.filter { it.multiple >= from && it.multiple < to }.let { c -> "${c.count { it.correct }}/${c.size}" }
+                own.filter {
+                    it.multiple >= from && it.multiple < to
+                }.let { c -> "${c.count { it.correct }}/${c.size}" }
             }
             appendLine("| ${effect.label} | $cells |")
         }
@@ -113,6 +139,9 @@ internal class Scores(private val cases: List<ScoredCase>) {
         strong.groupBy { it.truth.effects.keys.single().label to it.said }.filter { it.key.first != it.key.second }
             .toList().sortedWith(compareBy({ it.first.first }, { -it.second.size }))
             .forEach { (key, of) -> appendLine("| ${key.first} | ${key.second} | ${of.size} |") }
-        appendLine("\nFalse alarms: " + cases.filter { it.isEmpty && it.alarmed }.joinToString { "${it.seed} (${it.said})" }.ifEmpty { "none" })
+        appendLine(
+            "\nFalse alarms: " +
+                cases.filter { it.isEmpty && it.alarmed }.joinToString { "${it.seed} (${it.said})" }.ifEmpty { "none" },
+        )
     }
 }
