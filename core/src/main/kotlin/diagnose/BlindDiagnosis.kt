@@ -25,7 +25,8 @@ internal class BlindTrial(
 /**
  * The diagnosis of a log without a reference: the field is a Gaussian process that is inferred with the sensor.
  *
- * Each cause changes the readings along the inferred water by a column; its size is estimated with the field, the mean and
+ * Each cause changes the readings along the inferred water by a column; its size is estimated with the field, the
+ * mean and
  * the time constant free, so that what the field could imitate counts for nothing. A cause must be significant for all
  * causes tried and its size must agree between the two halves of the log.
  */
@@ -156,7 +157,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     }
 
     private fun terms(): List<Term> = buildList {
-        // A second lag, a slow path, a dead time beside the lag or an offset along the track change what only a reference shows: see [result].
+        // A second lag, a slow path, a dead time beside the lag or an offset along the track change what only a
+        // reference shows: see [result].
         add(Term(Cause.ASYMMETRIC_RESPONSE))
         add(Term(Cause.SLEW_LIMIT))
         val spread = sqrt(scales.logSpeed.map { it * it }.average())

@@ -3,7 +3,8 @@ package stillwater.diagnose
 import kotlin.math.ln
 
 /**
- * What is believed of an [UnknownField] and of the noise: [length], m; [duration], s; [ratio] of noise to field variance;
+ * What is believed of an [UnknownField] and of the noise: [length], m; [duration], s; [ratio] of noise to field
+ * variance;
  * [noiseTime], s.
  */
 internal data class BlindScales(val length: Double, val duration: Double, val ratio: Double, val noiseTime: Double)
@@ -142,7 +143,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     )
 
     /**
-     * The likeliest delay with the scales that suit it. A lag also smooths, and how smooth the water is nobody knows: its
+     * The likeliest delay with the scales that suit it. A lag also smooths, and how smooth the water is nobody knows:
+     * its
      * amplitude would be mistaken for that. A delay is phase alone.
      */
     fun best(): BlindFit {

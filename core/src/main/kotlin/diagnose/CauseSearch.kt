@@ -8,7 +8,8 @@ import kotlin.math.sqrt
  *
  * @property term what was tried. @property fit the model with it. @property ratio twice the gain in log-likelihood,
  * divided by what the scores' correlation inflates it. @property degrees numbers more than without it.
- * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out blocks.
+ * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
+ * blocks.
  */
 internal class Trial(
     val term: Term,

@@ -67,7 +67,9 @@ internal class CorrelatedNoise(
         }
     }
 
-    /** Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled. */
+    /**
+     * Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled.
+     */
     fun twiceLogLikelihood(squares: Double): Double =
         -rows * ln(maxOf(squares, TINY) / maxOf(rows, 1)) - logDeterminant
 

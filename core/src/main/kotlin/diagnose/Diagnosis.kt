@@ -9,7 +9,8 @@ import kotlin.math.sqrt
  * Finds what a simulation gets wrong about a measured log, by name.
  *
  * A first-order lag with gain and offset, or the given sensor, is fitted to the log under noise of which a part may be
- * correlated. Each cause is then a nested extension: fitted, weighed by its likelihood ratio corrected for what correlation
+ * correlated. Each cause is then a nested extension: fitted, weighed by its likelihood ratio corrected for what
+ * correlation
  * the noise model has missed, for the number of causes tried (Holm) and held to a gain on held-out blocks. The best is
  * added and the search goes on. What the extended model still leaves is looked through for dependences of any kind.
  * Derivation in core/docs/Diagnosis.md.

@@ -69,7 +69,8 @@ public class ModelAssessment internal constructor(
  * @property cause the cause. @property condition what it depends on, where that has a name.
  * @property parameters its numbers, if it were at work. @property trainRmse with it, sensor units.
  * @property heldOutRmse the same on held-out blocks; the base's where the cause was not worth a look.
- * @property heldOutLogLikelihood of those blocks; NaN where it was not taken. @property pValue of its gain by chance. @property adjustedPValue for all causes tried, after Holm.
+ * @property heldOutLogLikelihood of those blocks; NaN where it was not taken. @property pValue of its gain by chance.
+ * @property adjustedPValue for all causes tried, after Holm.
  * @property predicted what the model with it shows, sensor units, length n. Not to be modified.
  */
 public class Candidate internal constructor(

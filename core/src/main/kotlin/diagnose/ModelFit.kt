@@ -10,7 +10,8 @@ import kotlin.math.sqrt
  *
  * @property model what was fitted. @property numbers its parameters. @property free which of them were fitted.
  * @property noise the noise at the optimum. @property residuals reading less prediction, length n.
- * @property whitened the same, whitened; 0 in rows not in use. @property score twice the log-likelihood, less a constant.
+ * @property whitened the same, whitened; 0 in rows not in use. @property score twice the log-likelihood, less a
+ * constant.
  */
 internal class ModelFit(
     val model: ResponseModel,
@@ -80,7 +81,12 @@ internal object Fitting {
         )
     }
 
-    private fun descend(model: ResponseModel, start: DoubleArray, free: BooleanArray, noise: CorrelatedNoise): ModelFit {
+    private fun descend(
+        model: ResponseModel,
+        start: DoubleArray,
+        free: BooleanArray,
+        noise: CorrelatedNoise,
+    ): ModelFit {
         var best = at(model, start.copyOf(), free, noise)
         var damping = 1e-3
         repeat(STEPS) {

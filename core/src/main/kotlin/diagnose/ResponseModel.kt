@@ -9,7 +9,8 @@ import kotlin.math.sin
 /**
  * The reading that a sensor with the causes [terms] would give along a log whose truth is the log's reference.
  *
- * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag or slow
+ * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag
+ * or slow
  * path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The truth
  * is taken as a cubic spline through the rows, or as held over each step where [held]; each lag is exact for that.
  *
@@ -164,7 +165,10 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         for (i in 0 until n) out[i] = out[i].coerceIn(minOf(lower, upper), upper)
     }
 
-    /** The mean of what rounding shows where noise of [spread] comes before it: a Fourier series of the rounding error. */
+    /**
+     * The mean of what rounding shows where noise of [spread] comes before it: a Fourier series of the rounding
+     * error.
+     */
     private fun round(out: DoubleArray, spread: Double) {
         val step = scales.resolution
         for (i in 0 until n) {

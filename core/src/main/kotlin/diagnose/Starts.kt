@@ -3,7 +3,9 @@ package stillwater.diagnose
 import kotlin.math.abs
 import kotlin.math.sqrt
 
-/** Where a fit of a model with one more cause begins: several places, because some causes have more than one optimum. */
+/**
+ * Where a fit of a model with one more cause begins: several places, because some causes have more than one optimum.
+ */
 internal class Starts(
     private val fit: ModelFit,
     private val model: ResponseModel,

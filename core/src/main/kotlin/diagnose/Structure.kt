@@ -56,7 +56,10 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
     }
 
-    /** Twice the gain in log-likelihood with [columns] in the model and the noise fitted anew: what they explain was noise before. */
+    /**
+     * Twice the gain in log-likelihood with [columns] in the model and the noise fitted anew: what they explain was
+     * noise before.
+     */
     private fun fitted(columns: List<DoubleArray>): Double {
         val all = derivatives + columns
         var noise = fit.noise
@@ -116,7 +119,10 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         add("the position" to listOf(x, y, times(x, y), power(x, 2), power(y, 2)))
     }
 
-    /** What a time constant that depends on [other], straight or curved, would add: its sources, as the lag shows them. */
+    /**
+     * What a time constant that depends on [other], straight or curved, would add: its sources, as the lag shows
+     * them.
+     */
     private fun moved(slope: DoubleArray, other: DoubleArray) =
         listOf(followed(times(slope, other)), followed(times(slope, power(other, 2))))
 

@@ -10,8 +10,10 @@ import kotlin.math.sqrt
  * The water where nobody knows it: its values at nodes along the track, a Gaussian process in place and time.
  *
  * A reading is y = Σ a β + e: a are the weights of the two nodes beside a moment, as late as a dead time says and seen
- * through a lag; β ~ N(0, s² C) with C Matérn 3/2 of r, r² = (Δx² + Δy²)/ℓ² + Δt²/T²; e is noise whose correlation fades.
- * All linear, so the likelihood with β integrated out costs one factorisation of the nodes' matrix. Passes over the same
+ * through a lag; β ~ N(0, s² C) with C Matérn 3/2 of r, r² = (Δx² + Δy²)/ℓ² + Δt²/T²; e is noise whose correlation
+ * fades.
+ * All linear, so the likelihood with β integrated out costs one factorisation of the nodes' matrix. Passes over the
+ * same
  * water are tied by C.
  */
 internal class UnknownField(val series: MeasuredSeries, most: Int) {
@@ -75,7 +77,8 @@ internal class UnknownField(val series: MeasuredSeries, most: Int) {
     }
 
     /**
-     * The inverse of Matérn's correlation between the nodes for [length], m, and [duration], s, and the logarithm of its
+     * The inverse of Matérn's correlation between the nodes for [length], m, and [duration], s, and the logarithm of
+     * its
      * determinant.
      */
     fun precision(length: Double, duration: Double): Pair<Array<DoubleArray>, Double> {

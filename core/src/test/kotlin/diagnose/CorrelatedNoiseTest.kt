@@ -12,7 +12,10 @@ class CorrelatedNoiseTest {
     private val times = DoubleArray(4000) { it + 0.2 * (it % 3) }
     private val used = BooleanArray(times.size) { true }
 
-    /** Noise of unit variance, of which [share] is correlated over [time]; sums of twelve even numbers are nearly normal. */
+    /**
+     * Noise of unit variance, of which [share] is correlated over [time]; sums of twelve even numbers are nearly
+     * normal.
+     */
     private fun noise(share: Double, time: Double): DoubleArray {
         val random = Random(5)
         fun normal() = (1..12).sumOf { random.nextDouble() } - 6

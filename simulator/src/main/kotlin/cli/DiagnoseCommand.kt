@@ -59,7 +59,7 @@ class DiagnoseCommand : CliktCommand("diagnose") {
     )
     private val numbersOnly by option(
         "--numbers-only",
-        help = "no figures, no report and no comparison of maps: diagnosis.json, extended-sensor.json and residuals.csv",
+        help = "no figures, no report and no comparison of maps",
     ).flag()
     private val quiet by option("--quiet", help = "no summary").flag()
     private val json by option("--json", help = "print diagnosis.json instead of a summary").flag()
@@ -67,8 +67,8 @@ class DiagnoseCommand : CliktCommand("diagnose") {
     override fun help(context: Context) = "Find out what the simulation gets wrong about a log, and name the cause."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Writes diagnosis.json, extended-sensor.json (where something was named), residuals.csv, figures as SVG and PNG, " +
-            "and report.html into DIR. Any honest verdict, also that the log cannot show it, ends with exit code 0.",
+        "Writes diagnosis.json, extended-sensor.json (where something was named), residuals.csv, figures as SVG and " +
+            "PNG, and report.html into DIR. Any honest verdict, also that the log cannot show it, ends with exit code 0.",
         listOf(
             "stillwater diagnose tow.csv --value slow_mg_l --reference fast_mg_l --condition speed=speed_mps",
             "stillwater diagnose bench.csv --value probe --reference sample --sensor believed.json --out bench",

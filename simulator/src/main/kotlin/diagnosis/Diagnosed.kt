@@ -9,10 +9,14 @@ import stillwater.report.SignificantDigits
 /**
  * A log and what the diagnosis says about it, in words.
  *
- * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or null.
+ * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
+ * null.
  */
 class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: MapWorth?) {
-    /** Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`, `unexplained`. */
+    /**
+     * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
+     * `unexplained`.
+     */
     val causes: List<String> = when (val verdict = result.verdict) {
         is Verdict.Named -> verdict.causes.map { it.label }
         is Verdict.Ambiguous -> verdict.sets.filter { it.size == 1 }.map { it.single().label }

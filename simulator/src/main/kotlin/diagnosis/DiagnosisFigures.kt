@@ -16,7 +16,9 @@ import kotlin.math.sqrt
 /** A figure with the name of its files and what it shows. */
 internal class DiagnosisFigure(val name: String, val figure: Figure, val caption: String)
 
-/** Draws a [Diagnosed] log: predicted against measured, the residuals against all that they may depend on, the causes. */
+/**
+ * Draws a [Diagnosed] log: predicted against measured, the residuals against all that they may depend on, the causes.
+ */
 internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val columns = diagnosed.log.columns
     private val result = diagnosed.result

@@ -61,8 +61,8 @@ internal class DiagnosisReport(
         )
         diagnosed.worth?.let { worth ->
             paragraph(
-                "Worth for a map: in ${worth.environments} simulated fields sampled by the extended sensor, the interval " +
-                    "filter's error is ${three.format(
+                "Worth for a map: in ${worth.environments} simulated fields sampled by the extended sensor, the " +
+                    "interval filter's error is ${three.format(
                         worth.before,
                     )} of the field's range with the base model's limits and " +
                     "${three.format(worth.after)} with the extended model's (standard error of the difference " +
@@ -112,11 +112,12 @@ internal class DiagnosisReport(
 
     private companion object {
         val HOW = listOf(
-            "The base is a first-order lag with gain and offset, or the sensor that was given. Each cause is added to it and " +
-                "fitted to the log's own times by maximum likelihood, with noise of which a part may be correlated.",
-            "A cause is named only if its likelihood ratio, divided by what the scores' remaining correlation inflates it, is " +
-                "significant for all causes tried (Holm) and the likelihood of held-out blocks rises. Causes whose " +
-                "ratios are closer than the track can separate are named together.",
+            "The base is a first-order lag with gain and offset, or the sensor that was given. Each cause is added " +
+                "to it and fitted to the log's own times by maximum likelihood, with noise of which a part may be " +
+                "correlated.",
+            "A cause is named only if its likelihood ratio, divided by what the scores' remaining correlation " +
+                "inflates it, is significant for all causes tried (Holm) and the likelihood of held-out blocks " +
+                "rises. Causes whose ratios are closer than the track can separate are named together.",
             "Intervals hold if the model is right.",
         )
     }

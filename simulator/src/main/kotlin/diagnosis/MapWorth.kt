@@ -10,7 +10,8 @@ import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 
 /**
- * What a better model of the sensor is worth for a map: the benchmark's Gaussian fields, sampled by the extended sensor,
+ * What a better model of the sensor is worth for a map: the benchmark's Gaussian fields, sampled by the extended
+ * sensor,
  * mapped by the interval filter with the limits of the old and of the new model.
  *
  * @property before mean error of the map with the base model's limits, share of the field's range.

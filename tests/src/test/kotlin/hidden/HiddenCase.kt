@@ -23,7 +23,8 @@ internal data class HiddenTruth(
 )
 
 /**
- * A log with or without hidden effects, drawn from a seed. The finder sees the file that [write] makes and nothing else.
+ * A log with or without hidden effects, drawn from a seed. The finder sees the file that [write] makes and nothing
+ * else.
  *
  * Two cases in five or more have no effect; of the others most have one, some two, some one that is not in the list of
  * causes. Strengths are 0.25 to 4 times the [DetectableSize].
