@@ -159,8 +159,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     private fun terms(): List<Term> = buildList {
         // A second lag, a slow path, a dead time beside the lag or an offset along the track change what only a
         // reference shows: see [result].
+        // A rate limit, a dead band and an end of the range act where the water turns, which nodes resolve worst.
         add(Term(Cause.ASYMMETRIC_RESPONSE))
-        add(Term(Cause.SLEW_LIMIT))
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
         if (spread > 0.03) add(Term(Cause.FLOW_DEPENDENT_RESPONSE))
         if (scales.warmth.any { abs(it) > 0.05 }) add(Term(Cause.TEMPERATURE_DEPENDENT_RESPONSE))
@@ -168,8 +168,6 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             if (name != Conditions.HEADING && column.any { it != 0.0 }) add(Term(Cause.CROSS_SENSITIVITY, name))
         }
         add(Term(Cause.DRIFT))
-        add(Term(Cause.HYSTERESIS))
-        add(Term(Cause.SATURATION))
     }
 
     /** [column], whitened, less what [basis] has of it, at unit length in the metric of what no field can imitate. */
@@ -204,8 +202,6 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val unlike = lag.unlike(unit)
         val inflation = Evidence.inflation(listOf(unlike), lag.residuals)
         val ratio = Evidence.ratio(square, square - share * share, n) / inflation
-        // In how many places the search began is how many looks it took.
-        val looks = if (term.cause in SEVERAL) 3 else 1
         val length = lag.inner(column, unit)
         val spread = sqrt(lag.variance * inflation)
         return BlindTrial(
@@ -215,8 +211,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             unit,
             share / length,
             spread / abs(length),
-            maxOf(ratio - 2 * ln(looks.toDouble()), 0.0),
-            minOf(1.0, looks * maxOf(Evidence.pValue(ratio, 1), Evidence.student(between(unlike), STRETCHES - 1))),
+            ratio,
+            maxOf(Evidence.pValue(ratio, 1), Evidence.student(between(unlike), STRETCHES - 1)),
             agrees(unlike),
         )
     }
@@ -376,6 +372,5 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         const val STRETCHES = 12
         const val MOST_APART = 1.5
 
-        val SEVERAL = setOf(Cause.SLEW_LIMIT, Cause.HYSTERESIS, Cause.SATURATION, Cause.TWO_PATH_RESPONSE)
     }
 }
