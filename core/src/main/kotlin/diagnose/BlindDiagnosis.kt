@@ -371,6 +371,5 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         const val STUDENT_95 = 2.2
         const val STRETCHES = 12
         const val MOST_APART = 1.5
-
     }
 }
