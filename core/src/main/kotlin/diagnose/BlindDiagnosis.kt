@@ -298,8 +298,9 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         return ModelAssessment(
             parameters,
             rmse(predicted),
-            rmse(predicted),
-            lag.score / 2,
+            // Nothing was held out: the field would have to be inferred anew without each block.
+            Double.NaN,
+            Double.NaN,
             predicted,
             spread,
             if (lag.scales.noiseTime > 0) 1.0 else 0.0,
@@ -334,7 +335,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
                 trial.term.condition,
                 estimates(trial),
                 rmse(shown),
-                rmse(shown),
+                Double.NaN,
                 Double.NaN,
                 trial.pValue,
                 adjusted[i],

@@ -46,7 +46,8 @@ public data class Estimate(val name: String, val unit: String, val value: Double
  * A model against the log.
  *
  * @property parameters its numbers. @property trainRmse root mean square of residuals over all rows, sensor units.
- * @property heldOutRmse the same over blocks it was not fitted to. @property heldOutLogLikelihood of those, natural.
+ * @property heldOutRmse the same over blocks it was not fitted to; NaN without a reference. @property
+ * heldOutLogLikelihood of those, natural.
  * @property predicted what it shows along the log, sensor units, length n. Not to be modified.
  * @property noiseSpread standard deviation of the noise. @property noiseShare share of it that is correlated.
  * @property noiseTime over how long, s. @property whitened residuals without their correlation, standard deviations.
