@@ -68,7 +68,7 @@ class DiagnoseCommand : CliktCommand("diagnose") {
 
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes diagnosis.json, extended-sensor.json (where something was named), residuals.csv, figures as SVG and " +
-            "PNG, and report.html into DIR. Any honest verdict, also that the log cannot show it, ends with exit code 0.",
+            "PNG, and report.html into DIR. Any honest verdict ends with exit code 0.",
         listOf(
             "stillwater diagnose tow.csv --value slow_mg_l --reference fast_mg_l --condition speed=speed_mps",
             "stillwater diagnose bench.csv --value probe --reference sample --sensor believed.json --out bench",
