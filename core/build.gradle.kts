@@ -10,6 +10,7 @@ kotlin {
 
 dependencies {
     api(libs.kotlinx.serialization.json)
+    api(libs.hipparchus.core)
 
     testImplementation(libs.junit.jupiter)
     testImplementation(libs.kotlin.test)

@@ -22,7 +22,7 @@ class Stillwater : CliktCommand("stillwater") {
 }
 
 fun main(args: Array<String>) {
-    val command = Stillwater().subcommands(BenchmarkCommand(), MapCommand(), CorrectCommand())
+    val command = Stillwater().subcommands(BenchmarkCommand(), MapCommand(), CorrectCommand(), DiagnoseCommand())
     try {
         command.parse(args)
     } catch (wrong: UsageError) {

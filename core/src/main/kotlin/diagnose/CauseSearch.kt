@@ -1,0 +1,169 @@
+package stillwater.diagnose
+
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * A cause tried on top of a model.
+ *
+ * @property term what was tried. @property fit the model with it. @property ratio twice the gain in log-likelihood,
+ * divided by what the scores' correlation inflates it. @property degrees numbers more than without it.
+ * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
+ * blocks.
+ */
+internal class Trial(
+    val term: Term,
+    val fit: ModelFit,
+    val ratio: Double,
+    val degrees: Int,
+    val pValue: Double,
+    val heldOut: HeldOutScore,
+) {
+    /** The likelihood ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
+    val worth: Double get() = ratio - 2 * degrees
+}
+
+/** Tries causes one by one on top of a fitted model, adds the best, and drops what then is no longer needed. */
+internal class CauseSearch(
+    private val series: MeasuredSeries,
+    private val scales: Scales,
+    private val used: BooleanArray,
+    private val settings: DiagnosisSettings,
+) {
+    /** Longest correlation time that counts as noise, s: slower wandering is structure. */
+    val longest: Double = maxOf(series.duration / settings.noiseShare, 3 * series.period)
+
+    /** The numbers that [term] sets free in [fit]'s place beyond those of [before]. */
+    private fun freed(model: ResponseModel, before: ModelFit, term: Term): BooleanArray {
+        val free = BooleanArray(model.parameters.size)
+        for (i in 0 until ResponseModel.BASE) free[i] = before.free[i]
+        for (old in before.model.terms) {
+            val from = before.model.slotOrNull(old) ?: continue
+            val to = model.slotOrNull(old) ?: continue
+            for (k in 0 until minOf(model.width(old), before.model.width(old))) free[to + k] = before.free[from + k]
+        }
+        when (term.cause) {
+            Cause.TIME_CONSTANT -> free[ResponseModel.TIME_CONSTANT] = true
+            Cause.GAIN_OFFSET -> {
+                free[ResponseModel.GAIN] = true
+                free[ResponseModel.OFFSET] = true
+            }
+            else -> model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
+        }
+        return free
+    }
+
+    /** [base] with [term] on top, fitted; [withHeldOut] costs four fits more. */
+    fun attempt(base: ModelFit, baseHeldOut: HeldOutScore, term: Term): Trial {
+        val best = if (term.cause == Cause.OFFSET_STEPS) jumps(base) else extended(base, term)
+        val free = best.free.count { it } - base.free.count { it }
+        val degrees =
+            maxOf(free + best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }, 1)
+        val inflation = inflation(base, best)
+        val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
+        // The best of so many places gains twice the logarithm of their number by chance.
+        val searched = if (places > 0) places * 2 * ln(minOf(PLACES, series.size / 10).toDouble()) else 0.0
+        val ratio = maxOf((best.score - base.score) / inflation - searched, 0.0)
+        val p = minOf(1.0, Evidence.pValue(ratio, degrees))
+        val worthHolding = p < settings.heldOutBelow
+        val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
+        return Trial(best.model.terms.last(), best, ratio, degrees, p, heldOut)
+    }
+
+    private fun extended(base: ModelFit, term: Term): ModelFit {
+        val kept = base.model.terms.filter { it.key != term.key }
+        val model = ResponseModel(series, kept + term, base.model.held, scales)
+        val free = freed(model, base, term)
+        val rough = Starts(base, model, term).all()
+            .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
+            .maxBy { it.score }
+        val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
+        return if (fine.score >= rough.score) fine else rough
+    }
+
+    /** [base] with the jumps that serve it best, one after the other while each is worth it. */
+    private fun jumps(base: ModelFit): ModelFit {
+        var fit = base
+        var best: ModelFit? = null
+        val times = ArrayList(base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty())
+        repeat(MOST_JUMPS) {
+            times += place(fit) ?: return best ?: fit
+            val next = extended(fit, Term(Cause.OFFSET_STEPS, times = times.sorted()))
+            if (best != null && next.score - fit.score < JUMP_WORTH) return best as ModelFit
+            best = next
+            fit = next
+        }
+        return best ?: fit
+    }
+
+    /** Where a jump would explain most of [fit]'s residuals, s after the first row. */
+    private fun place(fit: ModelFit): Double? {
+        val n = series.size
+        val basis = Evidence.orthonormal(fit.jacobian.toList())
+        val column = DoubleArray(n)
+        val z = DoubleArray(n)
+        val taken = fit.model.terms.flatMap { it.times }
+        fun gain(row: Int): Double {
+            for (i in 0 until n) column[i] = if (i >= row) 1.0 else 0.0
+            fit.noise.whiten(column, z)
+            val rest = Evidence.without(z, basis)
+            val length = squares(rest)
+            val share = dot(rest, fit.whitened)
+            return if (length > 1e-9) share * share / length else 0.0
+        }
+
+        val stride = maxOf(n / (2 * PLACES), 1)
+        val edge = maxOf(n / 50, 3)
+        val rows = (edge until n - edge step stride).filter { row ->
+            taken.all { kotlin.math.abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
+        }
+        val coarse = rows.maxByOrNull(::gain) ?: return null
+        val fine = maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)
+        val row = fine.maxBy(::gain)
+        return (series.times[row] + series.times[row - 1]) / 2 - series.times[0]
+    }
+
+    private fun inflation(base: ModelFit, best: ModelFit): Double {
+        val old = base.free.indices.count { base.free[it] }
+        val columns = best.jacobian.toList()
+        if (columns.size <= old) return 1.0
+        val basis = Evidence.orthonormal(columns.take(old))
+        val extra = Evidence.orthonormal(columns.drop(old), basis)
+        return Evidence.inflation(extra, best.whitened)
+    }
+
+    /** [fit] without [term], fitted anew. */
+    fun without(fit: ModelFit, term: Term): ModelFit {
+        val rest = fit.model.terms.filter { it.key != term.key }
+        val model = ResponseModel(series, rest, fit.model.held, scales)
+        val start = DoubleArray(model.parameters.size)
+        val free = BooleanArray(model.parameters.size)
+        for (i in 0 until ResponseModel.BASE) {
+            start[i] = fit.numbers[i]
+            free[i] = fit.free[i]
+        }
+        for (old in rest) {
+            val from = fit.model.slotOrNull(old) ?: continue
+            val to = model.slotOrNull(old) ?: continue
+            for (k in 0 until model.width(old)) {
+                start[to + k] = fit.numbers[from + k]
+                free[to + k] = fit.free[from + k]
+            }
+        }
+        return Fitting.fit(model, start, free, used, longest, guess = fit.noise)
+    }
+
+    /** Distance between what two fits predict, in standard deviations of the noise: what this track can tell apart. */
+    fun distance(a: ModelFit, b: ModelFit): Double {
+        val difference = DoubleArray(series.size) { a.residuals[it] - b.residuals[it] }
+        val z = DoubleArray(series.size)
+        a.noise.whiten(difference, z)
+        return sqrt(squares(z) / maxOf(a.variance, 1e-300))
+    }
+
+    private companion object {
+        const val PLACES = 60
+        const val MOST_JUMPS = 3
+        const val JUMP_WORTH = 25.0
+    }
+}

@@ -1,0 +1,128 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Noise of which a share φ is correlated over a time τ and the rest is white, on the log's own times.
+ *
+ * e = c + w; c is an Ornstein-Uhlenbeck process of variance φ and correlation exp(−Δt/τ), w white of variance 1 − φ;
+ * all times an unknown σ². Whitening is the Kalman filter of c, whose gains do not depend on the data, so that a column
+ * costs O(n). Rows not in use are passed over.
+ *
+ * Source: Jones 1981, Fitting a continuous time autoregression to discrete data, in Applied Time Series Analysis II.
+ *
+ * @property share φ, dimensionless, within 0..1. @property time τ, s, above 0.
+ */
+internal class CorrelatedNoise(
+    times: DoubleArray,
+    val share: Double,
+    val time: Double,
+    private val used: BooleanArray,
+) {
+    private val keep = DoubleArray(times.size)
+    private val gain = DoubleArray(times.size)
+    private val scale = DoubleArray(times.size)
+
+    /** Number of rows in use. */
+    val rows: Int = used.count { it }
+
+    /** Sum over the rows in use of ln of the innovation's variance. */
+    val logDeterminant: Double
+
+    init {
+        var variance = share
+        var sum = 0.0
+        var step = Double.NaN
+        var factor = 1.0
+        for (i in times.indices) {
+            val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
+            if (dt != step) factor = exp(-dt / time)
+            step = dt
+            variance = factor * factor * variance + share * (1 - factor * factor)
+            keep[i] = factor
+            if (!used[i]) continue
+            val innovation = variance + 1 - share + SMALLEST
+            gain[i] = variance / innovation
+            scale[i] = 1 / sqrt(innovation)
+            variance *= 1 - gain[i]
+            sum += ln(innovation)
+        }
+        logDeterminant = sum
+    }
+
+    /** Whitens [column] into [out], which may be the same, both of length n; rows not in use become 0. */
+    fun whiten(column: DoubleArray, out: DoubleArray) {
+        var state = 0.0
+        for (i in column.indices) {
+            state *= keep[i]
+            if (used[i]) {
+                val innovation = column[i] - state
+                out[i] = innovation * scale[i]
+                state += gain[i] * innovation
+            } else {
+                out[i] = 0.0
+            }
+        }
+    }
+
+    /**
+     * Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled.
+     */
+    fun twiceLogLikelihood(squares: Double): Double =
+        -rows * ln(maxOf(squares, TINY) / maxOf(rows, 1)) - logDeterminant
+
+    companion object {
+        private const val SMALLEST = 1e-9
+        private const val TINY = 1e-290
+        private val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95, 0.99)
+        private val STEPS = doubleArrayOf(1.5, 4.0, 10.0, 25.0, 60.0, 150.0)
+        private const val REFINEMENTS = 4
+
+        /** White noise. */
+        fun white(series: MeasuredSeries, used: BooleanArray) = CorrelatedNoise(series.times, 0.0, 1.0, used)
+
+        /** The noise under which [residuals] are likeliest; correlation times reach [longest] s. Not modified. */
+        fun of(series: MeasuredSeries, residuals: DoubleArray, used: BooleanArray, longest: Double): CorrelatedNoise {
+            val z = DoubleArray(residuals.size)
+            fun score(noise: CorrelatedNoise): Double {
+                noise.whiten(residuals, z)
+                return noise.twiceLogLikelihood(squares(z))
+            }
+
+            fun noise(share: Double, time: Double) = CorrelatedNoise(series.times, share, time, used)
+            var best = noise(0.0, series.period)
+            var bestScore = score(best)
+            fun offer(share: Double, time: Double) {
+                val candidate = noise(share.coerceIn(0.0, 1.0), time.coerceIn(series.period / 2, longest))
+                val score = score(candidate)
+                if (score > bestScore) {
+                    best = candidate
+                    bestScore = score
+                }
+            }
+            for (share in SHARES) for (step in STEPS) if (share > 0) offer(share, step * series.period)
+            var width = 1.0
+            repeat(REFINEMENTS) {
+                val share = best.share.coerceIn(0.01, 0.999)
+                val odds = ln(share / (1 - share))
+                for (s in -1..1) {
+                    for (t in -1..1) {
+                        if (s == 0 && t == 0) continue
+                        offer(1 / (1 + exp(-(odds + s * width))), best.time * exp(t * width / 2))
+                    }
+                }
+                width /= 2
+            }
+            return best
+        }
+    }
+}
+
+/** Sum of squares. */
+internal fun squares(numbers: DoubleArray): Double {
+    var sum = 0.0
+    for (number in numbers) sum += number * number
+    return sum
+}

@@ -1,0 +1,110 @@
+package stillwater.diagnose
+
+import stillwater.model.Interval
+import stillwater.sensor.SensorSpec
+
+/** What a diagnosis comes to. */
+public sealed interface Verdict {
+    /** The name in files. */
+    public val label: String
+
+    /** [causes], one or a combination, explain the log, and nothing else of the list does. */
+    public data class Named(val causes: List<Cause>) : Verdict {
+        override val label: String get() = "named"
+    }
+
+    /** Something of each of [sets] is at work; this track cannot tell which. A set of one is certain. */
+    public data class Ambiguous(val sets: List<List<Cause>>) : Verdict {
+        override val label: String get() = "ambiguous"
+    }
+
+    /** The base model explains the log. */
+    public data object Consistent : Verdict {
+        override val label: String get() = "consistent"
+    }
+
+    /** Structure is left that no cause of the list explains: [what]. */
+    public data class Unexplained(val what: String) : Verdict {
+        override val label: String get() = "unexplained"
+    }
+
+    /** The log could not have shown it: [why]. */
+    public data class InsufficientData(val why: String) : Verdict {
+        override val label: String get() = "insufficient-data"
+    }
+}
+
+/**
+ * A number of a fitted model.
+ *
+ * @property name as in [SensorSpec]'s JSON where it has a place there. @property unit its unit, empty for none.
+ * @property value the estimate. @property interval where it lies at 95 %, given that the model is right.
+ */
+public data class Estimate(val name: String, val unit: String, val value: Double, val interval: Interval?)
+
+/**
+ * A model against the log.
+ *
+ * @property parameters its numbers. @property trainRmse root mean square of residuals over all rows, sensor units.
+ * @property heldOutRmse the same over blocks it was not fitted to; NaN without a reference. @property
+ * heldOutLogLikelihood of those, natural.
+ * @property predicted what it shows along the log, sensor units, length n. Not to be modified.
+ * @property noiseSpread standard deviation of the noise. @property noiseShare share of it that is correlated.
+ * @property noiseTime over how long, s. @property whitened residuals without their correlation, standard deviations.
+ */
+public class ModelAssessment internal constructor(
+    public val parameters: List<Estimate>,
+    public val trainRmse: Double,
+    public val heldOutRmse: Double,
+    public val heldOutLogLikelihood: Double,
+    public val predicted: DoubleArray,
+    public val noiseSpread: Double,
+    public val noiseShare: Double,
+    public val noiseTime: Double,
+    public val whitened: DoubleArray,
+)
+
+/**
+ * A cause and how the log speaks for it.
+ *
+ * @property cause the cause. @property condition what it depends on, where that has a name.
+ * @property parameters its numbers, if it were at work. @property trainRmse with it, sensor units.
+ * @property heldOutRmse the same on held-out blocks; the base's where the cause was not worth a look.
+ * @property heldOutLogLikelihood of those blocks; NaN where it was not taken. @property pValue of its gain by chance.
+ * @property adjustedPValue for all causes tried, after Holm.
+ * @property predicted what the model with it shows, sensor units, length n. Not to be modified.
+ */
+public class Candidate internal constructor(
+    public val cause: Cause,
+    public val condition: String?,
+    public val parameters: List<Estimate>,
+    public val trainRmse: Double,
+    public val heldOutRmse: Double,
+    public val heldOutLogLikelihood: Double,
+    public val pValue: Double,
+    public val adjustedPValue: Double,
+    public val predicted: DoubleArray,
+)
+
+/**
+ * What a diagnosis found.
+ *
+ * @property verdict the answer. @property candidates every cause tried on the base, the likeliest first.
+ * @property baseline the base model. @property extended the model with what was named; null where nothing was.
+ * @property baseSensor the base as a sensor. @property extendedSensor the extended one; null where nothing was named.
+ * @property separatingManoeuvre what would tell ambiguous causes apart; null where nothing is ambiguous.
+ * @property dependences what is left in the residuals of the last model. @property spikes rows taken for outliers.
+ * @property warnings for the reader.
+ */
+public class DiagnosisResult internal constructor(
+    public val verdict: Verdict,
+    public val candidates: List<Candidate>,
+    public val baseline: ModelAssessment,
+    public val extended: ModelAssessment?,
+    public val baseSensor: SensorSpec,
+    public val extendedSensor: SensorSpec?,
+    public val separatingManoeuvre: String?,
+    public val dependences: List<Dependence>,
+    public val spikes: List<Int>,
+    public val warnings: List<String>,
+)

@@ -1,0 +1,99 @@
+package stillwater.diagnose
+
+import org.hipparchus.special.Beta
+import org.hipparchus.special.Gamma
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** How strongly residuals speak, without the assumption that the noise model is right. */
+internal object Evidence {
+    /** Blocks over which scores are summed to see whether they are as independent as the noise model says. */
+    private const val BLOCKS = 40
+
+    /** Probability of a likelihood ratio (twice the difference of logarithms) of at least [ratio] by chance. */
+    fun pValue(ratio: Double, degrees: Int): Double =
+        if (!(ratio > 0)) 1.0 else Gamma.regularizedGammaQ(degrees / 2.0, ratio / 2)
+
+    /** Probability of at least [count] events where [expected] are, Poisson. */
+    fun poissonTail(count: Int, expected: Double): Double =
+        if (count <= 0) 1.0 else Gamma.regularizedGammaP(count.toDouble(), expected)
+
+    /** Holm's adjusted p-values of [pValues], in the same order, for [tried] tests in all. */
+    fun holm(pValues: List<Double>, tried: Int = pValues.size): List<Double> {
+        val order = pValues.indices.sortedBy { pValues[it] }
+        val adjusted = DoubleArray(pValues.size)
+        var highest = 0.0
+        order.forEachIndexed { rank, i ->
+            highest = maxOf(highest, minOf(1.0, pValues[i] * maxOf(tried - rank, 1)))
+            adjusted[i] = highest
+        }
+        return adjusted.toList()
+    }
+
+    /**
+     * How many times larger the variance of the score along [columns] is than the noise model says, at least 1.
+     *
+     * Columns are whitened, and orthogonal to what else was fitted. The variance is that of sums over blocks of rows:
+     * what the whitening has missed of the residuals' correlation shows there. [z] are the whitened residuals.
+     */
+    fun inflation(columns: List<DoubleArray>, z: DoubleArray): Double {
+        if (columns.isEmpty()) return 1.0
+        val length = maxOf(z.size / BLOCKS, 1)
+        var total = 0.0
+        for (column in columns) {
+            var blocks = 0.0
+            var rows = 0.0
+            var sum = 0.0
+            for (i in z.indices) {
+                val score = column[i] * z[i]
+                sum += score
+                rows += score * score
+                if ((i + 1) % length == 0 || i == z.size - 1) {
+                    blocks += sum * sum
+                    sum = 0.0
+                }
+            }
+            total += if (rows > 0) blocks / rows else 1.0
+        }
+        return maxOf(1.0, total / columns.size)
+    }
+
+    /** Probability of a Student's t of at least ±[t] with [degrees] of freedom. */
+    fun student(t: Double, degrees: Int): Double =
+        if (!t.isFinite()) 1.0 else Beta.regularizedBeta(degrees / (degrees + t * t), degrees / 2.0, 0.5)
+
+    /** Mean of [differences] over its standard error. */
+    fun t(differences: DoubleArray): Double {
+        val mean = differences.average()
+        val spread = sqrt(differences.sumOf { (it - mean) * (it - mean) } / (differences.size - 1))
+        return mean / maxOf(spread / sqrt(differences.size.toDouble()), 1e-300)
+    }
+
+    /** [column] less its projection on [basis], an orthonormal set; as new array. */
+    fun without(column: DoubleArray, basis: List<DoubleArray>): DoubleArray {
+        val rest = column.copyOf()
+        repeat(2) {
+            for (direction in basis) {
+                val share = dot(rest, direction)
+                for (i in rest.indices) rest[i] -= share * direction[i]
+            }
+        }
+        return rest
+    }
+
+    /** An orthonormal set that spans [columns] beyond [basis]; directions of no weight are left out. */
+    fun orthonormal(columns: List<DoubleArray>, basis: List<DoubleArray> = emptyList()): List<DoubleArray> {
+        val found = ArrayList<DoubleArray>()
+        for (column in columns) {
+            val before = sqrt(squares(column))
+            val rest = without(column, basis + found)
+            val length = sqrt(squares(rest))
+            if (length > 1e-7 * before && length > 0) found += DoubleArray(rest.size) { rest[it] / length }
+        }
+        return found
+    }
+
+    /** Twice the gain in log-likelihood when the square sum falls from [before] to [after] over [rows] rows. */
+    fun ratio(before: Double, after: Double, rows: Int): Double =
+        if (after <= 0 || before <= after) 0.0 else rows * ln(before / after)
+}

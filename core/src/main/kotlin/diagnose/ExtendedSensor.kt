@@ -1,0 +1,106 @@
+package stillwater.diagnose
+
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.sqrt
+
+/** A fitted model as a sensor that the simulator runs. */
+internal class ExtendedSensor(private val fit: ModelFit, private val spikes: SpikeSize?) {
+    private val model = fit.model
+    private val numbers = fit.numbers
+    private val tau = maxOf(numbers[ResponseModel.TIME_CONSTANT], model.series.period / 50)
+    private val gain = numbers[ResponseModel.GAIN].let { if (it == 0.0) 1e-9 else it }
+
+    /** What the sensor's form cannot hold, one sentence each. */
+    val losses = ArrayList<String>()
+
+    /** The sensor, called [name]. */
+    fun spec(name: String): SensorSpec = SensorSpec(name, response() + shown())
+
+    private fun value(cause: Cause, k: Int = 0): Double? =
+        model.terms.firstOrNull { it.cause == cause }?.let { numbers[model.slot(it) + k] }
+
+    private fun response(): List<SensorStage> = buildList {
+        value(Cause.POSITION_OFFSET)?.let { behind ->
+            losses +=
+                "An offset of place belongs to the platform: the sensor file holds it as the delay at the usual speed."
+            val delay = behind / model.scales.ordinarySpeed
+            if (delay > 0) add(SensorStage.Delay(delay))
+        }
+        value(Cause.DEAD_TIME)?.let { add(SensorStage.Delay(it)) }
+        add(lag())
+        value(Cause.SECOND_ORDER_RESPONSE)?.let { add(SensorStage.Lag(it)) }
+        value(Cause.SLEW_LIMIT)?.let { add(SensorStage.Slew(it / abs(gain))) }
+        value(Cause.HYSTERESIS)?.let { add(SensorStage.Backlash(it / abs(gain))) }
+    }
+
+    private fun lag(): SensorStage {
+        val asymmetry = value(Cause.ASYMMETRIC_RESPONSE)
+        val flow = value(Cause.FLOW_DEPENDENT_RESPONSE)
+        val warmth = value(Cause.TEMPERATURE_DEPENDENT_RESPONSE)
+        val ratio = value(Cause.TWO_PATH_RESPONSE)
+        if (listOfNotNull(asymmetry, flow, warmth, ratio).size > 1) {
+            losses += "Two changes of one time constant are at work; the sensor file holds the first of them only."
+        }
+        return when {
+            ratio != null ->
+                SensorStage.TwoPath(tau, tau * ratio, value(Cause.TWO_PATH_RESPONSE, 1) ?: 0.0)
+            asymmetry != null -> SensorStage.Asymmetric(tau * exp(asymmetry / 2), tau * exp(-asymmetry / 2))
+            flow != null -> SensorStage.FlowLag(tau, model.scales.ordinarySpeed, flow)
+            warmth != null -> SensorStage.TemperatureLag(tau, model.scales.ordinaryTemperature, warmth)
+            else -> SensorStage.Lag(tau)
+        }
+    }
+
+    private fun shown(): List<SensorStage> = buildList {
+        val offset = numbers[ResponseModel.OFFSET]
+        if (gain != 1.0 || offset != 0.0) add(SensorStage.Calibration(gain, offset))
+        for (term in model.terms) {
+            val at = model.slot(term)
+            when (term.cause) {
+                Cause.CROSS_SENSITIVITY -> {
+                    val name = term.condition.orEmpty()
+                    add(SensorStage.Cross(name, model.scales.middles.getValue(name), numbers[at]))
+                }
+                Cause.DRIFT -> add(SensorStage.Drifting(numbers[at]))
+                Cause.OFFSET_STEPS -> {
+                    var sum = 0.0
+                    add(
+                        SensorStage.Jumps(
+                            term.times,
+                            term.times.indices.map { k ->
+                                sum += numbers[at + k]
+                                sum
+                            },
+                        ),
+                    )
+                }
+                else -> Unit
+            }
+        }
+        value(Cause.SATURATION)?.let { lower ->
+            val upper = value(Cause.SATURATION, 1) ?: 1e12
+            if (lower < upper) add(SensorStage.Range(lower.takeIf { it > -1e11 }, upper.takeIf { it < 1e11 }))
+        }
+        val spread = sqrt(maxOf(fit.variance, 0.0))
+        if (spread > 0) add(SensorStage.Noise(spread))
+        spikes?.let { add(SensorStage.Outlying(it.probability, it.size)) }
+        val resolution = model.scales.resolution
+        if (value(Cause.QUANTISATION) != null && resolution > 0) add(SensorStage.Quantum(resolution))
+    }
+}
+
+/** How often and how far single readings are off: [probability] of each, dimensionless; [size], sensor units. */
+internal data class SpikeSize(val probability: Double, val size: Double) {
+    companion object {
+        /** From [spikes] among [residuals]; those too small to be seen are reckoned with. */
+        fun of(spikes: List<Int>, residuals: DoubleArray, spread: Double): SpikeSize? {
+            if (spikes.isEmpty()) return null
+            val size = spikes.maxOf { abs(residuals[it]) } * (spikes.size + 1) / spikes.size
+            val seen = (1 - 5.5 * spread / size).coerceIn(0.1, 1.0)
+            return SpikeSize((spikes.size / seen / residuals.size).coerceIn(0.0, 1.0), size)
+        }
+    }
+}

@@ -1,0 +1,44 @@
+package stillwater.diagnose
+
+import kotlin.math.PI
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * How well a model predicts rows it was not fitted to.
+ *
+ * @property rmse root mean square of the residuals, sensor units. @property logLikelihood of those rows, natural
+ * logarithm, under the noise model.
+ */
+internal data class HeldOutScore(val rmse: Double, val logLikelihood: Double)
+
+/** Cross-validation over blocks of the log: each fold holds out every fourth of 16 stretches. */
+internal object HeldOut {
+    private const val FOLDS = 4
+    private const val STRETCHES = 16
+
+    /** The score of [fit]'s model; each fold is fitted anew from [fit]'s numbers under its noise. */
+    fun score(fit: ModelFit, used: BooleanArray): HeldOutScore {
+        val n = used.size
+        // Only the first stretch shows what the sensor had seen before the log: it stays as it was found.
+        val free = fit.free.copyOf().also { it[ResponseModel.FIRST] = false }
+        var squareSum = 0.0
+        var rows = 0
+        var likelihood = 0.0
+        for (fold in 0 until FOLDS) {
+            val held = BooleanArray(n) { used[it] && (it * STRETCHES / n) % FOLDS == fold }
+            val trained = BooleanArray(n) { used[it] && !held[it] }
+            val times = fit.model.series.times
+            val train = CorrelatedNoise(times, fit.noise.share, fit.noise.time, trained)
+            val refit = Fitting.fit(fit.model, fit.numbers, free, trained, fit.noise.time, noise = train)
+            val test = CorrelatedNoise(times, fit.noise.share, fit.noise.time, held)
+            val z = DoubleArray(n)
+            test.whiten(refit.residuals, z)
+            for (i in 0 until n) if (held[i]) squareSum += refit.residuals[i] * refit.residuals[i]
+            rows += test.rows
+            val variance = maxOf(refit.variance, 1e-300)
+            likelihood += -0.5 * (test.rows * ln(2 * PI * variance) + test.logDeterminant + squares(z) / variance)
+        }
+        return HeldOutScore(sqrt(squareSum / maxOf(rows, 1)), likelihood)
+    }
+}

@@ -1,0 +1,98 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import kotlin.math.hypot
+
+/**
+ * A log as columns: what the diagnosis works on.
+ *
+ * Rows are in strictly growing time. Arrays are retained and must not be changed.
+ *
+ * @property times when each sample was taken, s, length n, finite and strictly ascending.
+ * @property x metres east, length n, finite. @property y metres north, length n, finite.
+ * @property values what the sensor said, sensor units, length n, finite.
+ * @property reference the truth up to noise, sensor units, length n, finite; null where it is unknown.
+ * @property conditions further columns by name, each of length n, NaN where unknown; a missing speed is taken from the
+ *   positions.
+ * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
+ */
+public class MeasuredSeries(
+    internal val times: DoubleArray,
+    internal val x: DoubleArray,
+    internal val y: DoubleArray,
+    internal val values: DoubleArray,
+    internal val reference: DoubleArray?,
+    internal val conditions: Map<String, DoubleArray> = emptyMap(),
+) {
+    init {
+        val columns =
+            listOf("x" to x, "y" to y, "values" to values) + listOfNotNull(reference?.let { "reference" to it })
+        for ((name, column) in columns) {
+            require(column.size == times.size) {
+                "$name (${column.size} rows) must be as long as times (${times.size})"
+            }
+            require(column.all { it.isFinite() }) { "$name must be finite" }
+        }
+        for ((name, column) in conditions) {
+            require(column.size == times.size) {
+                "$name (${column.size} rows) must be as long as times (${times.size})"
+            }
+        }
+        require(times.all { it.isFinite() }) { "times must be finite" }
+        for (i in 1 until times.size) {
+            require(times[i] > times[i - 1]) { "times[$i] (${times[i]} s) must be after ${times[i - 1]} s" }
+        }
+    }
+
+    /** Number of rows. */
+    public val size: Int get() = times.size
+
+    /** From the first row to the last, s. */
+    internal val duration: Double = if (times.size < 2) 0.0 else times.last() - times.first()
+
+    /** Median time between rows, s; 1 where there are fewer than two. */
+    internal val period: Double =
+        if (times.size < 2) 1.0 else median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
+
+    /** A longer step than this is a gap, over which the sensor is taken to have settled, s. */
+    internal val gap: Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
+
+    /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
+    internal val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
+
+    /** Temperature of each row, °C, or null where there is no such condition. */
+    internal val temperature: DoubleArray? = conditions[Conditions.TEMPERATURE]?.let(::filled)
+
+    private fun fromPositions() = DoubleArray(times.size) { i ->
+        var from = i
+        var to = i
+        while (from > 0 && times[i] - times[from] < SPEED_SECONDS) from--
+        while (to < times.size - 1 && times[to] - times[i] < SPEED_SECONDS) to++
+        val span = times[to] - times[from]
+        if (span > 0) hypot(x[to] - x[from], y[to] - y[from]) / span else 0.0
+    }
+
+    /** [column] with its gaps filled by its median. */
+    internal fun filled(column: DoubleArray): DoubleArray {
+        val known = column.filter { it.isFinite() }.toDoubleArray()
+        val middle = if (known.isEmpty()) 0.0 else median(known)
+        return DoubleArray(column.size) { if (column[it].isFinite()) column[it] else middle }
+    }
+
+    /** This log with [reference] as what is known of the truth. */
+    internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
+
+    private companion object {
+        const val GAP_STEPS = 20
+        const val GAP_SECONDS = 60.0
+        const val SPEED_SECONDS = 2.5
+    }
+}
+
+/** The middle of [numbers]; NaN of none. Not modified. */
+internal fun median(numbers: DoubleArray): Double {
+    if (numbers.isEmpty()) return Double.NaN
+    val sorted = numbers.sortedArray()
+    val middle = sorted.size / 2
+    return if (sorted.size % 2 == 1) sorted[middle] else (sorted[middle - 1] + sorted[middle]) / 2
+}

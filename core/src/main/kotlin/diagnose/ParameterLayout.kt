@@ -1,0 +1,91 @@
+package stillwater.diagnose
+
+/** Which number of a model stands where. */
+internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales: Scales) {
+    /** Index of the first parameter of each term, by its key. */
+    val slots: Map<String, Int>
+
+    /** Number of parameters of each term, by its key. */
+    val widths: Map<String, Int>
+
+    /** All parameters in order. */
+    val parameters: List<Parameter>
+
+    /** The track as times of ways. */
+    val way: WayTimes by lazy { WayTimes(series) }
+
+    init {
+        val list = ArrayList<Parameter>()
+        val places = LinkedHashMap<String, Int>()
+        val longest = maxOf(series.duration, series.period)
+        list += Parameter("time_constant_s", "s", true, series.period / 50, longest)
+        list += Parameter("gain", "", false, -1e6, 1e6)
+        list += Parameter("offset", "sensor units", false, -1e12, 1e12)
+        list += Parameter("initial_deviation", "sensor units", false, -1e12, 1e12)
+        for (term in terms) {
+            places[term.key] = list.size
+            list += of(term, longest, series, scales)
+        }
+        slots = places
+        widths = places.keys.zip(places.values.zip(places.values.drop(1) + list.size) { from, to -> to - from }).toMap()
+        parameters = list
+    }
+
+    private fun of(term: Term, longest: Double, series: MeasuredSeries, scales: Scales): List<Parameter> {
+        val range = maxOf(scales.range, 1e-12)
+        return when (term.cause) {
+            Cause.ASYMMETRIC_RESPONSE -> listOf(Parameter("log_ratio", "", false, -3.0, 3.0, 0.0))
+            Cause.SECOND_ORDER_RESPONSE ->
+                listOf(Parameter("second_time_constant_s", "s", true, series.period / 50, longest))
+            Cause.TWO_PATH_RESPONSE -> listOf(
+                Parameter("slow_ratio", "", true, 1.05, 300.0),
+                Parameter("slow_share", "", false, 0.0, 0.95, 0.0),
+            )
+            Cause.DEAD_TIME -> listOf(Parameter("dead_time_s", "s", false, 0.0, longest / 4, 0.0))
+            Cause.SLEW_LIMIT -> listOf(Parameter("rate_per_s", "sensor units/s", true, 1e-12 * range, 1e6 * range))
+            Cause.FLOW_DEPENDENT_RESPONSE -> listOf(Parameter("exponent", "", false, -2.0, 2.0, 0.0))
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE ->
+                listOf(Parameter("relative_change_per_deg_c", "1/°C", false, -0.5, 0.5, 0.0))
+            Cause.CROSS_SENSITIVITY ->
+                listOf(Parameter("coefficient", "sensor units per unit", false, -1e12, 1e12, 0.0))
+            Cause.DRIFT -> listOf(Parameter("rate_per_s", "sensor units/s", false, -1e12, 1e12, 0.0))
+            Cause.OFFSET_STEPS ->
+                term.times.indices.map { Parameter("jump_${it + 1}", "sensor units", false, -1e12, 1e12, 0.0) }
+            Cause.HYSTERESIS -> listOf(Parameter("width", "sensor units", true, 1e-9 * range, 2 * range))
+            Cause.QUANTISATION -> listOf(Parameter("spread", "sensor units", true, 1e-3 * range, 1e3 * range))
+            Cause.SATURATION -> listOf(
+                Parameter("lower", "sensor units", false, -1e12, 1e12),
+                Parameter("upper", "sensor units", false, -1e12, 1e12),
+            )
+            Cause.POSITION_OFFSET -> listOf(Parameter("behind_m", "m", false, -1e4, 1e4, 0.0))
+            else -> emptyList()
+        }
+    }
+}
+
+/** When the boat was a way further or less far along its track. */
+internal class WayTimes(private val series: MeasuredSeries) {
+    private val smooth: DoubleArray = smoothed()
+
+    /** The way as the sum of smoothed speeds: jitter of fixes would make it too long. */
+    private fun smoothed(): DoubleArray {
+        val way = DoubleArray(series.size)
+        for (i in 1 until series.size) {
+            val dt = series.times[i] - series.times[i - 1]
+            way[i] = way[i - 1] + maxOf((series.speed[i] + series.speed[i - 1]) / 2 * dt, 1e-9)
+        }
+        return way
+    }
+
+    /** The time at which the way was that at row [i] plus [distance] m, s; first or last time beyond the ends. */
+    fun timeAt(i: Int, distance: Double): Double {
+        val wanted = smooth[i] + distance
+        val found = smooth.binarySearch(wanted)
+        if (found >= 0) return series.times[found]
+        val after = -found - 1
+        if (after == 0) return series.times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], 0.01)
+        if (after == smooth.size) return series.times.last()
+        val share = (wanted - smooth[after - 1]) / (smooth[after] - smooth[after - 1])
+        return series.times[after - 1] + share * (series.times[after] - series.times[after - 1])
+    }
+}

@@ -1,0 +1,240 @@
+package stillwater.diagnose
+
+import kotlin.math.PI
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sin
+
+/**
+ * The reading that a sensor with the causes [terms] would give along a log whose truth is the log's reference.
+ *
+ * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag
+ * or slow
+ * path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The truth
+ * is taken as a cubic spline through the rows, or as held over each step where [held]; each lag is exact for that.
+ *
+ * @property series the log; its reference must be there. @property terms what acts beside the base.
+ */
+internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, val held: Boolean, val scales: Scales) {
+    private val n = series.size
+    private val truth = requireNotNull(series.reference) { "a response model needs a reference" }
+    private val layout = ParameterLayout(series, terms, scales)
+
+    /** The numbers of this model: time constant, gain, offset, first state, then those of each term. */
+    val parameters: List<Parameter> get() = layout.parameters
+
+    private val causes = terms.map { it.cause }.toSet()
+    private val work = DoubleArray(n)
+    private val second = DoubleArray(n)
+    private val taus = DoubleArray(n)
+    private val spline = Spline(series.times)
+
+    /** Index of the first parameter of [term]. */
+    fun slot(term: Term): Int = layout.slots.getValue(term.key)
+
+    /** Index of the first parameter of [term], or null where this model has no such term. */
+    fun slotOrNull(term: Term): Int? = layout.slots[term.key]
+
+    /** Number of parameters of [term]. */
+    fun width(term: Term): Int = layout.widths.getValue(term.key)
+
+    private fun slot(cause: Cause) = layout.slots.getValue(cause.label)
+
+    /** Writes the reading without noise for [p], in the order of [parameters], into [out], length n. */
+    fun predict(p: DoubleArray, out: DoubleArray) {
+        delay(p)
+        timeConstants(p)
+        val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
+        if (Cause.TWO_PATH_RESPONSE in causes) {
+            val at = slot(Cause.TWO_PATH_RESPONSE)
+            // A path slower than a part of the log is a drift.
+            lag(work, second, minOf(p[at], maxOf(2.0, series.duration / SLOWEST / p[TIME_CONSTANT])), 0.0)
+            lag(work, out, 1.0, asymmetry)
+            for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
+        } else {
+            lag(work, out, 1.0, asymmetry)
+        }
+        if (Cause.SECOND_ORDER_RESPONSE in causes) {
+            taus.fill(p[slot(Cause.SECOND_ORDER_RESPONSE)])
+            lag(out, second, 1.0, 0.0)
+            second.copyInto(out)
+        }
+        if (Cause.SLEW_LIMIT in causes) slew(out, p[slot(Cause.SLEW_LIMIT)] / abs(p[GAIN]))
+        if (Cause.HYSTERESIS in causes) play(out, p[slot(Cause.HYSTERESIS)] / abs(p[GAIN]))
+        calibrate(p, out)
+        if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
+        if (Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
+    }
+
+    /** The truth at each row, as late as the model says, into [work]. */
+    private fun delay(p: DoubleArray) {
+        val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
+        val distance = if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0
+        if (deadTime == 0.0 && distance == 0.0) {
+            truth.copyInto(work)
+            return
+        }
+        spline.fit(truth)
+        var from = 0
+        for (i in 0 until n) {
+            var time = series.times[i]
+            if (distance != 0.0) time = layout.way.timeAt(i, -distance)
+            time -= deadTime
+            while (from < n - 2 && series.times[from + 1] < time) from++
+            while (from > 0 && series.times[from] > time) from--
+            work[i] = spline.at(from, time)
+        }
+    }
+
+    private fun timeConstants(p: DoubleArray) {
+        val exponent = if (Cause.FLOW_DEPENDENT_RESPONSE in causes) p[slot(Cause.FLOW_DEPENDENT_RESPONSE)] else 0.0
+        val change = if (Cause.TEMPERATURE_DEPENDENT_RESPONSE in causes) {
+            p[slot(Cause.TEMPERATURE_DEPENDENT_RESPONSE)]
+        } else {
+            0.0
+        }
+        taus.fill(p[TIME_CONSTANT])
+        if (exponent != 0.0) for (i in 0 until n) taus[i] *= exp(-exponent * scales.logSpeed[i])
+        if (change != 0.0) for (i in 0 until n) taus[i] *= exp(-change * scales.warmth[i])
+    }
+
+    /** A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. */
+    private fun lag(input: DoubleArray, out: DoubleArray, factor: Double, asymmetry: Double) {
+        val up = factor * exp(asymmetry / 2)
+        val down = factor * exp(-asymmetry / 2)
+        if (!held) spline.fit(input)
+        var state = input[0]
+        out[0] = state
+        var lastDt = Double.NaN
+        var lastTau = Double.NaN
+        var fade = 0.0
+        for (i in 1 until n) {
+            val dt = series.times[i] - series.times[i - 1]
+            val before = if (held) input[i] else input[i - 1]
+            val tau = taus[i] * if ((before + input[i]) / 2 > state) up else down
+            if (dt > series.gap) {
+                state = input[i]
+            } else {
+                if (dt != lastDt || tau != lastTau) fade = exp(-dt / tau)
+                lastDt = dt
+                lastTau = tau
+                // The response to a cubic is a cubic; what is off it fades.
+                val early = if (held) input[i] else spline.follower(i - 1, 0.0, tau)
+                val late = if (held) input[i] else spline.follower(i - 1, dt, tau)
+                state = late + (state - early) * fade
+            }
+            out[i] = state
+        }
+    }
+
+    private fun slew(out: DoubleArray, rate: Double) {
+        for (i in 1 until n) {
+            val dt = series.times[i] - series.times[i - 1]
+            if (dt <= series.gap) out[i] = out[i].coerceIn(out[i - 1] - rate * dt, out[i - 1] + rate * dt)
+        }
+    }
+
+    private fun play(out: DoubleArray, width: Double) {
+        for (i in 1 until n) out[i] = out[i - 1].coerceIn(out[i] - width / 2, out[i] + width / 2)
+    }
+
+    private fun calibrate(p: DoubleArray, out: DoubleArray) {
+        val tau = p[TIME_CONSTANT]
+        for (i in 0 until n) {
+            val age = series.times[i] - series.times[0]
+            out[i] = p[OFFSET] + p[GAIN] * out[i] + p[FIRST] * exp(-age / tau)
+        }
+        for (term in terms) {
+            val at = layout.slots.getValue(term.key)
+            when (term.cause) {
+                Cause.CROSS_SENSITIVITY -> {
+                    val column = scales.centred.getValue(term.condition.orEmpty())
+                    for (i in 0 until n) out[i] += p[at] * column[i]
+                }
+                Cause.DRIFT -> for (i in 0 until n) out[i] += p[at] * (series.times[i] - series.times[0])
+                Cause.OFFSET_STEPS -> term.times.forEachIndexed { k, time ->
+                    for (i in 0 until n) if (series.times[i] - series.times[0] > time) out[i] += p[at + k]
+                }
+                else -> Unit
+            }
+        }
+    }
+
+    private fun clip(out: DoubleArray, lower: Double, upper: Double) {
+        for (i in 0 until n) out[i] = out[i].coerceIn(minOf(lower, upper), upper)
+    }
+
+    /**
+     * The mean of what rounding shows where noise of [spread] comes before it: a Fourier series of the rounding
+     * error.
+     */
+    private fun round(out: DoubleArray, spread: Double) {
+        val step = scales.resolution
+        for (i in 0 until n) {
+            var error = 0.0
+            for (k in 1..HARMONICS) {
+                val fade = exp(-2 * (PI * k * spread / step) * (PI * k * spread / step))
+                error += (if (k % 2 == 1) 1 else -1) * fade * sin(2 * PI * k * out[i] / step) / k
+            }
+            out[i] -= step / PI * error
+        }
+    }
+
+    companion object {
+        const val TIME_CONSTANT = 0
+        const val GAIN = 1
+        const val OFFSET = 2
+        const val FIRST = 3
+        const val BASE = 4
+        private const val HARMONICS = 4
+        private const val SLOWEST = 8
+    }
+}
+
+/** Quantities of a log that several models share. */
+internal class Scales(val series: MeasuredSeries) {
+    private val n = series.size
+
+    /** Speed that counts as ordinary, m/s. */
+    val ordinarySpeed: Double = maxOf(median(series.speed), SLOWEST)
+
+    /** Log of speed over the ordinary, as the lag takes it. */
+    val logSpeed = DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
+
+    /** Temperature that counts as ordinary, °C. */
+    val ordinaryTemperature: Double = series.temperature?.let(::median) ?: Double.NaN
+
+    /** Temperature over the ordinary, °C; 0 where there is none. */
+    val warmth = DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
+
+    /** What each condition is centred on. */
+    val middles: Map<String, Double> = series.conditions.mapValues { (_, column) -> median(series.filled(column)) }
+
+    /** Each condition less its middle. */
+    val centred: Map<String, DoubleArray> = series.conditions.mapValues { (name, column) ->
+        val filled = series.filled(column)
+        DoubleArray(n) { filled[it] - middles.getValue(name) }
+    }
+
+    /** Finest step between different values, sensor units; 0 where there is none. */
+    val resolution: Double = resolution(series.values)
+
+    /** From the lowest to the highest reading, sensor units. */
+    val range: Double = (series.values.maxOrNull() ?: 0.0) - (series.values.minOrNull() ?: 0.0)
+
+    companion object {
+        private const val SLOWEST = 0.01
+
+        /** The largest step of which all differences of [values] are multiples, or 0. */
+        fun resolution(values: DoubleArray): Double {
+            val distinct = values.toSet().sorted()
+            if (distinct.size < 3) return 0.0
+            val steps = DoubleArray(distinct.size - 1) { distinct[it + 1] - distinct[it] }
+            val smallest = steps.filter { it > 1e-12 * (abs(distinct.last()) + abs(distinct.first())) }.minOrNull()
+                ?: return 0.0
+            val fits = steps.count { abs(it / smallest - Math.rint(it / smallest)) < 0.02 }
+            return if (fits >= 0.99 * steps.size) smallest else 0.0
+        }
+    }
+}

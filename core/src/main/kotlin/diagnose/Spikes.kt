@@ -1,0 +1,79 @@
+package stillwater.diagnose
+
+import kotlin.math.PI
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** Single rows that stick out of their neighbours. */
+internal object Spikes {
+    private const val HALF_WINDOW = 3
+    private const val TIMES_SPREAD = 5.5
+    private const val NORMAL = 1.4826
+
+    /**
+     * The rows whose residual is more than 5.5 robust standard deviations off the median of the seven around it.
+     *
+     * A model that is wrong elsewhere has residuals that neighbours share; those are not single.
+     */
+    fun of(residuals: DoubleArray): List<Int> {
+        val n = residuals.size
+        if (n < 4 * HALF_WINDOW) return emptyList()
+        val off = off(residuals)
+        val spread = NORMAL * median(DoubleArray(n) { abs(off[it]) })
+        if (!(spread > 0)) return emptyList()
+        return off.indices.filter { i ->
+            val beside = maxOf(abs(off.getOrElse(i - 1) { 0.0 }), abs(off.getOrElse(i + 1) { 0.0 }))
+            abs(off[i]) > TIMES_SPREAD * spread && beside < 0.8 * abs(off[i])
+        }
+    }
+
+    private fun off(residuals: DoubleArray) = DoubleArray(residuals.size) { i ->
+        val from = (i - HALF_WINDOW).coerceIn(0, residuals.size - 1 - 2 * HALF_WINDOW)
+        residuals[i] - median(residuals.copyOfRange(from, from + 2 * HALF_WINDOW + 1))
+    }
+
+    /**
+     * Twice the log-likelihood ratio of normal noise with a share of even outliers against normal noise alone, for
+     * white [residuals]. Share, size and spread are each the likeliest.
+     */
+    fun ratio(residuals: DoubleArray): Mixture {
+        val n = residuals.size
+        val alone = sqrt(squares(residuals) / maxOf(n, 1))
+        if (!(alone > 0)) return Mixture(0.0, 0.0, 0.0)
+        val robust = NORMAL * median(DoubleArray(n) { abs(residuals[it]) })
+        val plain = -n * ln(alone) - n / 2.0
+        var best = Mixture(0.0, 0.0, 0.0)
+        val largest = residuals.maxOf { abs(it) }
+        for (shrink in doubleArrayOf(0.9, 0.94, 0.97, 0.985, 1.0)) {
+            for (spread in doubleArrayOf(shrink * alone, shrink * robust)) {
+                for (share in doubleArrayOf(0.002, 0.005, 0.01, 0.02, 0.04)) {
+                    val score = mixture(residuals, spread, share, largest)
+                    if (2 * (score - plain) > best.ratio) best = Mixture(2 * (score - plain), share, largest)
+                }
+            }
+        }
+        return best
+    }
+
+    private fun mixture(residuals: DoubleArray, spread: Double, share: Double, size: Double): Double {
+        if (!(spread > 0)) return Double.NEGATIVE_INFINITY
+        val wide = share / (2 * size) * sqrt(2 * PI)
+        val narrow = (1 - share) / spread
+        var sum = 0.0
+        for (r in residuals) {
+            val z = r / spread
+            sum += ln(narrow * exp(-z * z / 2) + wide)
+        }
+        return sum
+    }
+}
+
+/**
+ * Normal noise with outliers.
+ *
+ * @property ratio twice the log-likelihood ratio against normal noise. @property share of the rows. @property size the
+ * farthest.
+ */
+internal data class Mixture(val ratio: Double, val share: Double, val size: Double)

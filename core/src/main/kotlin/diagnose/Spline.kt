@@ -1,0 +1,59 @@
+package stillwater.diagnose
+
+/**
+ * The natural cubic spline through a column: what a smooth truth was between the rows.
+ *
+ * Source: Press et al. 2007, Numerical Recipes, section 3.3. Confined to one thread; fitting is O(n), no allocation.
+ *
+ * @param times knots, s, ascending, length n. Retained, not modified.
+ */
+internal class Spline(private val times: DoubleArray) {
+    private val n = times.size
+    private val bend = DoubleArray(n)
+    private val work = DoubleArray(n)
+    private var column = work
+
+    /** Goes through [values], length n. Retained, not modified. */
+    fun fit(values: DoubleArray) {
+        column = values
+        bend[0] = 0.0
+        work[0] = 0.0
+        for (i in 1 until n - 1) {
+            val left = times[i] - times[i - 1]
+            val right = times[i + 1] - times[i]
+            val share = left / (left + right)
+            val pivot = share * bend[i - 1] + 2
+            bend[i] = (share - 1) / pivot
+            val change = (values[i + 1] - values[i]) / right - (values[i] - values[i - 1]) / left
+            work[i] = (6 * change / (left + right) - share * work[i - 1]) / pivot
+        }
+        if (n > 0) bend[n - 1] = 0.0
+        for (i in n - 2 downTo 1) bend[i] = bend[i] * bend[i + 1] + work[i]
+        if (n > 0) bend[0] = 0.0
+    }
+
+    /** The value at [time] in the step after row [i]; beyond the first and last row theirs. */
+    fun at(i: Int, time: Double): Double {
+        if (time <= times[0]) return column[0]
+        if (time >= times[n - 1]) return column[n - 1]
+        val h = times[i + 1] - times[i]
+        val b = (time - times[i]) / h
+        val a = 1 - b
+        return a * column[i] + b * column[i + 1] +
+            ((a * a * a - a) * bend[i] + (b * b * b - b) * bend[i + 1]) * h * h / 6
+    }
+
+    /**
+     * u − τ u' + τ² u'' − τ³ u''' at [after] s into the step after row [i]: the response to the spline of a lag with
+     * time constant [tau] once its past has faded.
+     */
+    fun follower(i: Int, after: Double, tau: Double): Double {
+        val h = times[i + 1] - times[i]
+        val third = (bend[i + 1] - bend[i]) / h
+        val second = bend[i] + third * after
+        val slope = (column[i + 1] - column[i]) / h - h * (2 * bend[i] + bend[i + 1]) / 6
+        val first = slope + after * (bend[i] + third * after / 2)
+        val value = column[i] + after * (slope + after * (bend[i] / 2 + third * after / 6))
+        return value - tau * (first - tau * (second - tau * third))
+    }
+}

@@ -1,0 +1,100 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/**
+ * Where a fit of a model with one more cause begins: several places, because some causes have more than one optimum.
+ */
+internal class Starts(
+    private val fit: ModelFit,
+    private val model: ResponseModel,
+    private val term: Term,
+    private val small: Boolean = false,
+) {
+    private val series = model.series
+    private val scales = model.scales
+    private val tau = fit.numbers[ResponseModel.TIME_CONSTANT]
+    private val spread = sqrt(squares(fit.residuals) / maxOf(series.size, 1))
+
+    /** The places, as full sets of numbers. */
+    fun all(): List<DoubleArray> = when {
+        small && term.cause in IN_PROPORTION -> listOf(with(STEPS.getValue(term.cause)))
+        small && term.cause == Cause.DRIFT -> listOf(with(scales.range / series.duration))
+        small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(1.0))
+        small && term.cause == Cause.DEAD_TIME -> listOf(with(series.period))
+        small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(with(series.period))
+        small && term.cause == Cause.POSITION_OFFSET -> listOf(with(scales.ordinarySpeed * series.period))
+        else -> of(term.cause)
+    }
+
+    private fun of(cause: Cause): List<DoubleArray> = when (cause) {
+        Cause.ASYMMETRIC_RESPONSE -> listOf(0.2, -0.2).map { with(it) }
+        Cause.SECOND_ORDER_RESPONSE -> listOf(0.1, 0.35, 0.8).map { share ->
+            with(tau * share).also { it[ResponseModel.TIME_CONSTANT] = tau * (1 - share / 2) }
+        }
+        Cause.TWO_PATH_RESPONSE -> listOf(
+            Triple(0.8, 5.0, 0.15),
+            Triple(0.9, 20.0, 0.1),
+            Triple(0.4, 4.0, 0.5),
+        ).map { (first, ratio, share) -> with(ratio, share).also { it[ResponseModel.TIME_CONSTANT] = tau * first } }
+        Cause.DEAD_TIME -> listOf(series.period, tau / 3, tau, 3 * tau).map { delay ->
+            with(delay).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3) }
+        }
+        Cause.SLEW_LIMIT -> rates().map { with(it) }
+        Cause.FLOW_DEPENDENT_RESPONSE -> listOf(0.2, -0.2).map { with(it) }
+        Cause.TEMPERATURE_DEPENDENT_RESPONSE -> listOf(0.02, -0.02).map { with(it) }
+        Cause.HYSTERESIS -> listOf(0.5, 1.5, 4.0).map { with(it * spread) } + with(0.03 * scales.range)
+        Cause.QUANTISATION -> listOf(0.15, 0.3, 0.45).map { with(it * scales.resolution) }
+        Cause.SATURATION -> {
+            val sorted = series.values.sortedArray()
+            val low = sorted[(0.01 * sorted.size).toInt()]
+            val high = sorted[(0.99 * (sorted.size - 1)).toInt()]
+            listOf(with(low, 1e12), with(-1e12, high), with(low, high))
+        }
+        Cause.POSITION_OFFSET -> listOf(1.0, -1.0).map { with(it * scales.ordinarySpeed * series.period) } +
+            with(tau * scales.ordinarySpeed / 2)
+        Cause.OFFSET_STEPS, Cause.CROSS_SENSITIVITY, Cause.DRIFT -> listOf(extended())
+        else -> listOf(extended())
+    }
+
+    private fun rates(): List<Double> {
+        val shown = DoubleArray(series.size - 1) { i ->
+            abs(series.values[i + 1] - fit.residuals[i + 1] - series.values[i] + fit.residuals[i]) /
+                (series.times[i + 1] - series.times[i])
+        }.sortedArray()
+        return listOf(0.5, 0.75, 0.9, 0.97).map { maxOf(shown[(it * (shown.size - 1)).toInt()], 1e-9 * scales.range) }
+    }
+
+    /** The numbers fitted so far, in the places they have in [model]; new ones neutral. */
+    private fun extended(): DoubleArray {
+        val numbers = DoubleArray(model.parameters.size) { i ->
+            model.parameters[i].neutral.takeIf { it.isFinite() } ?: 0.0
+        }
+        for (i in 0 until ResponseModel.BASE) numbers[i] = fit.numbers[i]
+        for (old in fit.model.terms) {
+            val from = fit.model.slotOrNull(old) ?: continue
+            val to = model.slotOrNull(old) ?: continue
+            for (k in 0 until fit.model.width(old).coerceAtMost(model.width(old))) {
+                numbers[to + k] =
+                    fit.numbers[from + k]
+            }
+        }
+        return numbers
+    }
+
+    private fun with(vararg values: Double): DoubleArray = extended().also { numbers ->
+        val at = model.slot(term)
+        values.forEachIndexed { k, value -> numbers[at + k] = value }
+    }
+
+    private companion object {
+        /** Causes whose effect is nearly in proportion to a number, and a small value of it. */
+        val STEPS = mapOf(
+            Cause.ASYMMETRIC_RESPONSE to 0.1,
+            Cause.FLOW_DEPENDENT_RESPONSE to 0.1,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE to 0.01,
+        )
+        val IN_PROPORTION = STEPS.keys
+    }
+}

@@ -1,0 +1,218 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import kotlin.math.PI
+import kotlin.math.abs
+import kotlin.math.cos
+import kotlin.math.expm1
+import kotlin.math.sin
+import kotlin.math.sqrt
+
+/**
+ * A way in which residuals depend on something that they should not depend on.
+ *
+ * @property description what they depend on, in words. @property ratio likelihood ratio, corrected for correlation.
+ * @property degrees of freedom. @property pValue of it. @property adjusted p-value for all looks taken, after Holm.
+ */
+public data class Dependence(
+    val description: String,
+    val ratio: Double,
+    val degrees: Int,
+    val pValue: Double,
+    val adjusted: Double = pValue,
+)
+
+/** Looks for any dependence of residuals that no cause of the list need explain. */
+internal class Structure(private val fit: ModelFit, private val used: BooleanArray, private val longest: Double) {
+    private val series = fit.model.series
+    private val scales = fit.model.scales
+    private val n = series.size
+    private val basis = Evidence.orthonormal(fit.jacobian.toList())
+    private val derivatives = Fitting.derivatives(fit)
+    private val square = squares(fit.whitened)
+    private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
+    private val rate = DoubleArray(n) { i ->
+        val from = maxOf(i - 1, 0)
+        val to = minOf(i + 1, n - 1)
+        (prediction[to] - prediction[from]) / (series.times[to] - series.times[from])
+    }
+
+    /** All looks, the most striking first. */
+    fun dependences(): List<Dependence> {
+        val tests = groups().map { (name, columns) -> test(name, columns) } + periodic()
+        val adjusted = Evidence.holm(tests.map { it.pValue })
+        return tests.mapIndexed { i, test -> test.copy(adjusted = adjusted[i]) }.sortedBy { it.pValue }
+    }
+
+    private fun test(name: String, columns: List<DoubleArray>): Dependence {
+        val whitened = columns.map { column -> DoubleArray(n).also { fit.noise.whiten(column, it) } }
+        val directions = Evidence.orthonormal(whitened, basis)
+        if (directions.isEmpty()) return Dependence(name, 0.0, 1, 1.0)
+        val explained = directions.sumOf { direction -> dot(direction, fit.whitened).let { it * it } }
+        val inflation = Evidence.inflation(directions, fit.whitened)
+        val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
+        val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
+        val ratio = (if (worth) maxOf(quick, fitted(columns)) else quick) / inflation
+        return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
+    }
+
+    /**
+     * Twice the gain in log-likelihood with [columns] in the model and the noise fitted anew: what they explain was
+     * noise before.
+     */
+    private fun fitted(columns: List<DoubleArray>): Double {
+        val all = derivatives + columns
+        var noise = fit.noise
+        var best = fit.score
+        repeat(2) {
+            val whitened = all.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }.toTypedArray()
+            val z = DoubleArray(n).also { noise.whiten(fit.residuals, it) }
+            val step = SymmetricSystem.of(whitened, z).solve(0.0)
+            val rest = fit.residuals.copyOf()
+            for (k in all.indices) for (i in 0 until n) rest[i] -= step[k] * all[k][i]
+            noise = CorrelatedNoise.of(series, rest, used, longest)
+            noise.whiten(rest, z)
+            best = maxOf(best, noise.twiceLogLikelihood(squares(z)))
+        }
+        return best - fit.score
+    }
+
+    private fun groups(): List<Pair<String, List<DoubleArray>>> = buildList {
+        val value = standard(prediction)
+        val slope = standard(rate)
+        add("the value itself (a curved calibration)" to listOf(power(value, 2), power(value, 3), power(value, 4)))
+        add(
+            "the rate of change (not in proportion)" to
+                listOf(absolute(slope), times(slope, absolute(slope)), power(slope, 2)),
+        )
+        add("time (a slow wandering)" to slow())
+        add("what was there before (the response has another shape)" to response())
+        add("the rate of change, more at some values than at others" to moved(slope, value))
+        val age = standard(DoubleArray(n) { series.times[it] })
+        add("the rate of change, more at some times than at others" to moved(slope, age))
+        add("the value, more at some times than at others" to listOf(times(value, age), times(value, power(age, 2))))
+        if (moves()) track(value, slope)
+        for ((name, column) in scales.centred) {
+            if (name == Conditions.HEADING) continue
+            val condition = standard(column)
+            add("$name" to listOf(condition, power(condition, 2)))
+            add("the value, more at some values of $name than at others" to listOf(times(value, condition)))
+        }
+    }
+
+    private fun MutableList<Pair<String, List<DoubleArray>>>.track(value: DoubleArray, slope: DoubleArray) {
+        val heading = headings()
+        val east = DoubleArray(n) { cos(heading[it]) }
+        val north = DoubleArray(n) { sin(heading[it]) }
+        val twice = DoubleArray(n) { cos(2 * heading[it]) }
+        val twiceToo = DoubleArray(n) { sin(2 * heading[it]) }
+        add("the heading" to listOf(east, north, twice, twiceToo))
+        add("the value, more on some headings than on others" to listOf(times(value, east), times(value, north)))
+        add(
+            "the rate of change, more on some headings than on others" to
+                listOf(followed(times(slope, east)), followed(times(slope, north))),
+        )
+        val speed = standard(series.speed)
+        add("the speed" to listOf(speed, power(speed, 2)))
+        val x = standard(series.x)
+        val y = standard(series.y)
+        add("the position" to listOf(x, y, times(x, y), power(x, 2), power(y, 2)))
+    }
+
+    /**
+     * What a time constant that depends on [other], straight or curved, would add: its sources, as the lag shows
+     * them.
+     */
+    private fun moved(slope: DoubleArray, other: DoubleArray) =
+        listOf(followed(times(slope, other)), followed(times(slope, power(other, 2))))
+
+    /** [column] seen through the base lag. */
+    private fun followed(column: DoubleArray): DoubleArray {
+        val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
+        var state = 0.0
+        return DoubleArray(n) { i ->
+            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
+            state += -expm1(-dt / tau) * (column[i] - state)
+            state
+        }
+    }
+
+    private fun moves(): Boolean = median(series.speed) > 0.02
+
+    private fun headings(): DoubleArray {
+        val given = series.conditions[Conditions.HEADING]
+        if (given != null) return series.filled(given)
+        return DoubleArray(n) { i ->
+            val from = maxOf(i - 2, 0)
+            val to = minOf(i + 2, n - 1)
+            kotlin.math.atan2(series.y[to] - series.y[from], series.x[to] - series.x[from])
+        }
+    }
+
+    /** Six slow cosines over the log. */
+    private fun slow() = (1..6).map { k ->
+        DoubleArray(n) { cos(PI * k * (series.times[it] - series.times[0]) / maxOf(series.duration, 1e-9)) }
+    }
+
+    /** The truth earlier by several shares of the response's time: any linear response is near a sum of these. */
+    private fun response(): List<DoubleArray> {
+        val truth = requireNotNull(series.reference) { "structure needs a reference" }
+        val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period)
+        return doubleArrayOf(0.0, 0.5, 1.0, 2.0, 4.0, 8.0).map { share ->
+            var from = 0
+            DoubleArray(n) { i ->
+                while (from < i && series.times[i] - series.times[from + 1] >= share * tau) from++
+                truth[from]
+            }
+        }
+    }
+
+    /** The strongest of all frequencies that the log can tell apart. */
+    private fun periodic(): Dependence {
+        val highest = 0.4 / series.period
+        val lowest = 3 / maxOf(series.duration, 1e-9)
+        val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
+        if (count < 2) return Dependence("time, periodically", 0.0, 2, 1.0)
+        var best = 0.0
+        var period = 0.0
+        for (k in 0 until count) {
+            val frequency = lowest + (highest - lowest) * k / (count - 1)
+            var even = 0.0
+            var odd = 0.0
+            for (i in 0 until n) {
+                val phase = 2 * PI * frequency * (series.times[i] - series.times[0])
+                even += fit.whitened[i] * cos(phase)
+                odd += fit.whitened[i] * sin(phase)
+            }
+            val power = 2 * (even * even + odd * odd) / n
+            if (power > best) {
+                best = power
+                period = 1 / frequency
+            }
+        }
+        val ratio = Evidence.ratio(square, square - best, fit.noise.rows)
+        val p = minOf(1.0, Evidence.pValue(ratio, 2) * count)
+        return Dependence("time, periodically (every %.3g s)".format(java.util.Locale.ROOT, period), ratio, 2, p)
+    }
+
+    private fun standard(column: DoubleArray): DoubleArray {
+        val mean = column.average()
+        val spread = sqrt(column.sumOf { (it - mean) * (it - mean) } / column.size)
+        return DoubleArray(column.size) { if (spread > 0) ((column[it] - mean) / spread).coerceIn(-4.0, 4.0) else 0.0 }
+    }
+
+    private fun power(column: DoubleArray, exponent: Int) = DoubleArray(n) { i ->
+        var product = 1.0
+        repeat(exponent) { product *= column[i] }
+        product
+    }
+
+    private fun absolute(column: DoubleArray) = DoubleArray(n) { abs(column[it]) }
+
+    private fun times(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
+
+    private companion object {
+        const val MOST_FREQUENCIES = 2500
+        const val WORTH_A_FIT = 0.3
+    }
+}

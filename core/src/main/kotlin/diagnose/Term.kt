@@ -1,0 +1,33 @@
+package stillwater.diagnose
+
+/**
+ * A cause as a term of a model.
+ *
+ * @property cause the cause. @property condition the condition it depends on, where it names one.
+ * @property times when it acts, s after the first row, for jumps.
+ */
+internal data class Term(
+    val cause: Cause,
+    val condition: String? = null,
+    val times: List<Double> = emptyList(),
+) {
+    /** What tells terms of one cause apart: jumps of another time are the same term. */
+    val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
+}
+
+/**
+ * A number of a model.
+ *
+ * @property name its name in JSON. @property unit its unit; empty is dimensionless.
+ * @property logarithmic whether it is positive and is fitted as its logarithm.
+ * @property lower lowest value allowed. @property upper highest value allowed.
+ * @property neutral the value at which its term does nothing, where there is one.
+ */
+internal data class Parameter(
+    val name: String,
+    val unit: String,
+    val logarithmic: Boolean,
+    val lower: Double,
+    val upper: Double,
+    val neutral: Double = Double.NaN,
+)

@@ -1,0 +1,142 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.CliktCommand
+import com.github.ajalt.clikt.core.CliktError
+import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.context
+import com.github.ajalt.clikt.parameters.arguments.argument
+import com.github.ajalt.clikt.parameters.arguments.help
+import com.github.ajalt.clikt.parameters.groups.provideDelegate
+import com.github.ajalt.clikt.parameters.options.convert
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.multiple
+import com.github.ajalt.clikt.parameters.options.option
+import kotlinx.coroutines.runBlocking
+import stillwater.diagnose.Diagnosis
+import stillwater.diagnose.DiagnosisSettings
+import stillwater.diagnosis.Diagnosed
+import stillwater.diagnosis.DiagnosisFiles
+import stillwater.diagnosis.DiagnosisJson
+import stillwater.diagnosis.DiagnosisLog
+import stillwater.diagnosis.MapWorth
+import stillwater.io.LogProblem
+import stillwater.io.SurveyLog
+import stillwater.report.OutputDirectory
+import stillwater.report.OutputException
+import java.nio.file.Path
+
+/** `stillwater diagnose`: what the simulation gets wrong about a log, by name, with an extended sensor and the gain. */
+class DiagnoseCommand : CliktCommand("diagnose") {
+    init {
+        context { helpFormatter = { OneLineErrors(it) } }
+    }
+
+    private val log by argument("LOG").help("survey CSV or Platypus log")
+    private val out by option("--out", metavar = "DIR", help = "directory for the results")
+        .default("stillwater-diagnosis")
+    private val logOptions by LogOptions()
+    private val reference by option(
+        "--reference",
+        metavar = "COLUMN",
+        help = "column with the truth up to noise: a fast sensor, or known samples on a bench",
+    )
+    private val conditions by option(
+        "--condition",
+        metavar = "NAME=COLUMN",
+        help = "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own " +
+            "causes. Repeatable",
+    ).convert { text ->
+        val name = text.substringBefore('=').trim()
+        val column = text.substringAfter('=', "").trim()
+        if (name.isEmpty() || column.isEmpty()) throw BadFlag(this.name, "NAME=COLUMN", "'$text'")
+        name to column
+    }.multiple()
+    private val sensor by option(
+        "--sensor",
+        metavar = "FILE",
+        help = "sensor spec (JSON) as it is believed to be, taken as given; without it a first-order lag is fitted",
+    )
+    private val numbersOnly by option(
+        "--numbers-only",
+        help = "no figures, no report and no comparison of maps",
+    ).flag()
+    private val quiet by option("--quiet", help = "no summary").flag()
+    private val json by option("--json", help = "print diagnosis.json instead of a summary").flag()
+
+    override fun help(context: Context) = "Find out what the simulation gets wrong about a log, and name the cause."
+
+    override fun helpEpilog(context: Context) = helpEnd(
+        "Writes diagnosis.json, extended-sensor.json (where something was named), residuals.csv, figures as SVG and " +
+            "PNG, and report.html into DIR. Any honest verdict ends with exit code 0.",
+        listOf(
+            "stillwater diagnose tow.csv --value slow_mg_l --reference fast_mg_l --condition speed=speed_mps",
+            "stillwater diagnose bench.csv --value probe --reference sample --sensor believed.json --out bench",
+            "stillwater diagnose survey.csv --value odo_percent_sat --out lake --json",
+        ),
+    )
+
+    override fun run() {
+        try {
+            work()
+        } catch (wrong: BadFlag) {
+            throw wrong.of(currentContext)
+        } catch (problem: LogProblem) {
+            throw failure(problem.message.orEmpty())
+        } catch (problem: OutputException) {
+            throw failure(problem.message.orEmpty())
+        }
+    }
+
+    private fun work() {
+        val twice = conditions.map { it.first }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }
+        if (twice != null) throw BadFlag("--condition", "each name once", "'${twice.key}' several times")
+        val given = sensor?.let { SensorFile.read(it) }
+        val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
+        val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
+        OutputDirectory(Path.of(out)).use { directory ->
+            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference)
+            if (read.series.size < FEWEST_ROWS) {
+                throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
+            }
+            val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
+            val diagnosed = Diagnosed(read, result, worth(read, result))
+            val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
+            val written = directory.commit()
+            when {
+                json -> echo(DiagnosisJson.text(diagnosed).trimEnd())
+                !quiet -> {
+                    diagnosed.lines().forEach { echo(it) }
+                    for (warning in diagnosed.warnings + drawing) echo("warning: $warning", err = true)
+                    echo(
+                        "wrote ${written.size} files into $out, see ${Path.of(
+                            out,
+                        ).resolve(if (numbersOnly) "diagnosis.json" else "report.html")}",
+                        err = true,
+                    )
+                }
+            }
+        }
+    }
+
+    private fun worth(read: DiagnosisLog, result: stillwater.diagnose.DiagnosisResult): MapWorth? {
+        val extended = result.extendedSensor?.takeIf { !numbersOnly } ?: return null
+        val truth = if (reference != null) read.columns.reference else read.columns.values
+        val threads = Runtime.getRuntime().availableProcessors()
+        return runBlocking { MapWorth.of(result.baseSensor, extended, truth.min(), truth.max(), threads) }
+    }
+
+    private fun commandLine(): String {
+        val own = listOf("--reference" to reference) +
+            conditions.map { (name, column) -> "--condition" to "$name=$column" } +
+            listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
+        return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
+    }
+
+    private fun failure(message: String) = CliktError("stillwater diagnose: $message", statusCode = BAD_INPUT)
+
+    private companion object {
+        /** Fewer are no log. */
+        const val FEWEST_ROWS = 5
+    }
+}

@@ -1,0 +1,91 @@
+package stillwater.diagnosis
+
+import stillwater.diagnose.Candidate
+import stillwater.diagnose.Cause
+import stillwater.diagnose.DiagnosisResult
+import stillwater.diagnose.Verdict
+import stillwater.report.SignificantDigits
+
+/**
+ * A log and what the diagnosis says about it, in words.
+ *
+ * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
+ * null.
+ */
+class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: MapWorth?) {
+    /**
+     * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
+     * `unexplained`.
+     */
+    val causes: List<String> = when (val verdict = result.verdict) {
+        is Verdict.Named -> verdict.causes.map { it.label }
+        is Verdict.Ambiguous -> verdict.sets.filter { it.size == 1 }.map { it.single().label }
+        is Verdict.Consistent -> listOf("none")
+        is Verdict.Unexplained -> listOf("unexplained")
+        is Verdict.InsufficientData -> emptyList()
+    }
+
+    /** What the reader must know beside the answer. */
+    val warnings: List<String> = buildList {
+        addAll(result.warnings)
+        for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
+        if (log.missing > 0) add("${log.missing} rows left out: no number in the column ${log.reference}.")
+        if (log.cut > 0) add("${log.cut} rows at the end were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
+    }
+
+    /** The answer in one sentence. */
+    val answer: String = when (val verdict = result.verdict) {
+        is Verdict.Named -> verdict.causes.joinToString(" ") { sentence(it) }
+        is Verdict.Ambiguous -> verdict.sets.joinToString(" ") { set ->
+            if (set.size == 1) {
+                sentence(set.single())
+            } else {
+                "One of ${set.joinToString(", ") { it.label }} is at work; this track cannot tell which."
+            }
+        }
+        is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log."
+        is Verdict.Unexplained -> "Something is at work that no cause of the list explains: ${verdict.what}."
+        is Verdict.InsufficientData -> "This log cannot show it: ${verdict.why}."
+    }
+
+    private fun sentence(cause: Cause): String {
+        val candidate = result.candidates.firstOrNull { it.cause == cause }
+        val numbers = candidate?.let { numbers(it) }.orEmpty()
+        return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
+    }
+
+    /** The numbers of [candidate] in words. */
+    fun numbers(candidate: Candidate): String = candidate.parameters.joinToString(", ") { estimate ->
+        val three = SignificantDigits(3)
+        val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
+        val unit = if (estimate.unit.isEmpty()) "" else " ${estimate.unit}"
+        val name = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
+        "$name ${three.format(estimate.value)}$reach$unit"
+    }
+
+    /** Five lines for the terminal. */
+    fun lines(): List<String> {
+        val three = SignificantDigits(3)
+        val base = result.baseline
+        val after = result.extended
+        val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
+        val best = result.candidates.firstOrNull()
+        return listOf(
+            "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
+            answer,
+            "base: lag of ${three.format(tau?.value ?: Double.NaN)} s; residuals ${three.format(base.trainRmse)}, " +
+                "on held-out blocks ${three.format(base.heldOutRmse)} (root mean square)",
+            if (after != null) {
+                "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
+                    "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
+            } else {
+                "likeliest of ${result.candidates.size} causes tried: ${best?.cause?.label ?: "none"}, adjusted p " +
+                    three.format(best?.adjustedPValue ?: 1.0)
+            },
+            result.separatingManoeuvre?.let { "to tell them apart: $it" }
+                ?: result.dependences.firstOrNull()?.let {
+                    "what is left depends most on ${it.description}, adjusted p ${three.format(it.adjusted)}"
+                } ?: "nothing else was looked at",
+        )
+    }
+}

@@ -1,0 +1,237 @@
+package stillwater.diagnosis
+
+import stillwater.diagnose.Candidate
+import stillwater.diagnose.Cause
+import stillwater.diagnose.Verdict
+import stillwater.model.Conditions
+import stillwater.plot.Figure
+import stillwater.plot.LinePlot
+import stillwater.plot.Mark
+import stillwater.plot.Series
+import stillwater.plot.TrackMap
+import kotlin.math.atan2
+import kotlin.math.hypot
+import kotlin.math.sqrt
+
+/** A figure with the name of its files and what it shows. */
+internal class DiagnosisFigure(val name: String, val figure: Figure, val caption: String)
+
+/**
+ * Draws a [Diagnosed] log: predicted against measured, the residuals against all that they may depend on, the causes.
+ */
+internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
+    private val columns = diagnosed.log.columns
+    private val result = diagnosed.result
+    private val quantity = diagnosed.log.quantity
+    private val n = columns.size
+    private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
+    private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
+    private val stride = maxOf(1, n / MOST_POINTS)
+    private val moves = hypot(spread(columns.x), spread(columns.y)) > 1e-9
+
+    /** All figures in the order in which a reader wants them. */
+    fun draw(): List<DiagnosisFigure> = buildList {
+        add(predicted())
+        causes().forEach { add(cause(it)) }
+        add(against("time", "Time since the first row (s)", time))
+        add(against("value", "Predicted value of $quantity", result.baseline.predicted))
+        add(against("rate", "Predicted rate of change (1/s)", rate()))
+        if (moves) {
+            add(against("speed", "Speed (m/s)", columns.condition(Conditions.SPEED) ?: speed()))
+            val heading = columns.condition(Conditions.HEADING) ?: heading()
+            add(against("heading", "Heading (degrees counter-clockwise from east)", degrees(heading)))
+            add(position())
+        }
+        columns.condition(Conditions.TEMPERATURE)?.let { add(against("temperature", "Temperature (°C)", it)) }
+        add(correlation())
+    }
+
+    private fun predicted(): DiagnosisFigure {
+        val series = listOfNotNull(
+            Series("measured", time, columns.values),
+            Series("base", time, result.baseline.predicted),
+            result.extended?.let { Series("extended", time, it.predicted) },
+        )
+        val plot = LinePlot("Measured and predicted", "", series, "Time since the first row (s)", quantity)
+        return DiagnosisFigure(
+            "predicted",
+            plot.draw(),
+            "What was measured and what the simulation shows on the same track.",
+        )
+    }
+
+    private fun against(name: String, label: String, x: DoubleArray): DiagnosisFigure {
+        val rows = (0 until n step stride).filter { x[it].isFinite() }
+        val points = Series(
+            "residual",
+            DoubleArray(rows.size) { x[rows[it]] },
+            DoubleArray(rows.size) { residual[rows[it]] },
+            mark = Mark.POINTS,
+        )
+        val plot = LinePlot(
+            "Residuals against $name",
+            "",
+            listOf(points, means(x)),
+            label,
+            "Measured less predicted",
+            references = listOf(0.0),
+        )
+        return DiagnosisFigure(
+            "residuals-$name",
+            plot.draw(),
+            "The base model's residuals; the line is their mean in twenty equal parts, with two standard errors that " +
+                "allow for their correlation.",
+        )
+    }
+
+    /** Means of the residuals in twenty parts of [x] with as many rows each. */
+    private fun means(x: DoubleArray): Series {
+        val order = (0 until n).filter { x[it].isFinite() }.sortedBy { x[it] }
+        val parts = order.chunked(maxOf(1, (order.size + PARTS - 1) / PARTS))
+        val noise = result.baseline
+        // Correlated noise: a run of the correlation's length counts as one.
+        val period = if (n > 1) time.last() / (n - 1) else 1.0
+        val effective = 1 + 2 * noise.noiseShare * noise.noiseTime / period
+        val middles = DoubleArray(parts.size) { p -> parts[p].sumOf { x[it] } / parts[p].size }
+        val means = DoubleArray(parts.size) { p -> parts[p].sumOf { residual[it] } / parts[p].size }
+        val reach = DoubleArray(parts.size) { p -> 2 * noise.noiseSpread * sqrt(effective / parts[p].size) }
+        return Series(
+            "mean",
+            middles,
+            means,
+            DoubleArray(parts.size) { means[it] - reach[it] },
+            DoubleArray(parts.size) { means[it] + reach[it] },
+            Mark.LINE_AND_POINTS,
+        )
+    }
+
+    private fun position(): DiagnosisFigure {
+        val rows = (0 until n step stride).toList()
+        val map = TrackMap(
+            "Residuals along the track",
+            "",
+            DoubleArray(rows.size) { columns.x[rows[it]] },
+            DoubleArray(rows.size) { columns.y[rows[it]] },
+            DoubleArray(rows.size) { residual[rows[it]] },
+            "Measured less predicted",
+        )
+        return DiagnosisFigure("residuals-position", map.draw(), "The base model's residuals where they were measured.")
+    }
+
+    private fun correlation(): DiagnosisFigure {
+        val lags = minOf(MOST_LAGS, n / 4)
+        val x = DoubleArray(lags) { it + 1.0 }
+        val null95 = 1.96 / sqrt(n.toDouble())
+        val band =
+            Series(
+                "no correlation (95 %)",
+                x,
+                DoubleArray(lags),
+                DoubleArray(lags) {
+                    -null95
+                },
+                DoubleArray(lags) { null95 },
+            )
+        val plot = LinePlot(
+            "Correlation of the residuals",
+            "",
+            listOf(
+                band,
+                Series("as measured", x, correlations(residual, lags), mark = Mark.LINE_AND_POINTS),
+                Series("whitened", x, correlations(result.baseline.whitened, lags), mark = Mark.LINE_AND_POINTS),
+            ),
+            "Rows between",
+            "Correlation",
+            references = listOf(0.0),
+        )
+        return DiagnosisFigure(
+            "correlation",
+            plot.draw(),
+            "Correlated residuals make everything look significant; the tests use the whitened ones.",
+        )
+    }
+
+    /** The causes of the answer, and others that look likely. */
+    private fun causes(): List<Candidate> {
+        val named = when (val verdict = result.verdict) {
+            is Verdict.Named -> verdict.causes
+            is Verdict.Ambiguous -> verdict.sets.flatten()
+            else -> emptyList()
+        }
+        return result.candidates.filter {
+            it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
+        }
+            .distinctBy { it.cause }
+    }
+
+    private fun cause(candidate: Candidate): DiagnosisFigure {
+        val change = DoubleArray(n) { candidate.predicted[it] - result.baseline.predicted[it] }
+        val series = listOf(Series("residual of the base", time, residual), Series("what the cause adds", time, change))
+        val plot = LinePlot(
+            candidate.cause.label,
+            "",
+            series,
+            "Time since the first row (s)",
+            quantity,
+            references = listOf(0.0),
+        )
+        return DiagnosisFigure("cause-${candidate.cause.label}", plot.draw(), candidate.cause.sentence)
+    }
+
+    private fun rate() = DoubleArray(n) { i ->
+        val from = maxOf(i - 1, 0)
+        val to = minOf(i + 1, n - 1)
+        if (to ==
+            from
+        ) {
+            0.0
+        } else {
+            (result.baseline.predicted[to] - result.baseline.predicted[from]) / (time[to] - time[from])
+        }
+    }
+
+    private fun speed() = DoubleArray(n) { i ->
+        val from = maxOf(i - 3, 0)
+        val to = minOf(i + 3, n - 1)
+        if (to ==
+            from
+        ) {
+            0.0
+        } else {
+            hypot(columns.x[to] - columns.x[from], columns.y[to] - columns.y[from]) /
+                (time[to] - time[from])
+        }
+    }
+
+    private fun heading() = DoubleArray(n) { i ->
+        val from = maxOf(i - 3, 0)
+        val to = minOf(i + 3, n - 1)
+        atan2(columns.y[to] - columns.y[from], columns.x[to] - columns.x[from])
+    }
+
+    private fun degrees(radians: DoubleArray) = DoubleArray(radians.size) { Math.toDegrees(radians[it]).mod(360.0) }
+
+    private fun spread(column: DoubleArray) = (column.maxOrNull() ?: 0.0) - (column.minOrNull() ?: 0.0)
+
+    companion object {
+        private const val MOST_POINTS = 2000
+        private const val MOST_LAGS = 60
+        private const val PARTS = 20
+
+        /** All names that a figure may have. */
+        val NAMES = listOf("predicted", "correlation") +
+            listOf("time", "value", "rate", "speed", "heading", "position", "temperature").map { "residuals-$it" } +
+            Cause.entries.map { "cause-${it.label}" }
+
+        /** Correlation of [x] with itself 1 to [lags] rows later. */
+        fun correlations(x: DoubleArray, lags: Int): DoubleArray {
+            val mean = x.average()
+            val all = x.sumOf { (it - mean) * (it - mean) }
+            return DoubleArray(lags) { lag ->
+                var sum = 0.0
+                for (i in lag + 1 until x.size) sum += (x[i] - mean) * (x[i - lag - 1] - mean)
+                if (all > 0) sum / all else 0.0
+            }
+        }
+    }
+}

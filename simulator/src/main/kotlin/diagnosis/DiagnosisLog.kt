@@ -1,0 +1,59 @@
+package stillwater.diagnosis
+
+import stillwater.diagnose.MeasuredSeries
+import stillwater.io.LogPass
+import stillwater.io.SurveyLog
+import java.nio.file.Path
+
+/**
+ * A log as the diagnosis takes it.
+ *
+ * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
+ * truth,
+ * or null. @property series its columns. @property pass what was read. @property missing rows left out for want of a
+ * reference. @property cut rows at the end that were not looked at.
+ */
+class DiagnosisLog private constructor(
+    val file: Path,
+    val format: String,
+    val quantity: String,
+    val reference: String?,
+    val series: MeasuredSeries,
+    val columns: LogColumns,
+    val pass: LogPass,
+    val missing: Int,
+    val cut: Long,
+) {
+    companion object {
+        /** Key under which the reader keeps the reference: no name of a condition. */
+        const val REFERENCE = "(reference)"
+
+        /** More rows than this are not looked at. */
+        const val MOST_ROWS = 20_000
+
+        /** Reads [log], whose conditions hold the [reference] under [REFERENCE] where there is one. */
+        fun of(log: SurveyLog, conditions: Collection<String>, reference: String?): DiagnosisLog {
+            val columns = LogColumns(conditions)
+            var missing = 0
+            var cut = 0L
+            val pass = log.read { time, x, y, value, others ->
+                when {
+                    columns.size >= MOST_ROWS -> cut++
+                    reference != null && others[REFERENCE].isNaN() -> missing++
+                    else -> columns.add(time.seconds, x, y, value, others)
+                }
+            }
+            return DiagnosisLog(
+                log.file,
+                log.format,
+                log.quantity,
+                reference,
+                columns.series(reference != null),
+                columns,
+                pass,
+                missing,
+                cut,
+            )
+        }
+    }
+}

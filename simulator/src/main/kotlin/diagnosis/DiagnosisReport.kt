@@ -1,0 +1,124 @@
+package stillwater.diagnosis
+
+import stillwater.diagnose.Candidate
+import stillwater.report.HtmlReport
+import stillwater.report.Program
+import stillwater.report.Provenance
+import stillwater.report.SignificantDigits
+import stillwater.report.Table
+import stillwater.survey.ValueResolution
+
+/** The page about a [Diagnosed] log, for someone who has two minutes. */
+internal class DiagnosisReport(
+    private val diagnosed: Diagnosed,
+    private val figures: List<DiagnosisFigure>,
+    command: String,
+) {
+    private val result = diagnosed.result
+    private val three = SignificantDigits(3)
+    private val page = HtmlReport(
+        title = "Diagnosis of ${diagnosed.log.quantity}",
+        subtitle = "${diagnosed.log.file.fileName}, ${diagnosed.log.format}",
+        provenance = Provenance(Program.VERSION, command),
+    )
+
+    /** The page's text. */
+    fun render(): String {
+        page.summary("Verdict", result.verdict.label)
+        page.summary("Causes", diagnosed.causes.joinToString(", ").ifEmpty { "–" })
+        page.summary("Rows", "${diagnosed.log.series.size}")
+        page.summary("Residuals on held-out blocks, base", three.format(result.baseline.heldOutRmse))
+        result.extended?.let { page.summary("The same, extended", three.format(it.heldOutRmse)) }
+        diagnosed.warnings.forEach(page::warning)
+        page.section("The answer") { answer() }
+        page.section("Measured and predicted") { show("predicted") }
+        if (figures.any { it.name.startsWith("cause-") }) {
+            page.section("The causes") {
+                figures.filter { it.name.startsWith("cause-") }.forEach { figure(it.figure, it.caption) }
+            }
+        }
+        page.section("All causes tried") { tried() }
+        page.section("What the residuals depend on") { residuals() }
+        page.section("How it was done") { HOW.forEach(::paragraph) }
+        return page.render()
+    }
+
+    private fun stillwater.report.ReportSection.show(name: String) {
+        figures.firstOrNull { it.name == name }?.let { figure(it.figure, it.caption) }
+    }
+
+    private fun stillwater.report.ReportSection.answer() {
+        paragraph(diagnosed.answer)
+        result.separatingManoeuvre?.let { paragraph("What would tell the causes apart: $it.") }
+        val after = result.extended ?: return
+        val before = result.baseline
+        paragraph(
+            "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
+                "${three.format(
+                    before.heldOutRmse,
+                )} to ${three.format(after.heldOutRmse)}, and the log-likelihood rises by " +
+                "${three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)}.",
+        )
+        diagnosed.worth?.let { worth ->
+            paragraph(
+                "Worth for a map: in ${worth.environments} simulated fields sampled by the extended sensor, the " +
+                    "interval filter's error is ${three.format(
+                        worth.before,
+                    )} of the field's range with the base model's limits and " +
+                    "${three.format(worth.after)} with the extended model's (standard error of the difference " +
+                    "${three.format(worth.error)}).",
+            )
+        }
+        keyValues(after.parameters.map { it.name.replace('_', ' ') to "${three.format(it.value)} ${it.unit}" })
+    }
+
+    private fun stillwater.report.ReportSection.tried() {
+        table(
+            Table.of(result.candidates) {
+                text("Cause") { candidate: Candidate ->
+                    candidate.cause.label +
+                        (candidate.condition?.let { " ($it)" } ?: "")
+                }
+                text("Numbers (95 %)") { diagnosed.numbers(it) }
+                number("Residuals") { it.trainRmse }
+                number("On held-out blocks") { it.heldOutRmse }
+                number("p, for all tried") { it.adjustedPValue }
+            },
+        )
+    }
+
+    private fun stillwater.report.ReportSection.residuals() {
+        figures.filter {
+            it.name.startsWith("residuals-") || it.name == "correlation"
+        }.forEach { figure(it.figure, it.caption) }
+        val resolution = ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 }
+        val z = (result.extended ?: result.baseline).whitened
+        table(
+            Table.of(ResidualChecks.of(z, resolution, result.baseline.noiseSpread)) {
+                text("Whitened residuals of the best model") { it.name }
+                number("Value") { it.value }
+                number("Noise alone, from") { it.lower }
+                number("to") { it.upper }
+            },
+        )
+        table(
+            Table.of(result.dependences) {
+                text("What is left depends on") { it.description }
+                number("Likelihood ratio") { it.ratio }
+                number("p, for all looks") { it.adjusted }
+            },
+        )
+    }
+
+    private companion object {
+        val HOW = listOf(
+            "The base is a first-order lag with gain and offset, or the sensor that was given. Each cause is added " +
+                "to it and fitted to the log's own times by maximum likelihood, with noise of which a part may be " +
+                "correlated.",
+            "A cause is named only if its likelihood ratio, divided by what the scores' remaining correlation " +
+                "inflates it, is significant for all causes tried (Holm) and the likelihood of held-out blocks " +
+                "rises. Causes whose ratios are closer than the track can separate are named together.",
+            "Intervals hold if the model is right.",
+        )
+    }
+}

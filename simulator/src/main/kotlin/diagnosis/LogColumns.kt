@@ -1,0 +1,60 @@
+package stillwater.diagnosis
+
+import stillwater.diagnose.MeasuredSeries
+import stillwater.model.Conditions
+
+/** The columns of a log as they grow: times, s; positions, m; readings; [conditions] by name. */
+class LogColumns(private val conditions: Collection<String>) {
+    private val rows = ArrayList<DoubleArray>()
+    private val names = conditions.toList()
+
+    /** Number of rows. */
+    val size: Int get() = rows.size
+
+    /** Takes a row. */
+    fun add(time: Double, x: Double, y: Double, value: Double, others: Conditions) {
+        val row = DoubleArray(FIXED + 1 + names.size)
+        row[0] = time
+        row[1] = x
+        row[2] = y
+        row[3] = value
+        row[FIXED] = others[DiagnosisLog.REFERENCE]
+        names.forEachIndexed { i, name -> row[FIXED + 1 + i] = others[name] }
+        rows += row
+    }
+
+    private fun column(i: Int) = DoubleArray(rows.size) { rows[it][i] }
+
+    /** Times, s. */
+    val times: DoubleArray by lazy { column(0) }
+
+    /** Metres east. */
+    val x: DoubleArray by lazy { column(1) }
+
+    /** Metres north. */
+    val y: DoubleArray by lazy { column(2) }
+
+    /** Readings, sensor units. */
+    val values: DoubleArray by lazy { column(3) }
+
+    /** Truth up to noise, sensor units; NaN where there is none. */
+    val reference: DoubleArray by lazy { column(FIXED) }
+
+    /** The condition called [name], or null where there is none. */
+    fun condition(name: String): DoubleArray? =
+        names.indexOf(name).takeIf { it >= 0 }?.let { column(FIXED + 1 + it) }
+
+    /** The columns as a diagnosis takes them. */
+    fun series(withReference: Boolean) = MeasuredSeries(
+        times,
+        x,
+        y,
+        values,
+        if (withReference) reference else null,
+        names.associateWith { checkNotNull(condition(it)) },
+    )
+
+    private companion object {
+        const val FIXED = 4
+    }
+}

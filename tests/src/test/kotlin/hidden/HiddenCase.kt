@@ -1,0 +1,210 @@
+package stillwater.hidden
+
+import stillwater.field.Field
+import stillwater.model.BoatTime
+import java.nio.file.Files
+import java.nio.file.Path
+import java.util.Locale
+import kotlin.math.ceil
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.log10
+import kotlin.math.pow
+import kotlin.math.sqrt
+import kotlin.random.Random
+
+/** What a case hides, for the scorer alone. */
+internal data class HiddenTruth(
+    val track: TrackKind,
+    val effects: Map<HiddenEffect, Double>,
+    val multiples: Map<HiddenEffect, Double>,
+    val timeConstant: Double,
+    val noise: Double,
+)
+
+/**
+ * A log with or without hidden effects, drawn from a seed. The finder sees the file that [write] makes and nothing
+ * else.
+ *
+ * Two cases in five or more have no effect; of the others most have one, some two, some one that is not in the list of
+ * causes. Strengths are 0.25 to 4 times the [DetectableSize].
+ */
+internal class HiddenCase(seed: Long, private val withReference: Boolean) {
+    private val random = Random(seed * 7919 + if (withReference) 1 else 2)
+    private val kind = kinds().let { it[random.nextInt(it.size)] }
+    private val period = listOf(0.5, 1.0, 1.0, 2.0)[random.nextInt(4)]
+    private val rows = 900 + random.nextInt(600)
+    private val timeConstant = period * exp(ln(3.0) + random.nextDouble() * ln(5.0))
+    private val speed = 0.6 + 0.8 * random.nextDouble()
+    private val per = 20
+    private val world = world()
+    private val gain = 0.85 + 0.3 * random.nextDouble()
+    private val offset = world.amplitude * (random.nextDouble() - 0.5)
+    private val stepShares = List(1 + random.nextInt(2)) { 0.15 + 0.35 * (it + random.nextDouble()) }
+    private val noise = HiddenNoise(
+        spread = world.amplitude * 0.004 * exp(random.nextDouble() * ln(5.0)),
+        share = if (random.nextBoolean()) 0.0 else 0.3 + 0.6 * random.nextDouble(),
+        time = period * exp(ln(2.0) + random.nextDouble() * ln(6.0)),
+        period = period,
+    )
+    private val jitter = if (random.nextBoolean()) 0.0 else 0.2 + 0.5 * random.nextDouble()
+    private val drawn = draw()
+
+    /** What is hidden; the scorer's alone. */
+    val truth =
+        HiddenTruth(
+            kind,
+            drawn.mapValues {
+                it.value.first
+            },
+            drawn.mapValues { it.value.second },
+            timeConstant,
+            noise.spread,
+        )
+
+    private fun kinds() = if (withReference) {
+        TrackKind.entries
+    } else {
+        listOf(TrackKind.SURVEY, TrackKind.SURVEY, TrackKind.RANDOM_WALK)
+    }
+
+    private fun world(): HiddenWorld {
+        val size = rows * per + 1
+        val step = period / per
+        val track = HiddenTrack.draw(kind, random, size, step, speed)
+        // The shortest wave, half of it at the highest speed, still has some eight rows.
+        val length = maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
+        val field: Field =
+            if (kind == TrackKind.BENCH) {
+                BenchField(random, size * step, 6 * period, 6 * timeConstant)
+            } else {
+                WaveField(random, length)
+            }
+        val warm = WaveField(random, 3 * length)
+        val salt = WaveField(random, 2 * length)
+
+        // On the bench temperature and salinity wander with time instead of place.
+        fun along(other: Field, i: Int) =
+            if (kind == TrackKind.BENCH) {
+                other.truth(speed * i * step, 0.0, BoatTime(0.0))
+            } else {
+                other.truth(track.x[i], track.y[i], BoatTime(0.0))
+            }
+        return HiddenWorld(
+            track,
+            field,
+            amplitude = 10.0.pow(random.nextInt(3)),
+            level = 10.0 * random.nextDouble(),
+            temperature = DoubleArray(size) { HiddenSensor.ORDINARY_TEMPERATURE + 4 * along(warm, it) },
+            salinity = DoubleArray(size) { along(salt, it) },
+            per = per,
+        )
+    }
+
+    private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant) =
+        HiddenSensor(world, tau, gain, offset, effects, stepShares)
+
+    private fun draw(): Map<HiddenEffect, Pair<Double, Double>> {
+        val dice = random.nextDouble()
+        val listed = HiddenEffect.entries.filter { it.listed && fits(it) }
+        val strange = HiddenEffect.entries.filter { !it.listed && fits(it) }
+        val wanted = when {
+            dice < 0.42 -> return emptyMap()
+            dice < 0.76 -> listOf(listed[random.nextInt(listed.size)])
+            dice < 0.88 -> listed.shuffled(random).take(2)
+            else -> listOf(strange[random.nextInt(strange.size)])
+        }
+        val multiple = exp(ln(0.25) + random.nextDouble() * ln(16.0))
+        val size = DetectableSize(noise, { sensor(it).readings() }, { sensor(emptyMap(), it).readings() }, timeConstant)
+        val found = wanted.associateWith { size.of(it, multiple) }
+        // What no strength makes detectable on this track is not asked for.
+        return if (found.values.any {
+                it == null
+            }
+        ) {
+            emptyMap()
+        } else {
+            found.mapValues { checkNotNull(it.value) to multiple }
+        }
+    }
+
+    private fun fits(effect: HiddenEffect): Boolean = when (effect) {
+        HiddenEffect.TIME_VARYING -> !withReference
+        HiddenEffect.POSITION, HiddenEffect.HEADING -> kind != TrackKind.BENCH && kind != TrackKind.TOW
+        HiddenEffect.FLOW -> kind != TrackKind.BENCH
+        else -> true
+    }
+
+    /** Writes the log into [file]. */
+    fun write(file: Path) {
+        val clean = sensor(truth.effects).readings()
+        val values = noise.added(clean, random)
+        val outlying = truth.effects[HiddenEffect.OUTLIERS]
+        if (outlying != null) {
+            for (i in values.indices) {
+                val share = 2 * random.nextDouble() - 1
+                if (random.nextDouble() < HiddenNoise.OUTLIER_SHARE) values[i] += outlying * noise.spread * share
+            }
+        }
+        val fine = 10.0.pow(ceil(log10(noise.spread / 30)))
+        val quantum = truth.effects[HiddenEffect.QUANTISATION]?.let { it * noise.spread } ?: fine
+        val header = "time_s,x_m,y_m,value,speed_mps,temperature_c,salinity,heading_rad" +
+            if (withReference) ",reference" else ""
+        val lines = ArrayList<String>()
+        lines += header
+        for (row in 0 until rows) {
+            val i = (row + 1) * per
+            val numbers = listOf(
+                (row + 1) * period,
+                world.track.x[i] + jitter * random.normal(),
+                world.track.y[i] + jitter * random.normal(),
+                quantum * Math.rint(values[row] / quantum),
+                world.track.speed[i],
+                world.temperature[i] + 0.01 * random.normal(),
+                world.salinity[i] + 0.003 * random.normal(),
+                world.track.heading[i],
+            )
+            val known = if (withReference) {
+                listOf(
+                    world.truth(i) + 0.1 * noise.spread * random.normal(),
+                )
+            } else {
+                emptyList()
+            }
+            lines += (numbers + known).joinToString(",") { "%.9g".format(Locale.ROOT, it) }
+        }
+        Files.write(file, lines)
+    }
+}
+
+/** Noise of [spread], of which [share] (of the variance) is correlated over [time] s; rows are [period] s apart. */
+internal class HiddenNoise(val spread: Double, val share: Double, val time: Double, private val period: Double) {
+    /** [clean] with noise. */
+    fun added(clean: DoubleArray, random: Random): DoubleArray {
+        val keep = exp(-period / time)
+        var state = random.normal()
+        return DoubleArray(clean.size) { i ->
+            state = keep * state + sqrt(1 - keep * keep) * random.normal()
+            clean[i] + spread * (sqrt(share) * state + sqrt(1 - share) * random.normal())
+        }
+    }
+
+    /** [column] as innovations over their standard deviation: the best linear prediction from the past taken off. */
+    fun innovations(column: DoubleArray): DoubleArray {
+        val keep = exp(-period / time)
+        var mean = 0.0
+        var variance = share
+        return DoubleArray(column.size) { i ->
+            val total = variance + (1 - share) + 1e-12
+            val surprise = column[i] - mean
+            val k = variance / total
+            mean = keep * (mean + k * surprise)
+            variance = keep * keep * variance * (1 - k) + share * (1 - keep * keep)
+            surprise / sqrt(total) / spread
+        }
+    }
+
+    companion object {
+        const val OUTLIER_SHARE = 0.01
+    }
+}

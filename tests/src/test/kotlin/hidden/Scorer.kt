@@ -1,0 +1,147 @@
+package stillwater.hidden
+
+import kotlin.math.abs
+
+/** A case and the finder's answer to it. */
+internal class ScoredCase(val seed: Long, val truth: HiddenTruth, val answer: FinderAnswer) {
+    private val listed = truth.effects.keys.filter { it.listed }
+
+    /** What only a reference could tell apart is no alarm: a lag is there, of one kind or the other. */
+    private val claims = answer.sets.filter { it.toSet() != RESPONSE }
+
+    val isEmpty: Boolean get() = truth.effects.isEmpty()
+    val isOutside: Boolean get() = truth.effects.keys.any { !it.listed }
+    val isSingle: Boolean get() = listed.size == 1 && !isOutside
+    val isDouble: Boolean get() = listed.size == 2
+
+    /** Strength over the detectable one. */
+    val multiple: Double get() = truth.multiples.values.firstOrNull() ?: 0.0
+
+    /** Whether the answer says that anything is wrong. */
+    val alarmed: Boolean get() = claims.isNotEmpty() || answer.verdict == "unexplained"
+
+    /** Whether a single effect is named, alone or in a set of two, and nothing else is. */
+    val correct: Boolean
+        get() {
+            val label = listed.single().label
+            val own = answer.sets.filter { label in it && it.size <= 2 }
+            return own.isNotEmpty() && claims.all { label in it }
+        }
+
+    /** Whether both of two effects are in the answer. */
+    val bothFound: Boolean get() = listed.all { effect -> answer.sets.any { effect.label in it } }
+
+    /** Whether something of the list is claimed. */
+    val named: Boolean get() = claims.isNotEmpty() && answer.verdict != "unexplained"
+
+    /** The relative error of the effect's own number where it is comparable; NaN otherwise. */
+    val numberError: Double
+        get() {
+            val effect = listed.singleOrNull() ?: return Double.NaN
+            val name = NUMBERS[effect] ?: return Double.NaN
+            val found = answer.numbers[effect.label]?.get(name) ?: return Double.NaN
+            return abs(found / truth.effects.getValue(effect) - 1)
+        }
+
+    /** Share of the gain in held-out mean square that noise alone would leave; NaN where nothing was extended. */
+    val gainShare: Double
+        get() {
+            val possible = answer.before * answer.before - truth.noise * truth.noise
+            return (answer.before * answer.before - answer.after * answer.after) / possible
+        }
+
+    /** The answer in few words. */
+    val said: String
+        get() = when {
+            claims.isEmpty() -> answer.verdict
+            else -> claims.joinToString(" + ") { it.joinToString("/") }
+        }
+
+    private companion object {
+        val RESPONSE = setOf("time-constant", "dead-time")
+        val NUMBERS = mapOf(
+            HiddenEffect.DEAD_TIME to "dead_time_s",
+            HiddenEffect.SECOND_ORDER to "second_time_constant_s",
+            HiddenEffect.ASYMMETRIC to "log_ratio",
+            HiddenEffect.FLOW to "exponent",
+            HiddenEffect.TEMPERATURE to "relative_change_per_deg_c",
+            HiddenEffect.POSITION to "behind_m",
+        )
+    }
+}
+
+/** Counts over many cases, as text for docs/diagnosis.md. */
+internal class Scores(private val cases: List<ScoredCase>) {
+    private fun share(of: List<ScoredCase>, holds: (ScoredCase) -> Boolean): String {
+        val hits = of.count(holds)
+        return if (of.isEmpty()) "none drawn" else "$hits of ${of.size} (${Math.round(100.0 * hits / of.size)} %)"
+    }
+
+    /** False alarms over the cases without an effect, dimensionless. */
+    val falseAlarms: Double get() = cases.filter { it.isEmpty }.let { c ->
+        c.count { it.alarmed } /
+            maxOf(c.size, 1).toDouble()
+    }
+
+    /** Share of single effects at the detectable size or above that are named, dimensionless. */
+    val correct: Double
+        get() = cases.filter { it.isSingle && it.multiple >= 1 }.let { c ->
+            c.count { it.correct } /
+                maxOf(c.size, 1).toDouble()
+        }
+
+    /** The bars' table, the power curves and the confusability matrix, Markdown. */
+    fun markdown(): String = buildString {
+        val single = cases.filter { it.isSingle }
+        val strong = single.filter { it.multiple >= 1 }
+        appendLine("| what | result |\n| --- | --- |")
+        appendLine("| false alarms on no-effect cases | ${share(cases.filter { it.isEmpty }) { it.alarmed }} |")
+        appendLine("| cause correct, or in a set of two, at 1x and above | ${share(strong) { it.correct }} |")
+        appendLine(
+            "| two effects at 2x: both in the answer | ${share(
+                cases.filter {
+                    it.isDouble && it.multiple >= 2
+                },
+            ) { it.bothFound }} |",
+        )
+        val outside = cases.filter { it.isOutside && it.multiple >= 1 }
+        appendLine(
+            "| outside the list, 1x and above: unexplained or insufficient | ${share(outside) {
+                !it.named && it.answer.verdict != "consistent"
+            }} |",
+        )
+        appendLine("| outside the list, 1x and above: a wrong name | ${share(outside) { it.named }} |")
+        val numbers = single.filter { it.multiple >= 2 && it.correct && it.numberError.isFinite() }
+        appendLine(
+            "| number of the named cause within 10 % at 2x and above | ${share(numbers) {
+                it.numberError < 0.1
+            }} |",
+        )
+        val gains = strong.filter { it.correct && it.gainShare.isFinite() && it.multiple >= 1 }
+        appendLine(
+            "| held-out gain at least 85 % of the true model's, where named | ${share(gains) {
+                it.gainShare >= 0.85
+            }} |",
+        )
+        appendLine("\nPower: share of single effects named correctly, by strength over the detectable size.\n")
+        appendLine("| cause | 0.25 to 0.5 | 0.5 to 1 | 1 to 2 | 2 to 4 |\n| --- | --- | --- | --- | --- |")
+        for (effect in HiddenEffect.entries.filter { it.listed }) {
+            val own = single.filter { effect in it.truth.effects }
+            val cells = listOf(0.25 to 0.5, 0.5 to 1.0, 1.0 to 2.0, 2.0 to 4.01).joinToString(" | ") { (from, to) ->
+                own.filter {
+                    it.multiple >= from && it.multiple < to
+                }.let { c -> "${c.count { it.correct }}/${c.size}" }
+            }
+            appendLine("| ${effect.label} | $cells |")
+        }
+        appendLine("\nConfusability: what was said of single effects at 1x and above, where not the effect alone.\n")
+        appendLine("| hidden | said | cases |\n| --- | --- | --- |")
+        strong.groupBy { it.truth.effects.keys.single().label to it.said }.filter { it.key.first != it.key.second }
+            .toList().sortedWith(compareBy({ it.first.first }, { -it.second.size }))
+            .forEach { (key, of) -> appendLine("| ${key.first} | ${key.second} | ${of.size} |") }
+        appendLine(
+            "\nFalse alarms: " +
+                cases.filter { it.isEmpty && it.alarmed }.joinToString { "${it.seed} (${it.said})" }.ifEmpty { "none" },
+        )
+    }
+}
