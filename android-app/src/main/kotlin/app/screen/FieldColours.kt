@@ -37,6 +37,6 @@ internal object FieldColours {
         return Color.argb(alpha, Color.red(colour), Color.green(colour), Color.blue(colour))
     }
 
-    private const val LEAST_ALPHA = 40
+    private const val LEAST_ALPHA = 90
     private const val FULL_ALPHA = 255
 }
