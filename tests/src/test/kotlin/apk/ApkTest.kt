@@ -24,7 +24,9 @@ class ApkTest {
 
     @Test
     fun itAsksForWhatItNeedsAndForNoNetwork() {
-        val asked = badging().filter { it.startsWith("uses-permission") }.map { it.substringAfter("name='").dropLast(1) }
+        val asked = badging().filter {
+            it.startsWith("uses-permission")
+        }.map { it.substringAfter("name='").dropLast(1) }
         val expected =
             listOf(
                 "ACCESS_COARSE_LOCATION",
@@ -82,7 +84,17 @@ class ApkTest {
             dexes.flatMap { definedTypes(zip.getInputStream(it).readBytes()) }
         }
         val families =
-            types.map { type -> type.removePrefix("L").split('/').let { if (it[0] == "kotlinx") it.take(2) else it.take(1) } }
+            types.map { type ->
+                type.removePrefix("L").split('/').let {
+                    if (it[0] ==
+                        "kotlinx"
+                    ) {
+                        it.take(2)
+                    } else {
+                        it.take(1)
+                    }
+                }
+            }
         val expected =
             setOf(listOf("stillwater"), listOf("kotlin"), listOf("kotlinx", "serialization"), listOf("org"))
         assertEquals(emptySet(), families.toSet() - expected, "libraries in the APK")

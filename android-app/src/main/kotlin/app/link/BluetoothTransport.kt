@@ -14,10 +14,15 @@ import java.util.UUID
  *
  * Every connection is a fresh socket: one that has failed or was closed cannot be used again on many phones.
  */
-internal class BluetoothTransport(context: Context, private val address: String, override val name: String) : Transport {
+internal class BluetoothTransport(
+    context: Context,
+    private val address: String,
+    override val name: String,
+) : Transport {
     private val adapter: BluetoothAdapter? = context.bluetoothAdapter()
 
-    @SuppressLint("MissingPermission") // asked for by Permissions; a refusal is a SecurityException, which the link takes
+    // The screen asks for it; a refusal is a SecurityException, which the link takes.
+    @SuppressLint("MissingPermission")
     override fun connection(): Connection {
         val adapter = this.adapter ?: throw IOException("this phone has no Bluetooth")
         if (!adapter.isEnabled) throw IOException("Bluetooth is off")

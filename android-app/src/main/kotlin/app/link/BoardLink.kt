@@ -1,7 +1,9 @@
 package stillwater.app.link
 
-/** The way to the board as the mission sees it. No call waits and none throws. */
-interface BoardLink {
+import stillwater.wire.ByteLink
+
+/** The way to the board as the mission sees it: bytes, and what became of them. No call waits and none throws. */
+interface BoardLink : ByteLink {
     /** What the screen calls it. */
     val name: String
 
@@ -13,10 +15,4 @@ interface BoardLink {
 
     /** Ends the connection and the attempts. A closed link may be opened again. */
     fun close()
-
-    /** @return how many bytes lie in [into] now, 0 where nothing arrived, -1 where there is no connection. */
-    fun read(into: ByteArray): Int
-
-    /** @return false where [bytes] will not be sent. */
-    fun write(bytes: ByteArray): Boolean
 }

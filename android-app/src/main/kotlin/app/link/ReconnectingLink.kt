@@ -1,6 +1,7 @@
 package stillwater.app.link
 
 import android.util.Log
+import stillwater.wire.ByteLink
 import java.io.IOException
 import java.util.concurrent.ArrayBlockingQueue
 
@@ -61,7 +62,7 @@ internal class ReconnectingLink(
 
     override fun read(into: ByteArray): Int {
         val taken = received.take(into)
-        return if (taken == 0 && health.state != LinkState.CONNECTED) -1 else taken
+        return if (taken == 0 && health.state != LinkState.CONNECTED) ByteLink.LOST else taken
     }
 
     override fun write(bytes: ByteArray): Boolean {

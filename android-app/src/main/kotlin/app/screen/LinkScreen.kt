@@ -6,6 +6,7 @@ import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.R
 import stillwater.app.link.BluetoothTransport
+import stillwater.app.link.BoardReport
 import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkState
 import stillwater.app.link.SerialDrivers
@@ -95,6 +96,15 @@ internal class LinkScreen(
             name?.let { context.getString(R.string.link_connects, link.connects, link.drops, link.failures) },
             name?.let { context.getString(R.string.link_bytes, link.bytesIn, link.bytesOut) },
             name?.let { context.getString(R.string.link_dropped, link.bytesOverrun, link.writesDropped) },
+            name?.let {
+                context.getString(
+                    R.string.board_lines,
+                    snapshot.board.lines,
+                    snapshot.board.malformed,
+                    snapshot.board.refusals,
+                )
+            },
+            boardLine(snapshot.board),
             link.lastError?.let { context.getString(R.string.link_error, it) },
             if (fix == null) {
                 context.getString(R.string.no_fix_line)
@@ -103,6 +113,18 @@ internal class LinkScreen(
             },
         ).map { it.orEmpty() }
     }
+
+    /** What the board measured, in the order of its ports' likely use; empty where it said nothing. */
+    private fun boardLine(board: BoardReport): String =
+        listOfNotNull(
+            board.state?.let { context.getString(R.string.board_state, it.word) },
+            board.batteryVolts?.let { context.getString(R.string.board_battery, it) },
+            board.oxygen?.let { context.getString(R.string.board_oxygen, it) },
+            board.acidity?.let { context.getString(R.string.board_acidity, it) },
+            board.conductivity?.let { context.getString(R.string.board_conductivity, it) },
+            board.celsius?.let { context.getString(R.string.board_temperature, it) },
+            board.depth?.let { context.getString(R.string.board_depth, it) },
+        ).joinToString()
 
     private fun TextView.show(name: String, ready: Boolean) {
         text = context.getString(if (ready) R.string.check_ready else R.string.check_not_ready, name)
@@ -114,7 +136,7 @@ internal class LinkScreen(
     private fun column() = LinearLayout(context).apply { orientation = LinearLayout.VERTICAL }
 
     private companion object {
-        const val HEALTH_LINES = 7
+        const val HEALTH_LINES = 9
         const val MILLIS_PER_SECOND = 1000.0
     }
 }

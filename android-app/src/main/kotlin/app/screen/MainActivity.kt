@@ -6,6 +6,7 @@ import android.content.Context
 import android.content.Intent
 import android.content.ServiceConnection
 import android.content.pm.PackageManager
+import android.content.res.ColorStateList
 import android.net.Uri
 import android.os.Bundle
 import android.os.Handler
@@ -13,6 +14,7 @@ import android.os.IBinder
 import android.os.Looper
 import android.provider.Settings
 import android.view.View
+import android.widget.Button
 import android.widget.FrameLayout
 import android.widget.LinearLayout
 import stillwater.app.R
@@ -31,6 +33,7 @@ class MainActivity : Activity() {
     private lateinit var map: MapView
     private lateinit var mapScreen: View
     private lateinit var link: LinkScreen
+    private val tabs = mutableListOf<Pair<Button, View>>()
     private val main = Handler(Looper.getMainLooper())
     private var service: BoatService? = null
     private var refusedForGood = false
@@ -51,6 +54,8 @@ class MainActivity : Activity() {
         super.onCreate(savedInstanceState)
         map = MapView(this).apply { id = R.id.map }
         val words = line("").apply { id = R.id.map_words }
+        val gap = resources.getDimensionPixelSize(R.dimen.gap)
+        words.setPadding(gap, 0, gap, gap)
         map.onCell = { words.text = it }
         mapScreen =
             column().apply {
@@ -59,16 +64,17 @@ class MainActivity : Activity() {
             }
         link = LinkScreen(this, ::connect, ::allow, ::exempt)
         val screens = FrameLayout(this).apply { listOf(mapScreen, link).forEach(::addView) }
-        val tabs = LinearLayout(this)
+        val tabRow = LinearLayout(this)
         for ((tab, screen) in listOf(R.id.tab_map to mapScreen, R.id.tab_link to link)) {
             val name = getString(if (tab == R.id.tab_map) R.string.tab_map else R.string.tab_link)
             val button = largeButton(name) { open(screen) }.apply { id = tab }
-            tabs.addView(button, LinearLayout.LayoutParams(0, LinearLayout.LayoutParams.WRAP_CONTENT, 1f))
+            tabs += button to screen
+            tabRow.addView(button, LinearLayout.LayoutParams(0, LinearLayout.LayoutParams.WRAP_CONTENT, 1f))
         }
         val all =
             column().apply {
                 fitsSystemWindows = true
-                below(tabs)
+                below(tabRow)
                 below(screens, weight = 1f)
                 below(stopButton(::stop))
             }
@@ -99,13 +105,20 @@ class MainActivity : Activity() {
         // Refused, and Android would not even say why it is asked: it will not ask again.
         refusedForGood =
             permissions.indices.any {
-                results[it] != PackageManager.PERMISSION_GRANTED && !shouldShowRequestPermissionRationale(permissions[it])
+                results[it] != PackageManager.PERMISSION_GRANTED &&
+                    !shouldShowRequestPermissionRationale(permissions[it])
             }
         show()
     }
 
     private fun open(screen: View) {
-        for (each in listOf(mapScreen, link)) each.visibility = if (each === screen) View.VISIBLE else View.GONE
+        for ((tab, each) in tabs) {
+            each.visibility = if (each === screen) View.VISIBLE else View.GONE
+            tab.isSelected = each === screen
+            val (ground, text) = if (tab.isSelected) R.color.text to R.color.ground else R.color.button to R.color.text
+            tab.backgroundTintList = ColorStateList.valueOf(getColor(ground))
+            tab.setTextColor(getColor(text))
+        }
         if (screen === link) link.offer()
     }
 

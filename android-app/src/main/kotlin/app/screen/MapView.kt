@@ -10,6 +10,7 @@ import android.view.View
 import stillwater.app.R
 import stillwater.field.FieldMap
 import stillwater.model.Grid
+import stillwater.model.Interval
 import stillwater.model.Position
 
 /**
@@ -41,6 +42,7 @@ class MapView(context: Context) : View(context) {
             strokeCap = Paint.Cap.ROUND
         }
     private val words = Paint(Paint.ANTI_ALIAS_FLAG).apply { textSize = resources.getDimension(R.dimen.map_text) }
+    private val legend = ColourLegend(this)
     private val path = Path()
     private val dashes = DashPathEffect(floatArrayOf(8 * density, 6 * density), 0f)
 
@@ -50,7 +52,11 @@ class MapView(context: Context) : View(context) {
 
     override fun onDraw(canvas: Canvas) {
         val projection = projection() ?: return drawNothing(canvas)
-        scene.map?.let { drawCells(canvas, projection, it) }
+        scene.map?.let { map ->
+            val range = measuredRange(map)
+            drawCells(canvas, projection, map, range)
+            range?.let { legend.draw(canvas, it, scene.unit) }
+        }
         drawLine(canvas, projection, scene.fence, R.color.fence, FENCE_DP, closed = true)
         drawLine(canvas, projection, scene.track, R.color.track, TRACK_DP)
         drawLine(canvas, projection, listOfNotNull(scene.boat) + scene.plan, R.color.plan, PLAN_DP, dashed = true)
@@ -117,8 +123,8 @@ class MapView(context: Context) : View(context) {
         canvas.drawText(resources.getString(R.string.map_empty), width / 2f, height / 2f, words)
     }
 
-    private fun drawCells(canvas: Canvas, projection: MapProjection, map: FieldMap) {
-        // The colours span what is believed of the measured cells; one measured value alone sits in the middle.
+    /** The least and the greatest value of a measured cell, which the colours span; null before the first. */
+    private fun measuredRange(map: FieldMap): Interval? {
         var low = Double.POSITIVE_INFINITY
         var high = Double.NEGATIVE_INFINITY
         for (cell in 0 until map.grid.size) {
@@ -126,6 +132,10 @@ class MapView(context: Context) : View(context) {
             low = minOf(low, map.value(cell))
             high = maxOf(high, map.value(cell))
         }
+        return if (low <= high) Interval(low, high) else null
+    }
+
+    private fun drawCells(canvas: Canvas, projection: MapProjection, map: FieldMap, range: Interval?) {
         for (cell in 0 until map.grid.size) {
             if (map.readings(cell) == 0 && map.lower(cell) <= map.prior.lower && map.upper(cell) >= map.prior.upper) {
                 // Nothing is known of it: its outline alone.
@@ -134,7 +144,8 @@ class MapView(context: Context) : View(context) {
                 canvas.drawPath(path, line)
                 continue
             }
-            val share = if (high > low) (map.value(cell) - low) / (high - low) else MIDDLE
+            // One measured value alone sits in the middle.
+            val share = range?.takeIf { it.width > 0 }?.let { (map.value(cell) - it.lower) / it.width } ?: MIDDLE
             val certainty = 1 - (map.upper(cell) - map.lower(cell)) / map.prior.width
             fill.color = FieldColours.faded(FieldColours.of(share), certainty)
             outline(projection, map.grid, cell)

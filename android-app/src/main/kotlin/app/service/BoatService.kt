@@ -16,11 +16,15 @@ import android.os.PowerManager
 import android.os.SystemClock
 import android.util.Log
 import stillwater.app.AboveMinSdk
+import stillwater.app.link.BoardEars
 import stillwater.app.link.BoardLink
 import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkMaker
 import stillwater.app.pose.PhonePose
+import stillwater.model.Actuation
+import stillwater.wire.Command
+import stillwater.wire.PlatypusEncoder
 
 /**
  * Holds the link and the phone's position while the app is out of sight: in the foreground, with the processor awake.
@@ -35,8 +39,13 @@ open class BoatService : Service() {
     private lateinit var pose: PhonePose
     private lateinit var preflight: Preflight
     private lateinit var notification: BoatNotification
+
     @Volatile private var wakeLock: PowerManager.WakeLock? = null
     private var link: BoardLink? = null
+    private var ears = BoardEars()
+
+    /** How many connections of [link] have begun with a board that was told to stand still. */
+    private var disarmed = 0L
 
     @Volatile private var shown = BoatSnapshot()
 
@@ -130,6 +139,7 @@ open class BoatService : Service() {
 
     /** On the boat thread. [asked] is null where the service was started again without an intent. */
     private fun begin(asked: LinkChoice?) {
+        handler.removeCallbacks(letGo)
         val kept = getSharedPreferences(KEPT, Context.MODE_PRIVATE)
         val choice = asked ?: LinkChoice.kept(kept)
         if (choice == null) {
@@ -140,6 +150,8 @@ open class BoatService : Service() {
         LinkChoice.keep(kept, choice)
         keepAwake()
         link?.close()
+        ears = BoardEars()
+        disarmed = 0
         link = links.make(this, choice).also { it.open() }
         pose.stop()
         pose.start(handler)
@@ -154,7 +166,11 @@ open class BoatService : Service() {
     }
 
     private fun look() {
+        link?.let(ears::listen)
         val health = link?.health ?: LinkHealth()
+        // Whatever a board was told before this connection, by a process that died perhaps: it is over.
+        if (health.connects != disarmed) link?.let(::standStill)
+        disarmed = health.connects
         val fix = pose.fix
         val age = fix?.let { (SystemClock.elapsedRealtimeNanos() - it.elapsedNanos) * SECONDS_PER_NANO }
         val before = shown
@@ -163,6 +179,7 @@ open class BoatService : Service() {
                 activity = activity,
                 linkName = link?.name,
                 link = health,
+                board = ears.report,
                 refusal = refusal,
                 fix = fix,
                 fixAgeSeconds = age,
@@ -182,25 +199,41 @@ open class BoatService : Service() {
             }
         }
 
+    /** Motors off, then disarmed; the link closes once both had the time to go out. */
     private fun stopBoat() {
         handler.post {
+            activity = BoatActivity.IDLE
+            LinkChoice.keep(getSharedPreferences(KEPT, Context.MODE_PRIVATE), null)
+            link?.let(::standStill)
+            handler.postDelayed(letGo, LAST_WORDS_MILLIS)
+        }
+    }
+
+    private fun standStill(link: BoardLink) {
+        link.write(PlatypusEncoder.encode(Command.Move(Actuation.Differential(0.0, 0.0))))
+        link.write(PlatypusEncoder.encode(Command.Disarm))
+    }
+
+    /** On the boat thread. A start that comes before it is not undone: it takes this away. */
+    private val letGo: Runnable =
+        Runnable {
             link?.close()
             link = null
-            activity = BoatActivity.IDLE
             pose.stop()
-            LinkChoice.keep(getSharedPreferences(KEPT, Context.MODE_PRIVATE), null)
             look()
             wakeLock?.takeIf { it.isHeld }?.release()
             wakeLock = null
             stopForeground(STOP_FOREGROUND_REMOVE)
             stopSelf()
         }
-    }
 
     companion object {
         private const val STOP = "stillwater.app.STOP"
         private const val KEPT = "held-link"
         private const val REFRESH_MILLIS = 500L
+
+        /** Longer than two lines take at 115200 baud by far, and than a board waits for the next command. */
+        private const val LAST_WORDS_MILLIS = 300L
         private const val SECONDS_PER_NANO = 1e-9
 
         /** How links are made. */

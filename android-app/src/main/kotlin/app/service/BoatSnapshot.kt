@@ -1,5 +1,6 @@
 package stillwater.app.service
 
+import stillwater.app.link.BoardReport
 import stillwater.app.link.LinkHealth
 import stillwater.app.pose.PhoneFix
 
@@ -22,6 +23,7 @@ enum class BoatActivity {
  * What the screens show, as of one moment.
  *
  * @property linkName null where no link is held.
+ * @property board what the board said on this connection.
  * @property refusal the system's words, null unless [activity] is REFUSED.
  * @property fix newest fix of the phone, null before the first.
  * @property fixAgeSeconds how long ago [fix] was, s.
@@ -32,6 +34,7 @@ data class BoatSnapshot(
     val activity: BoatActivity = BoatActivity.IDLE,
     val linkName: String? = null,
     val link: LinkHealth = LinkHealth(),
+    val board: BoardReport = BoardReport(),
     val refusal: String? = null,
     val fix: PhoneFix? = null,
     val fixAgeSeconds: Double? = null,

@@ -35,7 +35,10 @@ class MapViewTest {
             "%.3f mg/L, between %.3f and %.3f; 10 readings".format(field.value(25), field.lower(25), field.upper(25))
         assertEquals(listOf(expected), said)
         val unmeasured = field.grid.center(field.grid.size - 1)
-        assertEquals("Not measured; between 4.000 and 12.000 mg/L", map.tap(projection.x(unmeasured), projection.y(unmeasured)))
+        assertEquals(
+            "Not measured; between 4.000 and 12.000 mg/L",
+            map.tap(projection.x(unmeasured), projection.y(unmeasured)),
+        )
         assertNull(map.tap(1f, 1f), "no cell there")
     }
 

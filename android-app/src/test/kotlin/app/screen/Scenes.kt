@@ -3,6 +3,7 @@ package stillwater.app.screen
 import stillwater.estimate.BoundedFilter
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Position
@@ -28,18 +29,26 @@ internal object Scenes {
                 track += center
                 repeat(SECONDS_A_CELL) {
                     time += 1.0
-                    val value = sensor.step(oxygen(center), 1.0)
+                    val value = sensor.step(oxygen(center), 1.0, Conditions.NONE)
                     filter.update(BoatTime(time), center.x, center.y, value)
                 }
             }
         }
-        val ahead = (ROWS_DONE until grid.rows step 2).flatMap { row -> lane(row) }
+        val ahead = (ROWS_DONE until grid.rows step 2).flatMap { row ->
+            if (row % 4 ==
+                3
+            ) {
+                lane(row).reversed()
+            } else {
+                lane(row)
+            }
+        }
         return MapScene(
             map = filter.map.copy(),
             track = track,
             plan = ahead,
             fence = fence(),
-            home = Position(-45.0, -40.0),
+            home = grid.center(0).moved(-6.0, 2.0),
             boat = track.last(),
             headingDeg = 350f,
             unit = "mg/L",

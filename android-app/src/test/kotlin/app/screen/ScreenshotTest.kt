@@ -13,6 +13,7 @@ import org.robolectric.RobolectricTestRunner
 import org.robolectric.annotation.Config
 import org.robolectric.annotation.GraphicsMode
 import stillwater.app.R
+import stillwater.app.link.BoardReport
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
 import stillwater.app.pose.PhoneFix
@@ -21,6 +22,7 @@ import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.PreflightCheck
 import stillwater.app.service.PreflightItem
 import stillwater.model.LatLon
+import stillwater.wire.BoardState
 import java.io.File
 import kotlin.math.abs
 
@@ -53,7 +55,7 @@ class ScreenshotTest {
 
     private fun mapScreen(): View {
         val activity = activity()
-        val map = activity.findViewById<MapView>(R.id.map)
+        val map = activity.view<MapView>(R.id.map)
         val scene = Scenes.halfSurveyed()
         map.scene = scene
         val projection =
@@ -65,8 +67,8 @@ class ScreenshotTest {
 
     private fun linkScreen(snapshot: BoatSnapshot): View {
         val activity = activity()
-        activity.findViewById<View>(R.id.tab_link).performClick()
-        var screen: View = activity.findViewById(R.id.state)
+        activity.view<View>(R.id.tab_link).performClick()
+        var screen: View = activity.view(R.id.state)
         while (screen !is LinkScreen) screen = screen.parent as View
         screen.show(snapshot, refusedForGood = false)
         return activity.window.decorView
@@ -131,7 +133,9 @@ class ScreenshotTest {
             BoatSnapshot(
                 activity = BoatActivity.STANDING_BY,
                 linkName = "Boat 3",
-                link = LinkHealth(LinkState.CONNECTED, 2, 1, 3, 48_213, 10_480, 0, 4, 87, "read failed, socket might closed"),
+                link =
+                LinkHealth(LinkState.CONNECTED, 2, 1, 3, 48_213, 10_480, 0, 4, 87, "read failed, socket might closed"),
+                board = BoardReport(5_210, 3, 0, BoardState.STANDBY, 15.26, oxygen = 8.71, celsius = 19.4),
                 fix = PhoneFix(LatLon(45.33, -73.15), 3.2f, 0.9f, 12f, 0),
                 fixAgeSeconds = 0.4,
                 headingDeg = 12f,
@@ -140,6 +144,7 @@ class ScreenshotTest {
         val lost =
             running.copy(
                 activity = BoatActivity.RECOVERED,
+                board = BoardReport(),
                 link = running.link.copy(state = LinkState.WAITING, drops = 2, quietMillis = null),
                 fixAgeSeconds = 41.0,
                 preflight =

@@ -22,6 +22,7 @@ import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkMaker
 import stillwater.app.link.LinkState
+import stillwater.wire.BoardState
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
@@ -74,6 +75,7 @@ class BoatServiceTest {
         val sent = shadowOf(stop.actionIntent).savedIntent
         service.onStartCommand(sent, 0, 2)
         settle()
+        assertEquals(standStill + standStill, made.single().sent, "when it connected and when it ended")
         assertFalse(made.single().open)
         assertFalse(assertNotNull(ShadowPowerManager.getLatestWakeLock()).isHeld)
         assertTrue(shadowOf(service).isStoppedBySelf)
@@ -89,6 +91,52 @@ class BoatServiceTest {
         val text = shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
         assertEquals("Boat 3: LINK LOST, trying again", text)
         assertEquals(LinkState.WAITING, service.snapshot.link.state)
+    }
+
+    @Test
+    fun whatTheBoardSaysIsShownUntilItIsGone() {
+        val service = started(BoatService.startIntent(context, board))
+        val link = made.single()
+        val said = "{\"s4\":{\"type\":\"battery\",\"data\":\"15.263 0.0 0.0\"}}\r\n{\"m0\":\r\n" +
+            "{\"s1\":{\"type\":\"atlas_do\",\"data\":\"10.15\"}}\r\n{\"s1\":{\"ty"
+        // Cut where no line ends: the pieces are the radio's.
+        said.chunked(7).forEach { link.arriving += it.toByteArray() }
+        settle()
+        val heard = service.snapshot.board
+        assertEquals(15.263, heard.batteryVolts)
+        assertEquals(10.15, heard.oxygen)
+        assertEquals(1L, heard.malformed)
+        link.state = LinkState.WAITING
+        settle()
+        assertNull(service.snapshot.board.batteryVolts)
+        // The half line before the loss is not joined with what comes after it.
+        link.state = LinkState.CONNECTED
+        link.arriving += "{\"e\":{\"type\":\"state\",\"data\":\"standby\"}}\r\n".toByteArray()
+        settle()
+        assertEquals(BoardState.STANDBY, service.snapshot.board.state)
+        assertEquals(1L, service.snapshot.board.malformed)
+    }
+
+    @Test
+    fun everyConnectionBeginsWithTheMotorsOffAndDisarmed() {
+        started(BoatService.startIntent(context, board))
+        val link = made.single()
+        settle()
+        assertEquals(standStill, link.sent, "once a connection, not once a look")
+        link.connects++
+        settle()
+        assertEquals(standStill + standStill, link.sent)
+    }
+
+    @Test
+    fun aStartRightAfterAStopIsNotUndone() {
+        val service = started(BoatService.startIntent(context, board))
+        service.onStartCommand(BoatService.stopIntent(context), 0, 2)
+        service.onStartCommand(BoatService.startIntent(context, board), 0, 3)
+        settle()
+        assertTrue(made.last().open)
+        assertFalse(shadowOf(service).isStoppedBySelf)
+        assertTrue(assertNotNull(ShadowPowerManager.getLatestWakeLock()).isHeld)
     }
 
     @Test
@@ -153,9 +201,12 @@ class BoatServiceTest {
 
     @Test
     fun aRefusalOfTheForegroundIsShownAndNoCrash() {
-        val refusals = listOf(SecurityException("location type not permitted"), IllegalStateException("not allowed now"))
+        val refusals =
+            listOf(SecurityException("location type not permitted"), IllegalStateException("not allowed now"))
         for (refusal in refusals) {
-            val service = Robolectric.buildService(RefusedService::class.java).also { it.get().refusal = refusal }.create()
+            val service = Robolectric.buildService(RefusedService::class.java).also {
+                it.get().refusal = refusal
+            }.create()
             service.get().onStartCommand(BoatService.startIntent(context, board), 0, 1)
             settle(service.get())
             assertEquals(BoatActivity.REFUSED, service.get().snapshot.activity)
@@ -192,8 +243,10 @@ class BoatServiceTest {
         @Volatile var open = false
 
         @Volatile var state = LinkState.CONNECTED
+
+        @Volatile var connects = 1L
         override val name: String = (choice as? LinkChoice.Bluetooth)?.name ?: "USB"
-        override val health: LinkHealth get() = LinkHealth(if (open) state else LinkState.CLOSED)
+        override val health: LinkHealth get() = LinkHealth(if (open) state else LinkState.CLOSED, connects)
 
         override fun open() {
             open = true
@@ -203,12 +256,20 @@ class BoatServiceTest {
             open = false
         }
 
-        override fun read(into: ByteArray): Int = 0
+        val arriving = ArrayDeque<ByteArray>()
+        val sent = mutableListOf<String>()
 
-        override fun write(bytes: ByteArray): Boolean = true
+        override fun read(into: ByteArray): Int {
+            if (state != LinkState.CONNECTED) return -1
+            return arriving.removeFirstOrNull()?.also { it.copyInto(into) }?.size ?: 0
+        }
+
+        override fun write(bytes: ByteArray): Boolean = sent.add(String(bytes))
     }
 
     private companion object {
+        val standStill =
+            listOf("{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}\n", "{\"e\":{\"cmd\":\"disarm\"}}\n")
         val board = LinkChoice.Bluetooth("00:11:22:33:AA:BB", "Boat 3")
     }
 }
