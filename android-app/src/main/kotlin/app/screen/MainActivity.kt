@@ -26,8 +26,8 @@ import stillwater.app.service.Preflight
 /**
  * The one window: a screen in the middle, the way to the others above it, STOP below it whatever the screen.
  *
- * It holds nothing that matters: it looks at the service twice a second while it is in sight, and may be turned, left or
- * swiped away at any time.
+ * It holds nothing that matters: it looks at the service twice a second while it is in sight, and may be turned, left
+ * or swiped away at any time.
  */
 class MainActivity : Activity() {
     private lateinit var map: MapView
