@@ -44,8 +44,9 @@ final class PackageApk {
     /** In jars, for compilers, shrinkers and people; no program reads it at run time. */
     private static final Pattern NOT_FOR_RUN_TIME = Pattern.compile(
         "META-INF/(MANIFEST\\.MF|[^/]*\\.(SF|DSA|RSA|EC|kotlin_module|version)|(maven|proguard|com\\.android\\.tools|versions)/.*"
-            + "|(LICENSE|NOTICE|DEPENDENCIES|AL2\\.0|LGPL2\\.1)[^/]*)"
-            + "|.*\\.(class|kotlin_builtins|kotlin_metadata|knm)|(.*/)?module-info.*|.*/");
+            + "|kotlin-project-structure-metadata\\.json|(LICENSE|NOTICE|DEPENDENCIES|AL2\\.0|LGPL2\\.1)[^/]*)"
+            + "|.*\\.(class|kotlin_builtins|kotlin_metadata|knm)|[A-Za-z]+Main/default/.*"
+            + "|(.*/)?module-info.*|.*/");
 
     private static final String SERVICES = "META-INF/services/";
 
