@@ -1,5 +1,6 @@
 // Loaded once here, so that the modules share one Kotlin plug-in.
 plugins {
+    alias(libs.plugins.android.application) apply false
     alias(libs.plugins.kotlin.jvm) apply false
     alias(libs.plugins.kotlin.serialization) apply false
 }

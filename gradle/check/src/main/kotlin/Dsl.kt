@@ -5,6 +5,7 @@
  */
 package gradlecheck.dsl
 
+import com.android.build.api.dsl.ApplicationExtension
 import org.gradle.api.Project
 import org.gradle.api.artifacts.Dependency
 import org.gradle.api.artifacts.dsl.DependencyHandler
@@ -23,6 +24,8 @@ public infix fun PluginDependencySpec.apply(apply: Boolean): PluginDependencySpe
 public val PluginDependenciesSpec.application: PluginDependencySpec get() = neverRun()
 
 public fun Project.kotlin(block: KotlinJvmExtension.() -> Unit): Unit = neverRun()
+
+public fun Project.android(block: ApplicationExtension.() -> Unit): Unit = neverRun()
 
 public fun Project.application(block: JavaApplication.() -> Unit): Unit = neverRun()
 

@@ -1,0 +1,79 @@
+package stillwater.app.link
+
+import stillwater.wire.BoardState
+import stillwater.wire.ByteLink
+import stillwater.wire.LineFramer
+import stillwater.wire.Message
+import stillwater.wire.PlatypusCodec
+
+/**
+ * What the board has said, as far as the screens show it. Null where it has not said so on this connection.
+ *
+ * @property lines whole lines that came.
+ * @property malformed lines, or parts of them, that were not understood.
+ * @property refusals commands that the board could not use.
+ * @property batteryVolts of the boat, V.
+ * @property oxygen dissolved, mg/L.
+ * @property acidity pH, dimensionless.
+ * @property conductivity µS/cm.
+ * @property celsius temperature of the water, °C.
+ * @property depth of the water, m.
+ */
+data class BoardReport(
+    val lines: Long = 0,
+    val malformed: Long = 0,
+    val refusals: Long = 0,
+    val state: BoardState? = null,
+    val batteryVolts: Double? = null,
+    val oxygen: Double? = null,
+    val acidity: Double? = null,
+    val conductivity: Double? = null,
+    val celsius: Double? = null,
+    val depth: Double? = null,
+)
+
+/** Listens to a board: core cuts the bytes into lines and the lines into messages. Confined to one thread. */
+internal class BoardEars {
+    private val codec = PlatypusCodec(::hear)
+    private val framer = LineFramer(codec)
+    private val buffer = ByteArray(BUFFER)
+    private var heard = BoardReport()
+
+    /** What was said so far. */
+    val report: BoardReport
+        get() = heard.copy(lines = framer.lines, malformed = codec.malformed.total + framer.oversized)
+
+    /** Takes all that has arrived. */
+    fun listen(link: ByteLink) {
+        while (true) {
+            val length = link.read(buffer)
+            if (length == ByteLink.LOST) {
+                // What follows is not the rest of the line that was cut, nor need it be the same board.
+                framer.reset()
+                heard = BoardReport(refusals = heard.refusals)
+            }
+            if (length <= 0) return
+            framer.accept(buffer, 0, length)
+        }
+    }
+
+    private fun hear(message: Message) {
+        heard =
+            when (message) {
+                is Message.State -> heard.copy(state = message.state)
+                is Message.Battery -> heard.copy(batteryVolts = message.volts)
+                is Message.Oxygen -> heard.copy(oxygen = message.milligramsPerLitre)
+                is Message.Acidity -> heard.copy(acidity = message.ph)
+                is Message.Conductivity ->
+                    heard.copy(conductivity = message.microsiemensPerCm, celsius = message.celsius)
+                is Message.WaterTemperature -> heard.copy(celsius = message.celsius)
+                is Message.Depth -> heard.copy(depth = message.metres)
+                is Message.Refused -> heard.copy(refusals = heard.refusals + 1)
+                else -> heard
+            }
+    }
+
+    private companion object {
+        const val BUFFER = 4096
+    }
+}

@@ -1,0 +1,76 @@
+package stillwater.app.link
+
+import android.content.Context
+import android.content.Intent
+import android.content.SharedPreferences
+import stillwater.app.R
+
+/** Which way to the board the person chose. */
+sealed interface LinkChoice {
+    /** A paired device. */
+    data class Bluetooth(val address: String, val name: String) : LinkChoice
+
+    /** Whatever serial adapter is plugged in. */
+    data object Usb : LinkChoice
+
+    companion object {
+        private const val KIND = "link"
+        private const val ADDRESS = "address"
+        private const val NAME = "name"
+        private const val BLUETOOTH = "bluetooth"
+        private const val USB = "usb"
+
+        /** Puts [choice] into [intent]. */
+        fun put(intent: Intent, choice: LinkChoice): Intent =
+            when (choice) {
+                is Usb -> intent.putExtra(KIND, USB)
+                is Bluetooth ->
+                    intent.putExtra(KIND, BLUETOOTH).putExtra(ADDRESS, choice.address).putExtra(NAME, choice.name)
+            }
+
+        /** The choice in [intent], null where it has none. */
+        fun of(intent: Intent): LinkChoice? = of { intent.getStringExtra(it) }
+
+        /** Keeps [choice] beyond the process; null forgets. */
+        fun keep(kept: SharedPreferences, choice: LinkChoice?) {
+            val edit = kept.edit().clear()
+            when (choice) {
+                null -> Unit
+                is Usb -> edit.putString(KIND, USB)
+                is Bluetooth ->
+                    edit.putString(KIND, BLUETOOTH).putString(ADDRESS, choice.address).putString(NAME, choice.name)
+            }
+            // On the disk before anything moves: what comes next may be the process's death.
+            edit.commit()
+        }
+
+        /** What was kept, null where nothing was. */
+        fun kept(kept: SharedPreferences): LinkChoice? = of { kept.getString(it, null) }
+
+        private fun of(text: (String) -> String?): LinkChoice? =
+            when (text(KIND)) {
+                USB -> Usb
+                BLUETOOTH -> text(ADDRESS)?.let { Bluetooth(it, text(NAME) ?: it) }
+                else -> null
+            }
+    }
+}
+
+/** Makes the link that a choice stands for; a test's makes a fake. */
+fun interface LinkMaker {
+    /** A link, not opened. */
+    fun make(context: Context, choice: LinkChoice): BoardLink
+
+    companion object {
+        /** Real links. */
+        val REAL =
+            LinkMaker { context, choice ->
+                when (choice) {
+                    is LinkChoice.Usb ->
+                        ReconnectingLink(UsbTransport(context, context.getString(R.string.usb_serial)))
+                    is LinkChoice.Bluetooth ->
+                        ReconnectingLink(BluetoothTransport(context, choice.address, choice.name))
+                }
+            }
+    }
+}

@@ -1,0 +1,36 @@
+package stillwater.app.screen
+
+import stillwater.field.FieldMap
+import stillwater.model.Position
+
+/**
+ * What the map screen draws; nothing in it changes once it is handed over. Positions in the local frame, m.
+ *
+ * @property map a copy of what is believed; null before the first.
+ * @property track where the boat has been, oldest first.
+ * @property plan where it means to go, next first.
+ * @property fence corners of the area it may not leave; empty where there is none.
+ * @property home where it returns to.
+ * @property boat where it is.
+ * @property headingDeg where it points, compass degrees; null where unknown.
+ * @property unit of the value, for the words; empty where unknown.
+ */
+class MapScene(
+    val map: FieldMap? = null,
+    val track: List<Position> = emptyList(),
+    val plan: List<Position> = emptyList(),
+    val fence: List<Position> = emptyList(),
+    val home: Position? = null,
+    val boat: Position? = null,
+    val headingDeg: Float? = null,
+    val unit: String = "",
+) {
+    /** All that has to fit onto the screen. */
+    internal fun extent(): List<Position> {
+        val corners =
+            map?.grid?.let { grid ->
+                listOf(0, grid.columns - 1, grid.size - grid.columns, grid.size - 1).flatMap(grid::corners)
+            }
+        return corners.orEmpty() + track + fence + listOfNotNull(home, boat)
+    }
+}

@@ -1,0 +1,134 @@
+package stillwater.app.link
+
+import android.app.Application
+import android.content.Intent
+import android.hardware.usb.UsbDevice
+import android.hardware.usb.UsbDeviceConnection
+import android.hardware.usb.UsbManager
+import com.hoho.android.usbserial.driver.UsbSerialDriver
+import com.hoho.android.usbserial.driver.UsbSerialPort
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.Robolectric
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import org.robolectric.annotation.Config
+import org.robolectric.shadow.api.Shadow
+import org.robolectric.util.ReflectionHelpers
+import java.io.IOException
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
+
+@RunWith(RobolectricTestRunner::class)
+@Config(sdk = [26, 29, 34, 35])
+class UsbTransportTest {
+    private val context: Application = RuntimeEnvironment.getApplication()
+    private val manager = context.getSystemService(UsbManager::class.java)!!
+    private val plugged = mutableListOf<UsbSerialDriver>()
+    private var devices = 0
+    private val transport = UsbTransport(context, "USB serial") { plugged.toList() }
+
+    @Test
+    fun withoutAnAdapterItSaysSo() {
+        assertEquals("no USB serial adapter is plugged in", assertFailsWith<IOException>(block = ::connect).message)
+    }
+
+    @Test
+    fun withoutThePermissionItFailsAndWithItItOpens() {
+        val first = plugIn(granted = false)
+        repeat(3) { assertFailsWith<IOException>(block = ::connect) }
+        shadowOf(manager).addOrUpdateUsbDevice(first.device, true)
+        connect()
+        assertEquals(1, first.port.opened)
+    }
+
+    @Test
+    fun theAnswerToTheDialogComesToThisAppOnly() {
+        val sent = shadowOf(UsbTransport.permissionAnswer(context)).savedIntent
+        assertEquals(context.packageName, sent.`package`)
+        assertEquals(UsbTransport.PERMISSION_ANSWERED, sent.action)
+    }
+
+    @Test
+    fun thePortIsOpenedAsTheBoardExpects() {
+        val driver = plugIn(granted = true)
+        val connection = connect()
+        assertEquals(listOf("open", "115200 8 1 0", "dtr true", "rts true"), driver.port.calls)
+        connection.close()
+        assertEquals("close", driver.port.calls.last())
+    }
+
+    @Test
+    fun aReplugIsAnotherDeviceAndIsFound() {
+        plugIn(granted = true)
+        connect()
+        plugged.clear()
+        assertFailsWith<IOException>(block = ::connect)
+        val again = plugIn(granted = true)
+        connect()
+        assertEquals(1, again.port.opened)
+    }
+
+    @Test
+    fun theAttachActivityIsGoneBeforeItIsSeen() {
+        val intent = Intent(UsbManager.ACTION_USB_DEVICE_ATTACHED)
+        val activity = Robolectric.buildActivity(UsbAttachedActivity::class.java, intent).create().get()
+        assertTrue(activity.isFinishing)
+        assertEquals(null, shadowOf(activity).nextStartedActivity)
+    }
+
+    @Test
+    fun theLibraryIsSeenWhereItIsOnTheClassPath() {
+        // In this test its declarations stand for it; in the APK that Maven makes there is nothing (ApkTest).
+        assertTrue(SerialDrivers.areBuiltIn())
+    }
+
+    private fun connect(): Connection = transport.connection().apply { open() }
+
+    private fun plugIn(granted: Boolean): FakeDriver {
+        val device: UsbDevice = Shadow.newInstanceOf(UsbDevice::class.java)
+        // The platform makes devices in a way of its own on each version; the name is all that is looked at.
+        ReflectionHelpers.setField(device, "mName", "/dev/bus/usb/001/00${++devices}")
+        shadowOf(manager).addOrUpdateUsbDevice(device, granted)
+        return FakeDriver(device).also { plugged += it }
+    }
+
+    private class FakeDriver(private val device: UsbDevice) : UsbSerialDriver {
+        val port = FakePort()
+
+        override fun getDevice(): UsbDevice = device
+
+        override fun getPorts(): List<UsbSerialPort> = listOf(port)
+    }
+
+    private class FakePort : UsbSerialPort {
+        val calls = mutableListOf<String>()
+        val opened get() = calls.count { it == "open" }
+
+        override fun open(connection: UsbDeviceConnection?) {
+            calls += "open"
+        }
+
+        override fun setParameters(baudRate: Int, dataBits: Int, stopBits: Int, parity: Int) {
+            calls += "$baudRate $dataBits $stopBits $parity"
+        }
+
+        override fun setDTR(value: Boolean) {
+            calls += "dtr $value"
+        }
+
+        override fun setRTS(value: Boolean) {
+            calls += "rts $value"
+        }
+
+        override fun read(into: ByteArray, timeoutMillis: Int): Int = 0
+
+        override fun write(from: ByteArray, timeoutMillis: Int) = Unit
+
+        override fun close() {
+            calls += "close"
+        }
+    }
+}

@@ -1,0 +1,121 @@
+package stillwater.apk
+
+import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.BeforeEach
+import java.io.File
+import java.nio.ByteBuffer
+import java.nio.ByteOrder
+import java.util.zip.ZipFile
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** The app as it is installed. That it is signed, the packager checks itself before the file gets its name. */
+class ApkTest {
+    private val module = generateSequence(File("").absoluteFile) { it.parentFile }
+        .first { it.resolve("settings.gradle.kts").isFile }
+        .resolve("android-app")
+    private val apk = module.resolve("target/stillwater.apk")
+
+    @BeforeEach
+    fun theApkIsBuilt() {
+        assumeTrue(apk.isFile, "$apk is missing, `mvn package` makes it: the app is not looked at")
+    }
+
+    @Test
+    fun itAsksForWhatItNeedsAndForNoNetwork() {
+        val asked = badging().filter {
+            it.startsWith("uses-permission")
+        }.map { it.substringAfter("name='").dropLast(1) }
+        val expected =
+            listOf(
+                "ACCESS_COARSE_LOCATION",
+                "ACCESS_FINE_LOCATION",
+                "BLUETOOTH' maxSdkVersion='30",
+                "BLUETOOTH_CONNECT",
+                "FOREGROUND_SERVICE",
+                "FOREGROUND_SERVICE_CONNECTED_DEVICE",
+                "FOREGROUND_SERVICE_LOCATION",
+                "POST_NOTIFICATIONS",
+                "REQUEST_IGNORE_BATTERY_OPTIMIZATIONS",
+                "WAKE_LOCK",
+            )
+        assertEquals(expected, asked.map { it.removePrefix("android.permission.") }.sorted())
+    }
+
+    @Test
+    fun itRunsOnTheAndroidsThatItPromises() {
+        val badging = badging()
+        for (line in listOf("minSdkVersion:'26'", "targetSdkVersion:'35'")) assertTrue(line in badging, "$badging")
+        assertTrue(badging.first().startsWith("package: name='stillwater.app'"), badging.first())
+        assertTrue(badging.none { it.startsWith("uses-feature:") && "touch" in it }, "no feature is required")
+    }
+
+    @Test
+    fun itIsSmall() {
+        assertTrue(apk.length() < 8_000_000, "${apk.length()} bytes")
+    }
+
+    /** Android maps what is stored into memory, and wants it at a multiple of four. */
+    @Test
+    fun whatIsStoredIsAligned() {
+        val bytes = ByteBuffer.wrap(apk.readBytes()).order(ByteOrder.LITTLE_ENDIAN)
+        val end = (bytes.limit() - END_SIZE downTo 0).first { bytes.getInt(it) == END_MARK }
+        var entry = bytes.getInt(end + 16)
+        var stored = 0
+        repeat(bytes.getShort(end + 10).toInt()) {
+            val nameLength = bytes.getShort(entry + 28)
+            val name = String(bytes.array(), entry + 46, nameLength.toInt())
+            if (bytes.getShort(entry + 10).toInt() == 0) {
+                val local = bytes.getInt(entry + 42)
+                val data = local + 30 + bytes.getShort(local + 26) + bytes.getShort(local + 28)
+                assertEquals(0, data % 4, "$name begins at $data")
+                stored++
+            }
+            entry += 46 + nameLength + bytes.getShort(entry + 30) + bytes.getShort(entry + 32)
+        }
+        assertTrue(stored > 0, "resources.arsc at least is stored")
+    }
+
+    @Test
+    fun itHoldsTheAppItsLibrariesAndNothingElse() {
+        val types = ZipFile(apk).use { zip ->
+            val dexes = zip.entries().asSequence().filter { it.name.endsWith(".dex") }.toList()
+            dexes.flatMap { definedTypes(zip.getInputStream(it).readBytes()) }
+        }
+        val expected = listOf("stillwater/", "kotlin/", "kotlinx/serialization/") + ANNOTATIONS
+        val foreign = types.filter { type -> expected.none { type.startsWith("L$it") } }
+        assertTrue(types.isNotEmpty() && foreign.isEmpty(), "$foreign")
+    }
+
+    /** Class descriptors that a dex file defines. Source: the Dalvik executable format, version 035 to 040. */
+    private fun definedTypes(dex: ByteArray): List<String> {
+        val bytes = ByteBuffer.wrap(dex).order(ByteOrder.LITTLE_ENDIAN)
+        val (strings, types) = bytes.getInt(60) to bytes.getInt(68)
+        val (count, classes) = bytes.getInt(96) to bytes.getInt(100)
+        return List(count) { index ->
+            val type = bytes.getInt(classes + 32 * index)
+            var start = bytes.getInt(strings + 4 * bytes.getInt(types + 4 * type))
+            // The length, of seven bits a byte, then the characters and a zero.
+            while (dex[start++] < 0) Unit
+            String(dex, start, (start until dex.size).first { dex[it] == 0.toByte() } - start)
+        }
+    }
+
+    private fun badging(): List<String> {
+        val aapt2 = module.resolve("target/tools").walk().first { it.isFile && it.name.startsWith("aapt2") }
+        val process = ProcessBuilder(aapt2.path, "dump", "badging", apk.path).redirectErrorStream(true).start()
+        val lines = process.inputStream.bufferedReader().readLines()
+        assertEquals(0, process.waitFor(), lines.joinToString("\n"))
+        return lines
+    }
+
+    private companion object {
+        const val END_MARK = 0x06054b50
+        const val END_SIZE = 22
+
+        /** What comes with Kotlin's own library, and what D8 marks the classes with that it makes. */
+        val ANNOTATIONS =
+            listOf("org/jetbrains/annotations/", "org/intellij/lang/annotations/", "com/android/tools/r8/annotations/")
+    }
+}
