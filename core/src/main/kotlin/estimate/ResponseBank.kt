@@ -63,7 +63,14 @@ internal class ResponseBank {
     val succession: Double get() = filters.succession(branch())
 
     /** Forgets all and takes [kind] with these parameters and steps; [noise] is the noise's variance, scaled. */
-    fun reset(kind: ResponseBankKind, first: Double, firstStep: Double, second: Double, secondStep: Double, noise: Double) {
+    fun reset(
+        kind: ResponseBankKind,
+        first: Double,
+        firstStep: Double,
+        second: Double,
+        secondStep: Double,
+        noise: Double,
+    ) {
         this.kind = kind
         this.first = first
         this.second = second

@@ -143,8 +143,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
             "stillwater benchmark --field uniform --filter bounded --moves 6000",
             "stillwater benchmark --preset original --choice best --seed 7",
             "stillwater benchmark --sensor my-probe.json --environments 20 --json",
-            "stillwater benchmark --preset noisy --planner lawnmower --filter self-calibrating --boats 1,2,4,8",
-            "stillwater benchmark --preset noisy --filter self-calibrating --area lake.geojson --margin 3 --boats 2",
+            "stillwater benchmark --planner lawnmower --filter interval --boats 1,2,4,8",
+            "stillwater benchmark --filter bounded --area my-lake.geojson --boats 2",
         ),
     )
 

@@ -46,6 +46,10 @@ class CorrectCommand : CliktCommand("correct") {
     )
     private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
         .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
+    private val heldOut by option(
+        "--held-out",
+        help = "also learn on some legs and score the correction on the others; takes five times as long",
+    ).flag()
     private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
     private val json by option("--json", help = "print the summary as JSON").flag()
 
@@ -107,7 +111,7 @@ class CorrectCommand : CliktCommand("correct") {
                     }
                 }
             }
-            val files = CorrectFiles(result, unit, commandLine())
+            val files = CorrectFiles(result, unit, commandLine(), if (heldOut) result.heldOut() else null)
             val drawing = files.write(directory)
             val written = directory.commit()
             when {
@@ -125,7 +129,13 @@ class CorrectCommand : CliktCommand("correct") {
         "stillwater correct",
         log,
         logOptions.flags() +
-            listOf("--out" to out, "--reference" to reference, "--sensor" to sensor, "--unit" to unit),
+            listOf(
+                "--out" to out,
+                "--reference" to reference,
+                "--sensor" to sensor,
+                "--unit" to unit,
+                "--held-out" to heldOut,
+            ),
     )
 
     private fun failure(message: String) = CliktError("stillwater correct: $message", statusCode = BAD_INPUT)

@@ -3,6 +3,7 @@ package stillwater.correct
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.addJsonObject
 import kotlinx.serialization.json.buildJsonArray
 import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
@@ -24,9 +25,15 @@ import stillwater.report.writeFigures
  * reading have these empty.
  *
  * @param result what to write. @param unit unit of the quantity, or null. @param command the command as typed.
+ * @param heldOut scores of legs that the sensor was not learned on, or null where they were not asked for.
  */
-class CorrectFiles(private val result: CorrectedLog, unit: String?, private val command: String) {
-    private val summary = CorrectSummary(result, unit)
+class CorrectFiles(
+    private val result: CorrectedLog,
+    unit: String?,
+    private val command: String,
+    private val heldOut: List<HeldOutScore>? = null,
+) {
+    private val summary = CorrectSummary(result, unit, heldOut)
 
     /** Rows of the log that are no reading; known once written. */
     private var otherRows = 0L
@@ -36,8 +43,9 @@ class CorrectFiles(private val result: CorrectedLog, unit: String?, private val 
         get() = summary.warnings +
             listOfNotNull("$otherRows rows could not be used and have empty cells".takeIf { otherRows > 0 })
 
-    /** The five lines for the terminal. */
-    fun lines(): List<String> = summary.facts.take(TERMINAL_LINES).map { (name, value) -> "$name: $value" }
+    /** The five lines for the terminal, and one for the legs held out. */
+    fun lines(): List<String> =
+        summary.facts.take(TERMINAL_LINES + if (heldOut == null) 0 else 1).map { (name, value) -> "$name: $value" }
 
     /** Writes all files into [directory], which the caller commits; returns warnings about the figures. */
     fun write(directory: OutputDirectory): List<String> {
@@ -102,6 +110,18 @@ class CorrectFiles(private val result: CorrectedLog, unit: String?, private val 
         }
         result.before?.let { put("opposite_legs_before", it.opposite.mean) }
         result.after?.let { put("opposite_legs_after", it.opposite.mean) }
+        heldOut?.let { scores ->
+            putJsonArray("held_out") {
+                for (score in scores) {
+                    addJsonObject {
+                        put("learned_on", score.learnedOn)
+                        put("legs", score.legs)
+                        put("opposite_legs_before", score.before)
+                        put("opposite_legs_after", score.after)
+                    }
+                }
+            }
+        }
         put("mean_half_width", summary.halfWidth)
         put("learned_on", result.learnedOn)
         put("blocks", result.blocks)

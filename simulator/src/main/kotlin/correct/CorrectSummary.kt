@@ -9,9 +9,14 @@ import stillwater.survey.Wording.Companion.percent
 /**
  * A [CorrectedLog] in words.
  *
- * @param result what it is about. @param unit unit of the quantity, or null.
+ * @param result what it is about. @param unit unit of the quantity, or null. @param heldOut scores of legs held out, or
+ * null where they were not asked for.
  */
-internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
+internal class CorrectSummary(
+    private val result: CorrectedLog,
+    unit: String?,
+    private val heldOut: List<HeldOutScore>? = null,
+) {
     /** The unit after a number, with a blank before it; empty without one. */
     val unitAfter: String = unit?.let { " $it" }.orEmpty()
 
@@ -67,6 +72,7 @@ internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
             add("opposite legs" to legs())
             add("rows" to rows())
             add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average")
+            heldOut?.let { add("held out" to heldOut(it)) }
             add("format" to result.log.format)
             add("duration" to duration(result.statistics.duration))
             val resolution = result.statistics.resolution
@@ -88,6 +94,16 @@ internal class CorrectSummary(private val result: CorrectedLog, unit: String?) {
         val words = if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
         return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, " +
             "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words)"
+    }
+
+    private fun heldOut(scores: List<HeldOutScore>): String {
+        if (scores.isEmpty()) return "fewer than ${HeldOutLegs.FEWEST} legs, or no sensor learned from them"
+        val each = scores.joinToString { "${percent(it.gain)} learned on ${it.learnedOn}" }
+        return "legs not learned on differ by ${percent(
+            scores.sumOf {
+                it.gain
+            } / scores.size,
+        )} less on average ($each)"
     }
 
     private fun rows(): String {

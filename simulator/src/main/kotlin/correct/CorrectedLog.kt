@@ -29,6 +29,7 @@ import stillwater.survey.LegMismatch
 import stillwater.survey.SurveyScan
 import stillwater.survey.SurveyStatistics
 import stillwater.survey.Track
+import kotlin.math.abs
 import kotlin.random.Random
 
 /** Where a [CorrectedLog]'s sensor comes from. */
@@ -67,6 +68,25 @@ class CorrectedLog internal constructor(
     val blocks: Int,
     val withoutReference: Int,
 ) {
+    /**
+     * How well a sensor that is learned on some legs corrects the others; empty where the sensor was not learned from
+     * revisits or there are too few legs. Takes four times as long as the correction itself.
+     */
+    fun heldOut(): List<HeldOutScore> {
+        // A thinned track's points are not the rows.
+        if (origin != SensorOrigin.REVISITS || before == null || series.size > MOST_LEARNED) return emptyList()
+        return HeldOutLegs(before) { rows ->
+            val learned = byRevisits(series.at(rows))
+            if (learned.choice ==
+                null
+            ) {
+                null
+            } else {
+                legs(series, corrected(series, learned, learned.stages, resolution(statistics)).values)
+            }
+        }.scores()
+    }
+
     /** What a log says about its sensor. */
     private class Learned(
         val origin: SensorOrigin,
@@ -117,7 +137,7 @@ class CorrectedLog internal constructor(
             }
             val statistics = scan.statistics()
             val series = rows.series()
-            val resolution = statistics.resolution.takeIf { it.isFinite() } ?: 0.0
+            val resolution = resolution(statistics)
             val learned = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
@@ -131,9 +151,7 @@ class CorrectedLog internal constructor(
                 else -> byRevisits(series)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
-            val sensor = UndoableSensor.of(spec)
-            val track = TrackCorrector(sensor.calibrated(series), resolution / kotlin.math.abs(sensor.gain))
-                .correct(learned.likely)
+            val track = corrected(series, learned, spec.stages, resolution)
             return CorrectedLog(
                 log,
                 pass,
@@ -150,6 +168,20 @@ class CorrectedLog internal constructor(
                 learned.withoutReference,
             )
         }
+
+        /** [series] with the response of [stages] undone as [learned] says. */
+        private fun corrected(
+            series: TrackSeries,
+            learned: Learned,
+            stages: List<SensorStage>,
+            resolution: Double,
+        ): CorrectedTrack {
+            val sensor = UndoableSensor.of(SensorSpec("", stages))
+            val scaled = sensor.calibrated(series)
+            return TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(learned.likely)
+        }
+
+        private fun resolution(statistics: SurveyStatistics) = statistics.resolution.takeIf { it.isFinite() } ?: 0.0
 
         private fun quantum(resolution: Double) =
             if (resolution > 0) listOf(SensorStage.Quantum(resolution)) else emptyList()

@@ -138,6 +138,13 @@ class CorrectCommandTest {
         assertEquals(76.0, first.getValue("mean_delay_s").jsonPrimitive.double, 8.0)
     }
 
+    @Test
+    fun fewLegsAreNotHeldOut() {
+        val result = run(log(survey()), "--value", "slow", "--held-out")
+        assertContains(result.stdout, "held out: fewer than 8 legs")
+        assertTrue(summary().getValue("held_out").jsonArray.isEmpty())
+    }
+
     private fun summary() = Json.parseToJsonElement(out.resolve("summary.json").readText()).jsonObject
 
     private fun kotlinx.serialization.json.JsonObject.number(name: String) = getValue(name).jsonPrimitive.double

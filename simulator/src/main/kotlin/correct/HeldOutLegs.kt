@@ -1,0 +1,64 @@
+package stillwater.correct
+
+import stillwater.survey.LegMismatch
+
+/**
+ * How far opposite legs differ that the sensor was not learned on.
+ *
+ * @property learnedOn legs it was learned on, in words. @property legs number of legs scored.
+ * @property before mean mismatch of these legs as measured, sensor units. @property after as corrected, sensor units.
+ */
+data class HeldOutScore(val learnedOn: String, val legs: Int, val before: Double, val after: Double) {
+    /** What of the mismatch went, a share of [before]; negative where it grew. */
+    val gain: Double get() = 1 - after / before
+}
+
+/**
+ * Learns the sensor on some legs of a log and scores the correction on the others: on halves, whose scored legs and
+ * neighbours are all unseen, and on every other pair of legs, whose scored legs have neighbours that were seen.
+ *
+ * @param measured the legs as measured. @param correct what the legs become when the sensor is learned on these rows
+ * alone; null where they teach nothing.
+ */
+internal class HeldOutLegs(private val measured: LegMismatch, private val correct: (List<Int>) -> LegMismatch?) {
+    private val count = measured.legs.legs.size
+
+    /** The scores of the splits that have legs to score; empty for fewer than [FEWEST] legs. */
+    fun scores(): List<HeldOutScore> {
+        if (count < FEWEST) return emptyList()
+        val half = count / 2
+        return listOfNotNull(
+            score("the first half", learned = { it < half }, scored = { it > half && it < count - 1 }),
+            score("the second half", learned = { it >= half }, scored = { it in 1 until half - 1 }),
+            score("odd pairs", learned = { it / 2 % 2 == 0 }, scored = { it / 2 % 2 == 1 }),
+            score("even pairs", learned = { it / 2 % 2 == 1 }, scored = { it / 2 % 2 == 0 }),
+        )
+    }
+
+    private fun score(words: String, learned: (Int) -> Boolean, scored: (Int) -> Boolean): HeldOutScore? {
+        val corrected = correct(rows(learned)) ?: return null
+        val after = corrected.scores.associate { it.number to it.opposite }
+        val both = measured.scores.filter { scored(it.number - 1) && it.number in after }
+        if (both.isEmpty()) return null
+        return HeldOutScore(
+            words,
+            both.size,
+            both.sumOf { it.opposite } / both.size,
+            both.sumOf { after.getValue(it.number) } / both.size,
+        )
+    }
+
+    /** Rows of the legs that [isIn] takes, and of the turns between two of them. */
+    private fun rows(isIn: (Int) -> Boolean): List<Int> {
+        val legs = measured.legs.legs
+        return legs.indices.filter(isIn).flatMap { i ->
+            val next = if (i + 1 < count && isIn(i + 1)) legs[i + 1].first - 1 else legs[i].last
+            legs[i].first..next
+        }
+    }
+
+    companion object {
+        /** Legs below which halves have too few to learn on and to score. */
+        const val FEWEST = 8
+    }
+}
