@@ -1,0 +1,140 @@
+package stillwater.mission
+
+import stillwater.control.Mixing
+import stillwater.model.Actuation
+import stillwater.model.BoatTime
+import stillwater.model.Drive
+import stillwater.wire.BoardState
+import stillwater.wire.ByteLink
+import stillwater.wire.Command
+import stillwater.wire.CommandEncoder
+import stillwater.wire.LineFramer
+import stillwater.wire.Malformed
+import stillwater.wire.Message
+import stillwater.wire.MessageSink
+import stillwater.wire.PlatypusCodec
+import stillwater.wire.PlatypusEncoder
+
+/**
+ * The board as the mission sees it: what it said last, how long it has been silent, and what it is told.
+ *
+ * [hear] reads all that has arrived and hands messages on; [tell] sends at most one drive in [HEARTBEAT] s but
+ * for a first rest, and [askState] at most one question in [PATIENCE] s. Never throws on data. Confined to one thread.
+ *
+ * @param link to the board. Retained.
+ * @param mixing how a drive becomes thrust.
+ * @param sink where messages go. Retained.
+ * @param encoder turns commands into bytes.
+ */
+public class BoardPort(
+    private val link: ByteLink,
+    private val mixing: Mixing,
+    private val sink: MessageSink,
+    private val encoder: CommandEncoder = PlatypusEncoder,
+) {
+    private val codec = PlatypusCodec(::heard)
+    private val framer = LineFramer(codec)
+    private val buffer = ByteArray(BUFFER)
+    private var now = BoatTime(0.0)
+    private var heardAt = Double.NEGATIVE_INFINITY
+    private var toldAt = Double.NEGATIVE_INFINITY
+    private var askedAt = Double.NEGATIVE_INFINITY
+
+    /** What the board last said of itself; null before it said anything. */
+    public var state: BoardState? = null
+        private set
+
+    /** Battery, V; NaN before it was heard of. */
+    public var volts: Double = Double.NaN
+        private set
+
+    /** Commands that the board could not use. */
+    public var refusals: Long = 0
+        private set
+
+    /** Writes that the link did not take. */
+    public var unsent: Long = 0
+        private set
+
+    /** What was last sent to the actuators. */
+    public var sent: Actuation = mixing.mix(Drive.NONE)
+        private set
+
+    /** Lines and parts of lines that could not be read. */
+    public val unreadable: Long get() = codec.malformed.total + framer.oversized
+
+    /** Times [kind] was met in what the board sent. */
+    public fun malformed(kind: Malformed): Long =
+        if (kind == Malformed.OVERSIZED) framer.oversized else codec.malformed[kind]
+
+    /** Time since the board was last understood, s; infinite before. */
+    public fun silence(now: BoatTime): Double = now.seconds - heardAt
+
+    /** Reads all that has arrived by [now]. */
+    public fun hear(now: BoatTime) {
+        this.now = now
+        repeat(MOST_READS) {
+            val count = link.read(buffer)
+            if (count == ByteLink.LOST) framer.reset()
+            if (count <= 0) return
+            framer.accept(buffer, 0, count)
+        }
+    }
+
+    /** Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. */
+    public fun tell(now: BoatTime, drive: Drive) {
+        val actuation = mixing.mix(drive)
+        val isNewRest = actuation.isAtRest && !sent.isAtRest
+        if (!isNewRest && now.seconds - toldAt < HEARTBEAT) return
+        toldAt = now.seconds
+        sent = actuation
+        send(Command.Move(actuation))
+    }
+
+    /** Sends [command] at once. */
+    public fun order(command: Command) {
+        send(command)
+    }
+
+    /** Asks the board for its state, unless that was done less than [PATIENCE] s ago. Answers whether it was asked. */
+    public fun askState(now: BoatTime): Boolean {
+        if (now.seconds - askedAt < PATIENCE) return false
+        askedAt = now.seconds
+        send(Command.AskState)
+        return true
+    }
+
+    /** Takes what the board said of itself to be no longer known. */
+    public fun forgetState() {
+        state = null
+    }
+
+    private fun send(command: Command) {
+        if (!link.write(encoder.encode(command))) unsent++
+    }
+
+    private fun heard(message: Message) {
+        // What the board could not read is no sign that it obeys, but it is one that it hears and speaks.
+        heardAt = now.seconds
+        when (message) {
+            is Message.State -> state = message.state
+            is Message.Battery -> volts = message.volts
+            is Message.Refused -> refusals++
+            else -> Unit
+        }
+        sink.message(message)
+    }
+
+    public companion object {
+        /** Time between drives, s: well within the watchdog of 0.5 s. */
+        public const val HEARTBEAT: Double = 0.1 - 1e-6
+
+        /** Time between questions, s. */
+        public const val PATIENCE: Double = 1.0
+
+        private const val BUFFER = 4096
+
+        /** So that a link that never runs dry can't hold a step up. */
+        private const val MOST_READS = 16
+    }
+}

@@ -1,0 +1,202 @@
+package stillwater.mission
+
+import stillwater.control.Failsafe
+import stillwater.control.Fence
+import stillwater.control.Mixing
+import stillwater.control.Ruling
+import stillwater.control.SafetyGate
+import stillwater.control.Situation
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Drive
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import stillwater.model.Position
+import stillwater.model.Reading
+import stillwater.wire.ByteLink
+import stillwater.wire.Command
+import stillwater.wire.Message
+
+/**
+ * A boat's whole way of working, one [step] after the other: it calls, and computes nothing itself.
+ *
+ * Link, framer, codec ([BoardPort]); where the boat was when a sample was taken ([PoseHistory]); is it plausible
+ * ([PlausibilityGate]); estimator, map; planner, when the last waypoint was reached; follower; safety gate, which has the
+ * last word in every state; encoder, link; and one [MissionLog] record a step.
+ *
+ * The phone hands in its fixes and compass as they come and calls [step] at about 10 Hz, all on one thread: a step
+ * farther than half a second from the one before makes the board's watchdog rest the motors. No step throws on data.
+ *
+ * @property spec the mission.
+ * @param link to the board. Retained.
+ * @param log where it is written down. Retained.
+ * @param mixing how a drive becomes thrust.
+ * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null to
+ *   begin anew.
+ * @throws IllegalArgumentException if [recovered] is of another mission.
+ */
+public class Mission(
+    public val spec: MissionSpec,
+    link: ByteLink,
+    private val log: MissionLog,
+    mixing: Mixing = Mixing.DIFFERENTIAL,
+    private val recovered: RecoveredMission? = null,
+) {
+    init {
+        require(recovered == null || recovered.spec == spec) {
+            "recovered (${recovered?.spec?.name}) must be of the same mission (${spec.name})"
+        }
+    }
+
+    private val water = spec.area.water()
+    private val pose = PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed)
+    private val survey = Survey(
+        spec.probe,
+        recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
+        object : SurveyListener {
+            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) =
+                log.reading(now, message, verdict, taken, held)
+
+            override fun passed(time: BoatTime, place: Position) = log.pass(now, time, place)
+        },
+    )
+    private val port = BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) })
+    private val use = BudgetUse(spec.budget)
+    private val navigator = Navigator(spec, water, pose.track, use)
+    private val gate = SafetyGate(spec.failsafe.settings(), Fence(spec.area.corners()))
+    private val situation = Situation()
+    private var now = BoatTime(Double.NaN)
+    private var armedAt = Double.NEGATIVE_INFINITY
+    private var stopWanted = false
+
+    /** What the mission is about. */
+    public var state: MissionState = MissionState.Idle
+        private set
+
+    /** What was last let through to the motors. */
+    public var drive: Drive = Drive.NONE
+        private set
+
+    /** What is believed about the water. */
+    public val map: FieldMap get() = survey.map
+
+    /** Where the boat is believed to be, m; null where not known. */
+    public val position: Position?
+        get() = if (pose.track.isKnown) Position(pose.track.x, pose.track.y) else null
+
+    /** Used of the budget, in its unit. */
+    public val used: Double get() = use.used
+
+    /** The board, for what it said of itself and what could not be read. */
+    public val board: BoardPort get() = port
+
+    /** What was left out of the readings, by reason. */
+    public val readings: PlausibilityGate get() = survey.gate
+
+    /** Fixes refused. */
+    public val refusedFixes: Long get() = pose.refused
+
+    /** Steps refused because time stood still, went back or was no number. */
+    public var refusedSteps: Long = 0
+        private set
+
+    /** The waypoints ahead, the one steered for first; for display. Allocates. */
+    public fun waypoints(): List<Position> = navigator.ahead()
+
+    /** A person wants the mission to begin; without effect unless it is idle. */
+    public fun start() {
+        if (state == MissionState.Idle) state = MissionState.Preflight(null)
+    }
+
+    /** A person wants the boat to stop: motors rest from the next step on, and the mission is over. */
+    public fun stop() {
+        stopWanted = true
+    }
+
+    /** The phone's fix of [place] at [time]. */
+    public fun fix(time: BoatTime, place: LatLon): Unit = pose.fix(time, place)
+
+    /** The phone's [heading] at [time], rad, counter-clockwise from east, and [yawRate], rad/s, NaN where unknown. */
+    public fun compass(time: BoatTime, heading: Double, yawRate: Double): Unit = pose.compass(time, heading, yawRate)
+
+    /** Does all that is due at [time], on the boat's clock. Answers the state afterwards. */
+    public fun step(time: BoatTime): MissionState {
+        if (!time.seconds.isFinite() || time.seconds <= now.seconds) {
+            refusedSteps++
+            return state
+        }
+        val dt = if (now.seconds.isNaN()) begin(time) else time - now
+        now = time
+        pose.advance(time, dt, drive)
+        if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y)
+        port.hear(time)
+        val ruling = assess()
+        val before = state
+        state = MissionPhases.next(state, PhaseInput(ruling, port.state, navigator.isHome, spec.failsafe.rearms))
+        if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
+        drive = gate.permit(wanted(ruling), situation, ruling)
+        command(before)
+        log.step(StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut))
+        return state
+    }
+
+    private fun begin(time: BoatTime): Double {
+        recovered?.let {
+            survey.resume(it, time)
+            use.resume(it.used)
+        }
+        return 0.0
+    }
+
+    private fun assess(): Ruling {
+        pose.describe(situation)
+        situation.seconds = now.seconds
+        situation.linkAge = port.silence(now)
+        situation.volts = port.volts
+        situation.operatorStop = stopWanted
+        situation.missionEnded = navigator.isOver
+        return gate.assess(situation)
+    }
+
+    /** What the mission would do if the gate let it. */
+    private fun wanted(ruling: Ruling): Drive {
+        when (state) {
+            MissionState.Surveying -> navigator.survey(survey.map, survey.lastValue)
+            is MissionState.Returning -> navigator.goHome()
+            is MissionState.Holding ->
+                if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.HOLD) navigator.hold() else navigator.rest()
+            else -> navigator.rest()
+        }
+        return navigator.steer(pose.heading, pose.yawRate)
+    }
+
+    private fun command(before: MissionState) {
+        when (state) {
+            MissionState.Idle, is MissionState.Preflight -> port.askState(now)
+            is MissionState.Stopped -> {
+                val isNew = before !is MissionState.Stopped
+                if (isNew) port.tell(now, Drive.NONE)
+                if (isNew || port.askState(now)) port.order(Command.Disarm)
+            }
+            else -> {
+                if (state == MissionState.Arming) arm(before)
+                port.tell(now, drive)
+                port.askState(now)
+            }
+        }
+    }
+
+    /** The slowest motor controllers take 18 s to arm, and being told again may start them over. */
+    private fun arm(before: MissionState) {
+        if (before == MissionState.Arming && now.seconds - armedAt < LONGEST_ARMING) return
+        armedAt = now.seconds
+        port.order(Command.Arm)
+    }
+
+    private fun isUnderWay(state: MissionState) =
+        state == MissionState.Surveying || state is MissionState.Holding || state is MissionState.Returning
+
+    private companion object {
+        const val LONGEST_ARMING = 20.0
+    }
+}

@@ -1,0 +1,161 @@
+package stillwater.mission
+
+import stillwater.model.BoatTime
+import stillwater.model.Drive
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import stillwater.model.Position
+import stillwater.model.Reading
+import stillwater.model.Utm
+import stillwater.wire.Message
+import kotlin.math.cos
+import kotlin.math.sin
+
+/** Takes the lines of a log, in order and without terminator. Whoever has the file flushes it every second at least. */
+public fun interface LogSink {
+    /** Takes [line]. */
+    public fun line(line: String)
+}
+
+/**
+ * When a log begins, on the wall clock.
+ *
+ * @property epochMillis Unix time, ms.
+ * @property date the same for people; free text.
+ */
+public data class LogStart(val epochMillis: Long, val date: String)
+
+/**
+ * What a mission records of one step.
+ *
+ * @property time of the step.
+ * @property state the mission is in.
+ * @property position believed, m; null where not known.
+ * @property heading rad, counter-clockwise from east; NaN where not known.
+ * @property drive that was let through.
+ * @property used of the budget, in its unit.
+ * @property leftOut readings that the map did without.
+ */
+public data class StepRecord(
+    val time: BoatTime,
+    val state: MissionState,
+    val position: Position?,
+    val heading: Double,
+    val drive: Drive,
+    val used: Double,
+    val leftOut: Long,
+)
+
+/**
+ * Writes a mission down, line by line: a superset of the Platypus 4.2 log, `<ms>` tab `I` tab `{json}`.
+ *
+ * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step), `reading` (what the map
+ * took, exactly) or `pass` (a cell left without a reading); the first line has the whole mission. Numbers are written so
+ * that they are read back to the last bit; what is not finite is `null`. [MissionRecovery] reads it back.
+ *
+ * A mission that goes on after a restart appends to the same log; the new first line then says so to any reader.
+ *
+ * @param sink where lines go. Retained.
+ * @param start when it begins.
+ * @param spec the mission.
+ */
+public class MissionLog(private val sink: LogSink, start: LogStart, private val spec: MissionSpec) {
+    private val header = start
+    private val frame = LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude))
+    private val zone = Utm.zoneOf(frame.origin)
+    private var begun = Double.NaN
+    private var lastMillis = -1L
+
+    /** Writes the end of a step; the first writes the log's first line before it. */
+    public fun step(record: StepRecord) {
+        val pose = record.position?.let { pose(it, record.heading) }.orEmpty()
+        val state = record.state
+        val why = when (state) {
+            is MissionState.Holding -> ""","why":"${state.danger.name.lowercase()}""""
+            is MissionState.Returning -> ""","why":"${state.danger.name.lowercase()}""""
+            is MissionState.Stopped -> ""","why":"${state.reason.name.lowercase()}""""
+            is MissionState.Preflight -> state.missing?.let { ""","why":"${it.name.lowercase()}"""" }.orEmpty()
+            else -> ""
+        }
+        write(
+            record.time,
+            """$pose"mission":{"t_s":${number(record.time.seconds)},"state":"${state.word}"$why,""" +
+                """"drive":[${number(record.drive.forward)},${number(record.drive.turn)}],""" +
+                """"used":${number(record.used)},"left_out":${record.leftOut}}""",
+        )
+    }
+
+    /** Writes what a sensor said at [now], and of the probe what became of it. */
+    public fun sensor(now: BoatTime, message: Message) {
+        platypus(message)?.let { write(now, it) }
+    }
+
+    /** Writes what the probe said at [now], the [verdict] on it, and what the map took. */
+    public fun reading(now: BoatTime, message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) {
+        val sensor = platypus(message) ?: return
+        val list = taken.joinToString(",") { exact(it) }
+        val waits = held?.let { ""","held":${exact(it)}""" }.orEmpty()
+        val word = verdict.name.lowercase().replace('_', '-')
+        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits}""")
+    }
+
+    /** Writes that a cell was left, without a reading in it, at [place] at [time]; [now] is when that was noticed. */
+    public fun pass(now: BoatTime, time: BoatTime, place: Position) {
+        write(now, """"pass":[${number(time.seconds)},${number(place.x)},${number(place.y)}]""")
+    }
+
+    private fun write(now: BoatTime, content: String) {
+        if (begun.isNaN()) {
+            begun = now.seconds
+            line(
+                0,
+                """"date":"${header.date.filter { it.isLetterOrDigit() || it in " -:.+" }}",""" +
+                    """"time":${header.epochMillis},"spec":${spec.toJson()}""",
+            )
+        }
+        // Each line has a time of its own: readers take equal stamps of one sensor for one reading.
+        val millis = maxOf(Math.round((now.seconds - begun) * MILLIS), lastMillis + 1)
+        line(millis, content)
+    }
+
+    private fun line(millis: Long, content: String) {
+        lastMillis = millis
+        sink.line("$millis\tI\t{$content}")
+    }
+
+    private fun pose(at: Position, heading: Double): String {
+        if (!(Math.abs(at.x) < FARTHEST && Math.abs(at.y) < FARTHEST)) return ""
+        val utm = Utm.of(frame.toLatLon(at), zone)
+        val half = if (heading.isFinite()) heading / 2 else 0.0
+        // The boats write the yaw into index 2.
+        return """"pose":{"p":[${utm.easting},${utm.northing},0.0],"q":[${cos(half)},0.0,${sin(half)},0.0],""" +
+            """"zone":"$zone${if (utm.north) "North" else "South"}"},"""
+    }
+
+    /** [message] in the words of the boats' own logs; null where they have none. */
+    private fun platypus(message: Message): String? = when (message) {
+        is Message.Oxygen -> sensor(message.port, "ATLAS_DO", message.milligramsPerLitre)
+        is Message.Acidity -> sensor(message.port, "ATLAS_PH", message.ph)
+        is Message.Conductivity -> sensor(message.port, "ES2", message.microsiemensPerCm, message.celsius)
+        is Message.Depth -> sensor(message.port, "HDS_DEPTH", message.metres)
+        is Message.WaterTemperature -> sensor(message.port, "HDS_TEMP", message.celsius)
+        is Message.Battery -> sensor(message.port, "BATTERY", message.volts)
+        else -> null
+    }
+
+    private fun sensor(port: Int, type: String, vararg values: Double) =
+        """"sensor":{"channel":$port,"type":"$type","data":[${values.joinToString(",") { number(it) }}]}"""
+
+    private fun exact(reading: Reading) = reading.run {
+        "[${number(time.seconds)},${number(position.x)},${number(position.y)},${number(value)}]"
+    }
+
+    private fun number(value: Double) = if (value.isFinite()) value.toString() else "null"
+
+    private companion object {
+        const val MILLIS = 1000.0
+
+        /** Beyond this a position is no place that a boat reached, m. */
+        const val FARTHEST = 100_000.0
+    }
+}

@@ -1,0 +1,145 @@
+package stillwater.mission
+
+import kotlinx.serialization.SerializationException
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonArray
+import kotlinx.serialization.json.JsonElement
+import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.contentOrNull
+import kotlinx.serialization.json.doubleOrNull
+import stillwater.estimate.FieldEstimator
+import stillwater.estimate.update
+import stillwater.model.BoatTime
+import stillwater.model.Position
+import stillwater.model.Reading
+
+/**
+ * What a log tells of a mission.
+ *
+ * @property spec the mission.
+ * @property estimator with the map as it was.
+ * @property used of the budget, in its unit.
+ * @property lastTime latest time on the boat's clock that the log has, s.
+ * @property lastValue value of the last reading taken, sensor units; NaN where there was none.
+ * @property held reading that waits for its confirmation; null where none does.
+ * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
+ * @property readings that the map took.
+ * @property unreadable lines that could not be read; a log that was cut has one.
+ */
+public class RecoveredMission internal constructor(
+    public val spec: MissionSpec,
+    public val estimator: FieldEstimator,
+    public val used: Double,
+    public val lastTime: Double,
+    public val lastValue: Double,
+    public val held: Reading?,
+    public val lastState: String,
+    public val readings: Long,
+    public val unreadable: Long,
+)
+
+/**
+ * Reads a [MissionLog] back: the same readings in the same order into a fresh estimator give the same map, bit for bit.
+ *
+ * A line that was cut, or is not of the log's form, is counted and passed over. What is not in the log is forgotten: the
+ * track, the plan, and whether the board was armed. Confined to one thread.
+ */
+public class MissionRecovery {
+    private var spec: MissionSpec? = null
+    private var estimator: FieldEstimator? = null
+    private var used = 0.0
+    private var lastTime = 0.0
+    private var lastValue = Double.NaN
+    private var held: Reading? = null
+    private var lastState = MissionState.Idle.word
+    private var readings = 0L
+    private var unreadable = 0L
+
+    /** Takes one line of the log. Never throws. */
+    public fun line(line: String) {
+        if (line.isBlank()) return
+        val json = content(line)
+        if (json == null || !take(json)) unreadable++
+    }
+
+    /** What was recovered; null where the log has no mission. */
+    public fun recovered(): RecoveredMission? {
+        val spec = spec ?: return null
+        val estimator = estimator ?: return null
+        return RecoveredMission(spec, estimator, used, lastTime, lastValue, held, lastState, readings, unreadable)
+    }
+
+    private fun content(line: String): JsonObject? {
+        val start = line.indexOf('\t', line.indexOf('\t') + 1)
+        if (start < 0) return null
+        return try {
+            Json.parseToJsonElement(line.substring(start + 1)) as? JsonObject
+        } catch (_: SerializationException) {
+            null
+        }
+    }
+
+    private fun take(json: JsonObject): Boolean {
+        json["spec"]?.let { return begin(it) }
+        val known = estimator ?: return false
+        json["pass"]?.let { return pass(known, it) }
+        (json["reading"] as? JsonObject)?.let { return read(known, it) }
+        (json["mission"] as? JsonObject)?.let { return step(it) }
+        return "sensor" in json
+    }
+
+    /** A log that was gone on with has the mission again; another mission's lines are not this one's. */
+    private fun begin(json: JsonElement): Boolean {
+        val found = try {
+            MissionSpec.fromJson(json.toString())
+        } catch (_: IllegalArgumentException) {
+            return false
+        }
+        if (spec == null) {
+            spec = found
+            estimator = found.estimator.build(found.grid.grid(), found.probe)
+        }
+        return spec == found
+    }
+
+    private fun pass(estimator: FieldEstimator, json: JsonElement): Boolean {
+        val numbers = numbers(json, PASS_SIZE) ?: return false
+        estimator.update(BoatTime(numbers[0]), numbers[1], numbers[2], Double.NaN)
+        return true
+    }
+
+    private fun read(estimator: FieldEstimator, json: JsonObject): Boolean {
+        val taken = (json["taken"] as? JsonArray)?.map { reading(it) ?: return false } ?: return false
+        for (reading in taken) {
+            estimator.update(reading)
+            lastValue = reading.value
+            lastTime = maxOf(lastTime, reading.time.seconds)
+            readings++
+        }
+        held = json["held"]?.let { reading(it) }
+        return true
+    }
+
+    private fun step(json: JsonObject): Boolean {
+        val time = (json["t_s"] as? JsonPrimitive)?.doubleOrNull ?: return false
+        val spent = (json["used"] as? JsonPrimitive)?.doubleOrNull ?: return false
+        lastTime = maxOf(lastTime, time)
+        used = spent
+        lastState = (json["state"] as? JsonPrimitive)?.contentOrNull ?: return false
+        return true
+    }
+
+    private fun reading(json: JsonElement): Reading? =
+        numbers(json, READING_SIZE)?.let { Reading(BoatTime(it[0]), Position(it[1], it[2]), it[3]) }
+
+    private fun numbers(json: JsonElement, size: Int): List<Double>? {
+        val all = (json as? JsonArray)?.map { (it as? JsonPrimitive)?.doubleOrNull ?: return null }
+        return all?.takeIf { it.size == size }
+    }
+
+    private companion object {
+        const val PASS_SIZE = 3
+        const val READING_SIZE = 4
+    }
+}

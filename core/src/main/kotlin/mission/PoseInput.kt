@@ -1,0 +1,86 @@
+package stillwater.mission
+
+import stillwater.control.FixUse
+import stillwater.control.Situation
+import stillwater.control.TrackEstimator
+import stillwater.model.BoatTime
+import stillwater.model.Drive
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import kotlin.math.sqrt
+
+/**
+ * Where the boat is, from the phone's fixes and compass and what its thrusters do. Confined to one thread.
+ *
+ * @property frame in which the track has its metres.
+ * @property track the estimate.
+ */
+internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
+    val track = TrackEstimator()
+    private var fixTime = Double.NEGATIVE_INFINITY
+    private var compassTime = Double.NEGATIVE_INFINITY
+    private var lastHeading = Double.NaN
+    private var waiting: LatLon? = null
+    private var waitingTime = Double.NaN
+    private var speed = 0.0
+    private var now = 0.0
+
+    /** Fixes refused: not finite, older than one before, or where the boat cannot be. */
+    var refused = 0L
+        private set
+
+    /** Yaw rate, rad/s; NaN before it was known. */
+    var yawRate = Double.NaN
+        private set
+
+    /** Heading, rad; NaN where none was heard lately. */
+    val heading: Double get() = if (now - compassTime <= OLDEST_COMPASS) lastHeading else Double.NaN
+
+    fun fix(time: BoatTime, place: LatLon) {
+        val isNewer = time.seconds > fixTime && !(time.seconds <= waitingTime)
+        if (!isNewer || !time.seconds.isFinite()) {
+            refused++
+            return
+        }
+        waiting = place
+        waitingTime = time.seconds
+    }
+
+    fun compass(time: BoatTime, heading: Double, yawRate: Double) {
+        if (!time.seconds.isFinite() || !heading.isFinite()) return
+        compassTime = time.seconds
+        lastHeading = heading
+        this.yawRate = yawRate
+    }
+
+    /** Lets [dt] s pass until [now] under [drive], and takes the fix that came meanwhile. */
+    fun advance(now: BoatTime, dt: Double, drive: Drive) {
+        this.now = now.seconds
+        speed += minOf(1.0, dt / SPEED_TIME) * (topSpeed * sqrt(maxOf(0.0, drive.forward)) - speed)
+        track.advance(dt, heading, speed)
+        val place = waiting ?: return
+        waiting = null
+        val local = frame.toLocal(place)
+        if (track.fix(local.x, local.y) == FixUse.USED) fixTime = waitingTime else refused++
+    }
+
+    /** Fills in what [situation] has of the pose. */
+    fun describe(situation: Situation) {
+        situation.fixAge = now - fixTime
+        situation.jumps = track.jumps
+        situation.x = track.x
+        situation.y = track.y
+        situation.deviation = track.deviation
+        situation.velocityX = track.velocityX
+        situation.velocityY = track.velocityY
+        situation.heading = heading
+    }
+
+    private companion object {
+        /** Time constant with which a hull takes up speed, s. */
+        const val SPEED_TIME = 2.0
+
+        /** A compass that has not spoken for so long is not one, s. */
+        const val OLDEST_COMPASS = 1.0
+    }
+}

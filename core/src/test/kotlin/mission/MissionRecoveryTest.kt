@@ -1,0 +1,112 @@
+package stillwater.mission
+
+import org.junit.jupiter.api.Test
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Position
+import stillwater.model.Reading
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
+
+/** Readings that the map took, in the log's own order. */
+internal fun Desk.replayedReadings(): List<Reading> = lines.flatMap { line ->
+    val list = line.substringAfter("\"taken\":[", "").substringBefore("]]")
+    list.split("],").filter { it.isNotBlank() && "[" in it }.map { part ->
+        val numbers = part.trim('[', ']').split(',').map { it.toDouble() }
+        Reading(BoatTime(numbers[0]), Position(numbers[1], numbers[2]), numbers[3])
+    }
+}
+
+class MissionRecoveryTest {
+    private fun assertSame(expected: FieldMap, found: FieldMap) {
+        for (cell in 0 until expected.grid.size) {
+            assertEquals(expected.value(cell).toRawBits(), found.value(cell).toRawBits(), "value in $cell")
+            assertEquals(expected.lower(cell).toRawBits(), found.lower(cell).toRawBits(), "lower bound in $cell")
+            assertEquals(expected.upper(cell).toRawBits(), found.upper(cell).toRawBits(), "upper bound in $cell")
+            assertEquals(expected.visits(cell), found.visits(cell), "visits to $cell")
+            assertEquals(expected.readings(cell), found.readings(cell), "readings in $cell")
+        }
+        assertEquals(expected.outside, found.outside)
+        assertEquals(expected.rejected, found.rejected)
+    }
+
+    private fun underWay(spec: MissionSpec, seed: Int, seconds: Double): Desk {
+        val desk = Desk(spec, seed)
+        desk.until(3.0) { false }
+        desk.mission.start()
+        desk.until(seconds) { false }
+        return desk
+    }
+
+    @Test
+    fun aLogGivesTheSameMapBitForBitWithEveryEstimator() {
+        for (estimator in EstimatorName.entries) {
+            val name = estimator.name.lowercase().replace('_', '-')
+            val spec = MissionSpec.fromJson(Desk.SMALL.replace("self-calibrating", name))
+            val desk = underWay(spec, 401, 300.0)
+            val found = desk.replayed()
+            assertSame(desk.mission.map, found.estimator.map)
+            assertEquals(desk.mission.readings.passed, found.readings)
+            assertEquals(desk.mission.used, found.used)
+            assertEquals(0, found.unreadable)
+            assertEquals("surveying", found.lastState)
+        }
+    }
+
+    /** The process dies at any moment; the file has all but the end of the line that was being written. */
+    @Test
+    fun aMissionGoesOnFromALogThatWasCutDisarmed() {
+        for (seed in 411..414) {
+            val random = Random(seed)
+            val desk = underWay(Desk.small(), seed, random.nextDouble(50.0, 300.0))
+            val whole = desk.lines.dropLast(1)
+            val cut = whole + desk.lines.last().let { it.take(random.nextInt(1, it.length)) }
+            val recovery = Desk.replay(cut)
+            val found = checkNotNull(recovery.recovered())
+            assertEquals(1, found.unreadable)
+            // The last line is the step's own, after what was read in it: no reading is lost.
+            assertSame(desk.mission.map, found.estimator.map)
+            val readings = found.readings
+
+            val next = Desk(desk.spec, seed, recovered = found)
+            assertEquals(MissionState.Idle, next.mission.state)
+            next.until(5.0) { false }
+            assertTrue(next.boat.board.actuation.isAtRest)
+            next.mission.start()
+            assertTrue(next.until(1000.0) { it is MissionState.Stopped }, "${next.mission.state}")
+            assertEquals(MissionState.Stopped(StopReason.COMPLETED), next.mission.state)
+            assertTrue(next.mission.used < 900.0)
+            // Its clock began anew, and still each reading is later than the last before.
+            val all = checkNotNull(Desk.replay(cut + next.lines).recovered())
+            assertEquals(readings + next.mission.readings.passed, all.readings)
+            assertSame(next.mission.map, all.estimator.map)
+        }
+    }
+
+    @Test
+    fun whatIsNoLogIsCounted() {
+        val recovery = MissionRecovery()
+        listOf(
+            "",
+            "garbage",
+            "1\tI\t{",
+            "1\tI\t[]",
+            "1\tI\t{\"pass\":[1,2,3]}",
+            "1\tI\t{\"spec\":{}}",
+        ).forEach(recovery::line)
+        assertNull(recovery.recovered())
+        val desk = underWay(Desk.small(), 421, 10.0)
+        val bad = listOf(
+            "1\tI\t{\"pass\":[1,2]}",
+            "1\tI\t{\"reading\":{\"taken\":[[1,2,3]]}}",
+            "1\tI\t{\"reading\":{}}",
+            "1\tI\t{\"mission\":{}}",
+            "1\tI\t{\"spec\":{}}",
+        )
+        val found = checkNotNull(Desk.replay(desk.lines + bad).recovered())
+        assertEquals(bad.size.toLong(), found.unreadable)
+        assertSame(desk.mission.map, found.estimator.map)
+    }
+}

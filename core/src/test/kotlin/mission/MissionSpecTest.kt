@@ -1,0 +1,44 @@
+package stillwater.mission
+
+import org.junit.jupiter.api.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
+
+class MissionSpecTest {
+    private fun refusal(old: String, new: String): String {
+        check(old in Desk.SMALL)
+        val text = assertFailsWith<IllegalArgumentException> {
+            MissionSpec.fromJson(Desk.SMALL.replace(old, new))
+        }.message
+        return text.orEmpty()
+    }
+
+    @Test
+    fun theJsonFormIsReadBack() {
+        val spec = Desk.small()
+        assertEquals(spec, MissionSpec.fromJson(spec.toJson()))
+        assertEquals(1, spec.toJson().lines().size)
+    }
+
+    @Test
+    fun whatIsWrongIsSaidInOneLineThatNamesItsPlace() {
+        for ((old, new, expected) in listOf(
+            Triple("\"columns\":6", "\"columns\":0", listOf("columns (0)", "$.grid")),
+            Triple("\"columns\":6", "\"columns\":\"six\"", listOf("$.grid.columns")),
+            Triple("\"columns\":6,", "", listOf("columns", "$.grid")),
+            Triple("lawnmower", "mower", listOf("mower", "$.planner")),
+            Triple("self-calibrating", "best", listOf("best", "$.estimator")),
+            Triple("\"lowest\":0", "\"lowest\":20", listOf("lowest (20.0)", "$.probe")),
+            Triple("{\"seconds\":900}", "{}", listOf("either metres or seconds", "$.budget")),
+            Triple("\"x_m\":80", "\"x_m\":-80", listOf("north_east", "$.area")),
+            Triple("\"home\":{\"x_m\":5", "\"home\":{\"x_m\":500", listOf("home (500.0, 5.0)", "water")),
+            Triple("\"cell_m\":10", "\"cell_m\":30", listOf("land lies", "polygon-rrt")),
+            Triple("\"budget\"", "\"bugdet\"", listOf("bugdet")),
+        )) {
+            val text = refusal(old, new)
+            assertEquals(1, text.lines().size, text)
+            assertTrue(expected.all { it in text }, "$new: $text")
+        }
+    }
+}

@@ -1,0 +1,86 @@
+package stillwater.io
+
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import stillwater.field.Field
+import stillwater.mission.LogStart
+import stillwater.mission.Mission
+import stillwater.mission.MissionLog
+import stillwater.mission.MissionSpec
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import stillwater.model.Position
+import stillwater.sensor.SensorSpec
+import stillwater.virtual.BoardSpec
+import stillwater.virtual.VirtualBoat
+import stillwater.virtual.VirtualBoatSpec
+import java.nio.file.Path
+import kotlin.io.path.writeLines
+import kotlin.math.hypot
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** What a mission writes down is a Platypus log to whoever reads those. */
+class MissionLogTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private val lines = ArrayList<String>()
+    private val spec = MissionSpec.fromJson(
+        """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-73.6},
+            "area":{"south_west":{"x_m":-20,"y_m":-20},"north_east":{"x_m":80,"y_m":80}},
+            "grid":{"south_west":{"x_m":0,"y_m":0},"columns":6,"rows":6,"cell_m":10},
+            "probe":{"quantity":"dissolved-oxygen","lowest":0,"highest":15},
+            "planner":"lawnmower","budget":{"seconds":900},"home":{"x_m":5,"y_m":5}}""",
+    )
+
+    /** Two minutes of a mission; answers the values that its map took, and where. */
+    private fun sail(): List<Pair<Position, Double>> {
+        val frame = LocalFrame(LatLon(45.5, -73.6))
+        val water = Field { x, _, _ -> 7 + x / 40 }
+        val boat = VirtualBoat(
+            VirtualBoatSpec(SensorSpec("perfect", emptyList()), start = Position(5.0, 5.0), board = BoardSpec(oxygenPeriod = 0.5)),
+            water,
+            frame,
+            seed = 11,
+        )
+        val mission = Mission(spec, boat.phone, MissionLog(lines::add, LogStart(1_700_000_000_000, "2023-11-14"), spec))
+        repeat(1200) { tick ->
+            boat.advance(0.1)
+            boat.takeFix()?.let { mission.fix(it.time, it.place) }
+            mission.compass(boat.time, boat.heading(), boat.yawRate)
+            if (tick == 30) mission.start()
+            mission.step(boat.time)
+        }
+        val taken = Regex(""""taken":\[\[([^]]*)]]""")
+        return lines.mapNotNull { taken.find(it) }.map { match ->
+            val (_, x, y, value) = match.groupValues[1].split(',').map { it.toDouble() }
+            Position(x, y) to value
+        }
+    }
+
+    @Test
+    fun aMissionsLogIsReadAsAPlatypusLog() {
+        val taken = sail()
+        assertTrue(taken.size > 200, "${taken.size} readings")
+        val file = directory.resolve("mission.txt.incomplete").apply { writeLines(lines + lines.last().take(20)) }
+        val log = SurveyLog.open(file, LogChoice(value = "ATLAS_DO"))
+        val pass = log.read { _, _, _, _, _ -> }
+        val found = log.readings()
+        assertEquals("Platypus log 4.2.0", log.format)
+        assertEquals(mapOf("truncated last line" to 1L), pass.skipped)
+        assertEquals(taken.map { it.second }, found.map { it.value })
+        assertEquals(1_700_000_000.0, found[0].time.seconds, 10.0)
+        // The log's frame begins at its first pose: places are compared as seen from the first reading. A line's stamp may be
+        // some ms after its step, at 1.6 m/s at most, and grid convergence does not count: 0.02 m.
+        val offX = found[0].position.x - taken[0].first.x
+        val offY = found[0].position.y - taken[0].first.y
+        for (i in taken.indices) {
+            val off = hypot(
+                found[i].position.x - taken[i].first.x - offX,
+                found[i].position.y - taken[i].first.y - offY,
+            )
+            assertTrue(off < 0.02, "reading $i is $off m off")
+        }
+    }
+}
