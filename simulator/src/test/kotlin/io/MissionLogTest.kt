@@ -39,7 +39,11 @@ class MissionLogTest {
         val frame = LocalFrame(LatLon(45.5, -73.6))
         val water = Field { x, _, _ -> 7 + x / 40 }
         val boat = VirtualBoat(
-            VirtualBoatSpec(SensorSpec("perfect", emptyList()), start = Position(5.0, 5.0), board = BoardSpec(oxygenPeriod = 0.5)),
+            VirtualBoatSpec(
+                SensorSpec("perfect", emptyList()),
+                start = Position(5.0, 5.0),
+                board = BoardSpec(oxygenPeriod = 0.5),
+            ),
             water,
             frame,
             seed = 11,
@@ -54,8 +58,8 @@ class MissionLogTest {
         }
         val taken = Regex(""""taken":\[\[([^]]*)]]""")
         return lines.mapNotNull { taken.find(it) }.map { match ->
-            val (_, x, y, value) = match.groupValues[1].split(',').map { it.toDouble() }
-            Position(x, y) to value
+            val reading = match.groupValues[1].split(',').map { it.toDouble() }
+            Position(reading[1], reading[2]) to reading[3]
         }
     }
 
