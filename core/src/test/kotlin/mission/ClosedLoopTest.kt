@@ -20,8 +20,8 @@ class ClosedLoopTest {
 
     @Test
     fun missionsCompleteAndTheirMapsAreAsGoodAsAtTheTruePlaces() {
-        // The self-calibrating estimator assumes a field that is constant within a cell. In this water, which is not, its
-        // maps are poor at the true places too (1 to 5 mg/L), so of it only the stack's own part is tested here.
+        // The self-calibrating estimator assumes a field that is constant within a cell. In this water, which is not,
+        // its maps are poor at the true places too (1 to 5 mg/L), so of it only the stack's own part is tested here.
         for ((estimator, fixDeviation) in listOf(
             "averaging" to 1.5,
             "interval" to 1.5,
