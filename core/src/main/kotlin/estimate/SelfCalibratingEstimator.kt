@@ -97,7 +97,13 @@ public class SelfCalibratingEstimator(
             return
         }
         if (!tape.isComplete) choice.follow()
+        val wasExplained = isExplained
         choice.take(slot, seconds, scaled)
+        if (isExplained != wasExplained) {
+            // Bounds that no longer hold, or hold again, do so in all cells.
+            for (i in 0 until visitedCount) write(i)
+            return
+        }
         write(slot)
         if (choice.active.here != LagBank.NONE) write(choice.active.here)
         if (choice.active.before != LagBank.NONE) write(choice.active.before)

@@ -75,7 +75,8 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
             criteria[k] = criterion(fits[k], tape, penalty)
         }
         var best = 0
-        for (k in fits.indices) if (criteria[k] < criteria[best]) best = k
+        // A freer model that does not explain the readings either fits what is not the sensor's.
+        for (k in fits.indices) if (criteria[k] < criteria[best] && fits[k].isWhite) best = k
         active = fits[best]
         for (k in fits.indices) if (!(odds[k] > HOPELESS)) odds[k] = (criteria[k] - criteria[best]) / 2
         var next = -1
