@@ -97,6 +97,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     }
 
     private fun warnings(seen: Double, ambiguous: Boolean) = buildList {
+        if (settings.base != null) add("The sensor given was not used: without a reference a lag is fitted in its place.")
         add(
             "No reference: the water was inferred from revisits and smoothness, on ${search.field.size} nodes " +
                 "${"%.3g".format(java.util.Locale.ROOT, search.field.spacing)} m apart.",

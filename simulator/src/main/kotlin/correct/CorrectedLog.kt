@@ -105,6 +105,9 @@ class CorrectedLog internal constructor(
         /** More readings than this are learned on in the middle of a log only. */
         const val MOST_LEARNED = 20_000
 
+        /** A part of which nothing can be learned is not cut in half below this. */
+        private const val FEWEST_LEARNED = 2_500
+
         /** Seed of the bootstrap. */
         const val SEED = 1L
 
@@ -135,6 +138,7 @@ class CorrectedLog internal constructor(
                     "${pass.readings}",
                 )
             }
+            rows.farthest()?.let { (expected, found) -> throw LogProblem(log.file, null, null, expected, found) }
             val statistics = scan.statistics()
             val series = rows.series()
             val resolution = resolution(statistics)
@@ -187,32 +191,44 @@ class CorrectedLog internal constructor(
             if (resolution > 0) listOf(SensorStage.Quantum(resolution)) else emptyList()
 
         private fun byRevisits(series: TrackSeries): Learned {
+            if (series.values.all { it == series.values[0] }) return nothing(series.size)
             val rate = series.rateLimit()
             if (rate.isFinite()) {
                 val response = ResponseKind.SLEW.response(rate)
                 val likely = listOf(LikelyResponse(listOf(response), 1.0))
                 return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
             }
-            val part = series.middle(MOST_LEARNED)
-            val learner = RevisitLearner.of(part)
+            var part = series.middle(MOST_LEARNED)
+            var learner = RevisitLearner.of(part)
+            // The longer the part, the longer the runs that are held against others: legs may be too short for them.
+            while (learner.blocks == 0 && part.size > FEWEST_LEARNED) {
+                part = series.middle(part.size / 2)
+                learner = RevisitLearner.of(part)
+            }
             val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
-                ?: return Learned(
-                    SensorOrigin.NOTHING,
-                    null,
-                    listOf(LikelyResponse(listOf(Response()), 1.0)),
-                    emptyList(),
-                    part.size,
-                    0,
-                )
+                ?: return nothing(part.size)
             val stages = choice.first.response.stages()
             return Learned(SensorOrigin.REVISITS, choice, choice.likely(), stages, part.size, learner.blocks)
         }
+
+        private fun nothing(readings: Int) = Learned(
+            SensorOrigin.NOTHING,
+            null,
+            listOf(LikelyResponse(listOf(Response()), 1.0)),
+            emptyList(),
+            readings,
+            0,
+        )
 
         private fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
             val known = (0 until series.size).filter { references[it].isFinite() }
             if (known.size < FEWEST) {
                 val expected = "at least $FEWEST readings with a reference"
                 throw LogProblem(log.file, null, null, expected, "${known.size}")
+            }
+            if (known.all { references[it] == references[known[0]] }) {
+                val found = "${references[known[0]]} in every row"
+                throw LogProblem(log.file, null, null, "a reference that changes", found)
             }
             val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
             val part = series.at(usable)
@@ -279,6 +295,13 @@ private class Rows {
         size++
     }
 
+    /** What was expected and what was found, if there is a reading or reference whose square is too large a number. */
+    fun farthest(): Pair<String, String>? {
+        val found = (0 until size).flatMap { listOf(columns[3][it], columns[4][it]) }
+            .firstOrNull { kotlin.math.abs(it) > LARGEST } ?: return null
+        return "readings within -$LARGEST..$LARGEST" to "$found"
+    }
+
     fun series() = TrackSeries(of(0), of(1), of(2), of(3))
 
     fun references(): DoubleArray = of(4)
@@ -288,6 +311,9 @@ private class Rows {
     private companion object {
         const val COLUMNS = 5
         const val FIRST = 1024
+
+        /** Squares, and products of some, are still numbers. */
+        const val LARGEST = 1e60
     }
 }
 

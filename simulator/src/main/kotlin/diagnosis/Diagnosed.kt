@@ -3,6 +3,7 @@ package stillwater.diagnosis
 import stillwater.diagnose.Candidate
 import stillwater.diagnose.Cause
 import stillwater.diagnose.DiagnosisResult
+import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
 
@@ -73,11 +74,10 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
         return listOf(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
-            "base: lag of ${three.format(tau?.value ?: Double.NaN)} s; residuals ${three.format(base.trainRmse)}, " +
-                "on held-out blocks ${three.format(base.heldOutRmse)} (root mean square)",
+            "base: ${tau?.let { "lag of ${three.format(it.value)} s" } ?: "the sensor given"}; residuals " +
+                three.format(base.trainRmse) + heldOut(base, three) + " (root mean square)",
             if (after != null) {
-                "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
-                    "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
+                extension(base, after, three)
             } else {
                 "likeliest of ${result.candidates.size} causes tried: ${best?.cause?.label ?: "none"}, adjusted p " +
                     three.format(best?.adjustedPValue ?: 1.0)
@@ -87,5 +87,19 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
                     "what is left depends most on ${it.description}, adjusted p ${three.format(it.adjusted)}"
                 } ?: "nothing else was looked at",
         )
+    }
+
+    /** Without a reference nothing is held out. */
+    private fun heldOut(model: ModelAssessment, three: SignificantDigits) =
+        if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}"
+
+    private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String = when {
+        !after.heldOutRmse.isNaN() ->
+            "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
+                "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
+        after === base -> "extended: the base, whose lag is what was named; no blocks are held out without a reference"
+        else ->
+            "extended: residuals ${three.format(after.trainRmse)} (root mean square); no blocks are held out without " +
+                "a reference"
     }
 }

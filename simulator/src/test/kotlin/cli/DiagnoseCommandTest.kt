@@ -66,11 +66,24 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun withoutAReferenceAGivenSensorIsSaidToBeUnusedAndNothingIsHeldOut() {
+        val spec = directory.resolve("spec.json")
+        Files.writeString(spec, """{"name": "s", "stages": [{"type": "first-order-lag", "time_constant_s": 5.0}]}""")
+        val out = directory.resolve("blind")
+        val result = diagnose(bench(), "--value", "probe", "--sensor", "$spec", "--numbers-only", "--out", "$out")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "The sensor given was not used")
+        assertFalse("–" in result.stdout, result.stdout)
+        assertFalse("held-out" in result.stdout, result.stdout)
+    }
+
+    @Test
     fun badInputIsOneLineAndLeavesNothing() {
         val log = bench()
         val cases = listOf(
             listOf(log, "--value", "nothing") to "expected one of",
             listOf(log, "--value", "probe", "--reference", "nothing") to "no such column",
+            listOf(log, "--value", "probe", "--reference", "probe") to "another column",
             listOf(log, "--value", "probe", "--condition", "speed") to "expected NAME=COLUMN, found 'speed'",
             listOf(log, "--value", "probe", "--sensor", "nowhere.json") to "no such file",
             listOf("nowhere.csv") to "no such file",
