@@ -116,6 +116,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         }
     }
 
+    private fun isFlat(column: DoubleArray) = column.all { it == column[0] }
+
     private fun verdict(
         first: List<BlindTrial>,
         chosen: List<BlindTrial>,
@@ -123,6 +125,10 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         responseSet: List<Cause>?,
     ): Verdict {
         if (n < FEWEST_ROWS) return Verdict.InsufficientData("there are $n rows only")
+        if (isFlat(series.values)) return Verdict.InsufficientData("the readings never change")
+        if (isFlat(series.x) && isFlat(series.y)) {
+            return Verdict.InsufficientData("the boat never moves, so that no pass comes back to the same water")
+        }
         val sets = chosen.mapIndexed { i, trial ->
             val others = if (i > 0) {
                 emptyList()

@@ -102,7 +102,7 @@ class DiagnoseCommand : CliktCommand("diagnose") {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
             val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
-            val diagnosed = Diagnosed(read, result, worth(read, result))
+            val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {

@@ -19,6 +19,7 @@ import stillwater.estimate.UndoableSensor
 import stillwater.estimate.rateLimit
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
+import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
@@ -138,9 +139,9 @@ class CorrectedLog internal constructor(
                     "${pass.readings}",
                 )
             }
-            rows.farthest()?.let { (expected, found) -> throw LogProblem(log.file, null, null, expected, found) }
-            val statistics = scan.statistics()
             val series = rows.series()
+            SquareReach.require(log, series.values, rows.references())
+            val statistics = scan.statistics()
             val resolution = resolution(statistics)
             val learned = when {
                 undone != null -> Learned(
@@ -295,13 +296,6 @@ private class Rows {
         size++
     }
 
-    /** What was expected and what was found, if there is a reading or reference whose square is too large a number. */
-    fun farthest(): Pair<String, String>? {
-        val found = (0 until size).flatMap { listOf(columns[3][it], columns[4][it]) }
-            .firstOrNull { kotlin.math.abs(it) > LARGEST } ?: return null
-        return "readings within -$LARGEST..$LARGEST" to "$found"
-    }
-
     fun series() = TrackSeries(of(0), of(1), of(2), of(3))
 
     fun references(): DoubleArray = of(4)
@@ -311,9 +305,6 @@ private class Rows {
     private companion object {
         const val COLUMNS = 5
         const val FIRST = 1024
-
-        /** Squares, and products of some, are still numbers. */
-        const val LARGEST = 1e60
     }
 }
 

@@ -12,8 +12,14 @@ import stillwater.report.SignificantDigits
  *
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
+ * @param isGiven whether the base is a sensor that was given.
  */
-class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: MapWorth?) {
+class Diagnosed(
+    val log: DiagnosisLog,
+    val result: DiagnosisResult,
+    val worth: MapWorth?,
+    private val isGiven: Boolean = false,
+) {
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
      * `unexplained`.
@@ -30,7 +36,10 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
     val warnings: List<String> = buildList {
         addAll(result.warnings)
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
-        if (log.missing > 0) add("${log.missing} rows left out: no number in the column ${log.reference}.")
+        if (log.missing > 0) {
+            add("${log.missing} rows left out: no number in the column ${log.reference}.")
+            add("How the truth went between the rows with one is not known: up to half their distance may look like a delay or an offset of place.")
+        }
         if (log.cut > 0) add("${log.cut} rows at the end were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
     }
 
@@ -74,7 +83,7 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
         return listOf(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
-            "base: ${tau?.let { "lag of ${three.format(it.value)} s" } ?: "the sensor given"}; residuals " +
+            "base: ${if (isGiven) "the sensor given" else "lag of ${three.format(tau?.value ?: Double.NaN)} s"}; residuals " +
                 three.format(base.trainRmse) + heldOut(base, three) + " (root mean square)",
             if (after != null) {
                 extension(base, after, three)
