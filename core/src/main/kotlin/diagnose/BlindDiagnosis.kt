@@ -84,7 +84,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             },
             emptyList(),
             emptyList(),
-            warnings(seen, responseSet != null),
+            warnings(seen, responseSet != null, verdict !is Verdict.InsufficientData),
         )
     }
 
@@ -96,17 +96,19 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         return Evidence.t(DoubleArray(STRETCHES) { foretold[it] - others[it] })
     }
 
-    private fun warnings(seen: Double, ambiguous: Boolean) = buildList {
-        if (settings.base != null) add("The sensor given was not used: without a reference a lag is fitted in its place.")
+    private fun warnings(seen: Double, ambiguous: Boolean, isEnough: Boolean) = buildList {
+        if (settings.base != null) {
+            add("The sensor given was not used: without a reference a lag is fitted in its place.")
+        }
         add(
             "No reference: the water was inferred from revisits and smoothness, on ${search.field.size} nodes " +
                 "${"%.3g".format(java.util.Locale.ROOT, search.field.spacing)} m apart.",
         )
-        if (seen > LAG_SEEN) {
+        if (seen > LAG_SEEN && isEnough) {
             val sum = lag.response.timeConstant
             add("The readings lag the water by ${"%.3g".format(java.util.Locale.ROOT, sum)} s as a first-order lag.")
         }
-        if (ambiguous) {
+        if (ambiguous && isEnough) {
             add(
                 "A dead time of ${"%.3g".format(
                     java.util.Locale.ROOT,

@@ -95,7 +95,9 @@ class DiagnoseCommand : CliktCommand("diagnose") {
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
         val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
-        if (reference == opened.quantity) throw BadFlag("--reference", "another column than the readings'", "'$reference'")
+        if (reference == opened.quantity) {
+            throw BadFlag("--reference", "another column than the readings'", "'$reference'")
+        }
         OutputDirectory(Path.of(out)).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference)
             if (read.series.size < FEWEST_ROWS) {

@@ -38,7 +38,10 @@ class Diagnosed(
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
         if (log.missing > 0) {
             add("${log.missing} rows left out: no number in the column ${log.reference}.")
-            add("How the truth went between the rows with one is not known: up to half their distance may look like a delay or an offset of place.")
+            add(
+                "How the truth went between the rows with one is not known: up to half their distance may look like " +
+                    "a delay or an offset of place.",
+            )
         }
         if (log.cut > 0) add("${log.cut} rows at the end were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
     }
@@ -80,10 +83,11 @@ class Diagnosed(
         val after = result.extended
         val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
         val best = result.candidates.firstOrNull()
+        val sensor = if (isGiven) "the sensor given" else "lag of ${three.format(tau?.value ?: Double.NaN)} s"
         return listOf(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
-            "base: ${if (isGiven) "the sensor given" else "lag of ${three.format(tau?.value ?: Double.NaN)} s"}; residuals " +
+            "base: $sensor; residuals " +
                 three.format(base.trainRmse) + heldOut(base, three) + " (root mean square)",
             if (after != null) {
                 extension(base, after, three)

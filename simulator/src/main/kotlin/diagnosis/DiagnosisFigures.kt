@@ -159,12 +159,10 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     }
 
     /** The causes of the answer, and others that look likely. */
-    private fun causes(): List<Candidate> {
-        return result.candidates.filter {
-            it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
-        }
-            .distinctBy { it.cause }
+    private fun causes(): List<Candidate> = result.candidates.filter {
+        it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
     }
+        .distinctBy { it.cause }
 
     private fun cause(candidate: Candidate): DiagnosisFigure {
         val change = DoubleArray(n) { candidate.predicted[it] - result.baseline.predicted[it] }

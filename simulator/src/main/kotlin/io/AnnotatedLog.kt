@@ -100,7 +100,13 @@ internal class AnnotatedLog(
         fun requireNewNames(log: SurveyLog, names: List<String>) {
             val survey = log as? CsvSurvey ?: return
             val taken = names.firstOrNull { it in survey.columns.names } ?: return
-            throw LogProblem(log.file, survey.headerLine, taken, "a log without this column, which is added", "one with it")
+            throw LogProblem(
+                log.file,
+                survey.headerLine,
+                taken,
+                "a log without this column, which is added",
+                "one with it",
+            )
         }
     }
 }

@@ -100,11 +100,23 @@ class CorrectCommandTest {
             listOf(file, "--value", "slow", "--sensor", spec(twice)) to "cannot",
             listOf(file, "--value", "slow", "--sensor", spec(twice), "--reference", "fast") to "both",
             listOf(file, "--value", "slow", "--reference", "slow") to "another column",
-            listOf(file("still.csv", survey().replace(Regex("[-0-9.]+,\"a"), "1,\"a")), "--value", "slow", "--reference", "fast") to
+            listOf(
+                file("still.csv", survey().replace(Regex("[-0-9.]+,\"a"), "1,\"a")),
+                "--value",
+                "slow",
+                "--reference",
+                "fast",
+            ) to
                 "a reference that changes",
             listOf(file("again.csv", survey().replace("note", "corrected")), "--value", "slow") to
                 "a log without this column",
-            listOf(file("huge.csv", survey().replace("\n7,7,0,", "\n7,7,0,1e90,1,\n8,8,0,")), "--value", "slow", "--skip-bad-rows") to "1.0E90",
+            listOf(
+                file("huge.csv", survey().replace("\n7,7,0,", "\n7,7,0,1e90,1,\n8,8,0,")),
+                "--value",
+                "slow",
+                "--skip-bad-rows",
+            ) to
+                "1.0E90",
             listOf(directory.resolve("short.csv").also { it.writeText(survey(5)) }.toString(), "--value", "slow") to
                 "at least 30",
         )
@@ -120,7 +132,15 @@ class CorrectCommandTest {
     @Test
     fun boatAtRestAndConstantReadingsAreAnHonestAnswer() {
         val rest = survey().lines().joinToString("\n") { row ->
-            row.split(',').let { if (it.size > 3 && it[0] != "time_s") "${it[0]},0,0,${it.drop(3).joinToString(",")}" else row }
+            row.split(',').let {
+                if (it.size > 3 &&
+                    it[0] != "time_s"
+                ) {
+                    "${it[0]},0,0,${it.drop(3).joinToString(",")}"
+                } else {
+                    row
+                }
+            }
         }
         val atRest = run(log(rest), "--value", "slow")
         assertEquals(0, atRest.statusCode, atRest.output)
