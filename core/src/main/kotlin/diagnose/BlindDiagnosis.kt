@@ -84,7 +84,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             },
             emptyList(),
             emptyList(),
-            warnings(seen, responseSet != null),
+            warnings(seen, responseSet != null, verdict !is Verdict.InsufficientData),
         )
     }
 
@@ -96,16 +96,19 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         return Evidence.t(DoubleArray(STRETCHES) { foretold[it] - others[it] })
     }
 
-    private fun warnings(seen: Double, ambiguous: Boolean) = buildList {
+    private fun warnings(seen: Double, ambiguous: Boolean, isEnough: Boolean) = buildList {
+        if (settings.base != null) {
+            add("The sensor given was not used: without a reference a lag is fitted in its place.")
+        }
         add(
             "No reference: the water was inferred from revisits and smoothness, on ${search.field.size} nodes " +
                 "${"%.3g".format(java.util.Locale.ROOT, search.field.spacing)} m apart.",
         )
-        if (seen > LAG_SEEN) {
+        if (seen > LAG_SEEN && isEnough) {
             val sum = lag.response.timeConstant
             add("The readings lag the water by ${"%.3g".format(java.util.Locale.ROOT, sum)} s as a first-order lag.")
         }
-        if (ambiguous) {
+        if (ambiguous && isEnough) {
             add(
                 "A dead time of ${"%.3g".format(
                     java.util.Locale.ROOT,
@@ -115,6 +118,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         }
     }
 
+    private fun isFlat(column: DoubleArray) = column.all { it == column[0] }
+
     private fun verdict(
         first: List<BlindTrial>,
         chosen: List<BlindTrial>,
@@ -122,6 +127,10 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         responseSet: List<Cause>?,
     ): Verdict {
         if (n < FEWEST_ROWS) return Verdict.InsufficientData("there are $n rows only")
+        if (isFlat(series.values)) return Verdict.InsufficientData("the readings never change")
+        if (isFlat(series.x) && isFlat(series.y)) {
+            return Verdict.InsufficientData("the boat never moves, so that no pass comes back to the same water")
+        }
         val sets = chosen.mapIndexed { i, trial ->
             val others = if (i > 0) {
                 emptyList()

@@ -237,6 +237,9 @@ public class Diagnosis(
 
         private fun insufficient(): Verdict? {
             if (series.size < FEWEST_ROWS) return Verdict.InsufficientData("there are ${series.size} rows only")
+            if (listOfNotNull(series.values, series.reference).all { column -> column.all { it == column[0] } }) {
+                return Verdict.InsufficientData("neither the readings nor the truth ever change")
+            }
             val seen = base.free[ResponseModel.TIME_CONSTANT] &&
                 base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2
             val error = if (seen) errors(base)[ResponseModel.TIME_CONSTANT] else 0.0

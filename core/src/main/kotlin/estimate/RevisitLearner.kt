@@ -21,15 +21,11 @@ public class RevisitLearner private constructor(
     private var delay: Double = 0.0,
 ) : ResponseLearner {
     private val nodes = TrackNodes(even, thinning)
-    private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().let {
-        if (it.size <
-            FEWEST_BLOCKS
-        ) {
-            emptyList()
-        } else {
-            it
-        }
-    }
+    private val extent = listOf(nodes.xs, nodes.ys).maxOf { at -> at.max() - at.min() }
+
+    // A boat at rest passes its own place all the time, and no pass goes another way.
+    private val found = RevisitBlocks(nodes, MOST_BLOCKS).find().takeIf { extent > 0 && it.size >= FEWEST_BLOCKS }
+        .orEmpty()
     private val likelihood = RevisitLikelihood(nodes, found)
     private val corrected = DoubleArray(even.size)
     private val values = DoubleArray(nodes.size)
@@ -63,7 +59,6 @@ public class RevisitLearner private constructor(
      * that delay: at no delay water would be found that changes from pass to pass.
      */
     private fun learnField() {
-        val extent = listOf(nodes.xs, nodes.ys).maxOf { at -> at.max() - at.min() }
         val delays =
             listOf(0.0) + (0 until DELAYS).map { even.step * DELAY_FROM * Math.pow(DELAY_FACTOR, it.toDouble()) }
         var best = Double.NEGATIVE_INFINITY

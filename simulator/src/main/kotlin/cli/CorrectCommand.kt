@@ -95,6 +95,10 @@ class CorrectCommand : CliktCommand("correct") {
         if (reference != null && opened.format.startsWith("Platypus")) {
             throw failure("--reference: expected a CSV log, found a Platypus log")
         }
+        if (reference == opened.quantity) {
+            throw BadFlag("--reference", "another column than the readings'", "'$reference'")
+        }
+        CorrectFiles.requireNewColumns(opened)
         OutputDirectory(Path.of(out)).use { directory ->
             val bytes = Files.size(file)
             val shown = !quiet && bytes >= WORTH_SHOWING

@@ -55,7 +55,8 @@ class DiagnoseCommand : CliktCommand("diagnose") {
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
-        help = "sensor spec (JSON) as it is believed to be, taken as given; without it a first-order lag is fitted",
+        help = "sensor spec (JSON) as it is believed to be, taken as given where there is a --reference; without " +
+            "either a first-order lag is fitted",
     )
     private val numbersOnly by option(
         "--numbers-only",
@@ -94,13 +95,16 @@ class DiagnoseCommand : CliktCommand("diagnose") {
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
         val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
+        if (reference == opened.quantity) {
+            throw BadFlag("--reference", "another column than the readings'", "'$reference'")
+        }
         OutputDirectory(Path.of(out)).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference)
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
             val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
-            val diagnosed = Diagnosed(read, result, worth(read, result))
+            val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {

@@ -88,8 +88,7 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
             "evidence",
             figure,
             "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked " +
-                "open is " +
-                "not ruled out.",
+                "open is not ruled out; an asymmetric lag is not open where a symmetric one explains as much.",
         )
     }
 

@@ -10,6 +10,7 @@ import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonArray
 import kotlinx.serialization.json.putJsonObject
 import stillwater.io.AnnotatedLog
+import stillwater.io.SurveyLog
 import stillwater.report.HtmlReport
 import stillwater.report.OutputDirectory
 import stillwater.report.Program
@@ -159,11 +160,18 @@ class CorrectFiles(
         return page.render()
     }
 
-    private companion object {
-        const val TERMINAL_LINES = 5
-        val COLUMNS = listOf("corrected", "corrected_low", "corrected_high")
-        val FORMAT = Json { prettyPrint = true }
-        val HOW = listOf(
+    companion object {
+        /**
+         * Refuses [log] if it has a column of the names that are added.
+         *
+         * @throws stillwater.io.LogProblem if so.
+         */
+        fun requireNewColumns(log: SurveyLog) = AnnotatedLog.requireNewNames(log, COLUMNS)
+
+        private const val TERMINAL_LINES = 5
+        private val COLUMNS = listOf("corrected", "corrected_low", "corrected_high")
+        private val FORMAT = Json { prettyPrint = true }
+        private val HOW = listOf(
             "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
                 "response " +
                 "is undone in phase only, and short runs of the track are foretold from the other passes near " +
@@ -180,6 +188,9 @@ class CorrectFiles(
                 "water is along the track and how noisy the readings are is learned from the log; detail that the " +
                 "sensor has " +
                 "smoothed away is not made up but left open in the interval.",
+            "A limit on the rate of change is recognised only where readings often run at just that rate: noise of a " +
+                "tenth of a second's largest change hides it. Then a lag is learned in its place, and the intervals " +
+                "cover far less than 95 %. A sensor known to be rate limited is better given with --sensor.",
         )
     }
 }

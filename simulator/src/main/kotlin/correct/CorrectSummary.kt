@@ -1,5 +1,11 @@
 package stillwater.correct
 
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.doubleOrNull
+import kotlinx.serialization.json.jsonArray
+import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
 import stillwater.estimate.CandidateResponse
 import stillwater.estimate.ResponseKind
 import stillwater.survey.Wording.Companion.digits
@@ -31,7 +37,7 @@ internal class CorrectSummary(
                 result.origin == SensorOrigin.NOTHING ->
                     "not learned: nothing in the log shows it; taken as " +
                         "without lag"
-                choice == null -> "${describe(result.spec.stages.map { it.toString() })}, ${result.origin.label}"
+                choice == null -> stages().ifEmpty { "without lag" }
                 choice.isAmbiguous -> "cannot be told apart on this log: ${choice.open.joinToString(
                     "; ",
                     transform = ::words,
@@ -40,7 +46,17 @@ internal class CorrectSummary(
             }
         }
 
-    private fun describe(stages: List<String>) = if (stages.isEmpty()) "without lag" else stages.joinToString(", then ")
+    /** The stages as in sensor.json, with their numbers. */
+    private fun stages(): String {
+        val stages = Json.parseToJsonElement(result.spec.toJson()).jsonObject.getValue("stages").jsonArray
+        return stages.map { it.jsonObject }.joinToString(", then ") { stage ->
+            val numbers = stage.filterKeys { it != "type" }.map { (name, value) ->
+                val number = (value as? JsonPrimitive)?.doubleOrNull
+                "${parameterName(name)} ${number?.let { digits(it, 3) } ?: value}"
+            }
+            "${stage.getValue("type").jsonPrimitive.content}: ${numbers.joinToString(", ")}"
+        }
+    }
 
     /** [candidate] with its parameters and their 95 % intervals. */
     fun words(candidate: CandidateResponse): String {
@@ -56,7 +72,7 @@ internal class CorrectSummary(
 
     private fun parameterName(name: String) = when (name) {
         "rate_per_s" -> "rate per s"
-        else -> name.removeSuffix("_s").replace('_', ' ') + " in s"
+        else -> name.removeSuffix("_s").replace('_', ' ') + if (name.endsWith("_s")) " in s" else ""
     }
 
     /** Mean half width of the intervals, sensor units. */
@@ -86,10 +102,21 @@ internal class CorrectSummary(
         else -> result.origin.label
     }
 
+    /** Why the log says nothing about its sensor. */
+    private fun silence(): String {
+        val series = result.series
+        fun isFlat(numbers: DoubleArray) = numbers.all { it == numbers[0] }
+        return when {
+            isFlat(series.values) -> "the readings never change"
+            isFlat(series.xs) && isFlat(series.ys) -> "the boat never moves"
+            else -> "no pass comes near another"
+        }
+    }
+
     private fun legs(): String {
         val before = result.before
         val after = result.after
-        if (before == null || after == null) return "none to compare"
+        if (before == null || after == null || !(before.opposite.mean > 0)) return "none to compare"
         val change = 1 - after.opposite.mean / before.opposite.mean
         val words = if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
         return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, " +
@@ -116,8 +143,7 @@ internal class CorrectSummary(
         get() = buildList {
             when {
                 result.origin == SensorOrigin.NOTHING -> add(
-                    "no pass comes near another, so that nothing shows how the sensor responds: the values are " +
-                        "smoothed only; " +
+                    "${silence()}, so that nothing shows how the sensor responds: the values are smoothed only; " +
                         "give --sensor or --reference",
                 )
                 result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->

@@ -19,6 +19,7 @@ import stillwater.estimate.UndoableSensor
 import stillwater.estimate.rateLimit
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
+import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
@@ -105,6 +106,9 @@ class CorrectedLog internal constructor(
         /** More readings than this are learned on in the middle of a log only. */
         const val MOST_LEARNED = 20_000
 
+        /** A part of which nothing can be learned is not cut in half below this. */
+        private const val FEWEST_LEARNED = 2_500
+
         /** Seed of the bootstrap. */
         const val SEED = 1L
 
@@ -135,8 +139,9 @@ class CorrectedLog internal constructor(
                     "${pass.readings}",
                 )
             }
-            val statistics = scan.statistics()
             val series = rows.series()
+            SquareReach.require(log, series.values, rows.references())
+            val statistics = scan.statistics()
             val resolution = resolution(statistics)
             val learned = when {
                 undone != null -> Learned(
@@ -187,32 +192,44 @@ class CorrectedLog internal constructor(
             if (resolution > 0) listOf(SensorStage.Quantum(resolution)) else emptyList()
 
         private fun byRevisits(series: TrackSeries): Learned {
+            if (series.values.all { it == series.values[0] }) return nothing(series.size)
             val rate = series.rateLimit()
             if (rate.isFinite()) {
                 val response = ResponseKind.SLEW.response(rate)
                 val likely = listOf(LikelyResponse(listOf(response), 1.0))
                 return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
             }
-            val part = series.middle(MOST_LEARNED)
-            val learner = RevisitLearner.of(part)
+            var part = series.middle(MOST_LEARNED)
+            var learner = RevisitLearner.of(part)
+            // The longer the part, the longer the runs that are held against others: legs may be too short for them.
+            while (learner.blocks == 0 && part.size > FEWEST_LEARNED) {
+                part = series.middle(part.size / 2)
+                learner = RevisitLearner.of(part)
+            }
             val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
-                ?: return Learned(
-                    SensorOrigin.NOTHING,
-                    null,
-                    listOf(LikelyResponse(listOf(Response()), 1.0)),
-                    emptyList(),
-                    part.size,
-                    0,
-                )
+                ?: return nothing(part.size)
             val stages = choice.first.response.stages()
             return Learned(SensorOrigin.REVISITS, choice, choice.likely(), stages, part.size, learner.blocks)
         }
+
+        private fun nothing(readings: Int) = Learned(
+            SensorOrigin.NOTHING,
+            null,
+            listOf(LikelyResponse(listOf(Response()), 1.0)),
+            emptyList(),
+            readings,
+            0,
+        )
 
         private fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
             val known = (0 until series.size).filter { references[it].isFinite() }
             if (known.size < FEWEST) {
                 val expected = "at least $FEWEST readings with a reference"
                 throw LogProblem(log.file, null, null, expected, "${known.size}")
+            }
+            if (known.all { references[it] == references[known[0]] }) {
+                val found = "${references[known[0]]} in every row"
+                throw LogProblem(log.file, null, null, "a reference that changes", found)
             }
             val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
             val part = series.at(usable)

@@ -3,6 +3,7 @@ package stillwater.diagnosis
 import stillwater.diagnose.Candidate
 import stillwater.diagnose.Cause
 import stillwater.diagnose.DiagnosisResult
+import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
 
@@ -11,8 +12,14 @@ import stillwater.report.SignificantDigits
  *
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
+ * @param isGiven whether the base is a sensor that was given.
  */
-class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: MapWorth?) {
+class Diagnosed(
+    val log: DiagnosisLog,
+    val result: DiagnosisResult,
+    val worth: MapWorth?,
+    private val isGiven: Boolean = false,
+) {
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
      * `unexplained`.
@@ -29,7 +36,13 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
     val warnings: List<String> = buildList {
         addAll(result.warnings)
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
-        if (log.missing > 0) add("${log.missing} rows left out: no number in the column ${log.reference}.")
+        if (log.missing > 0) {
+            add("${log.missing} rows left out: no number in the column ${log.reference}.")
+            add(
+                "How the truth went between the rows with one is not known: up to half their distance may look like " +
+                    "a delay or an offset of place.",
+            )
+        }
         if (log.cut > 0) add("${log.cut} rows at the end were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
     }
 
@@ -70,14 +83,14 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
         val after = result.extended
         val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
         val best = result.candidates.firstOrNull()
+        val sensor = if (isGiven) "the sensor given" else "lag of ${three.format(tau?.value ?: Double.NaN)} s"
         return listOf(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
-            "base: lag of ${three.format(tau?.value ?: Double.NaN)} s; residuals ${three.format(base.trainRmse)}, " +
-                "on held-out blocks ${three.format(base.heldOutRmse)} (root mean square)",
+            "base: $sensor; residuals " +
+                three.format(base.trainRmse) + heldOut(base, three) + " (root mean square)",
             if (after != null) {
-                "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
-                    "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
+                extension(base, after, three)
             } else {
                 "likeliest of ${result.candidates.size} causes tried: ${best?.cause?.label ?: "none"}, adjusted p " +
                     three.format(best?.adjustedPValue ?: 1.0)
@@ -87,5 +100,19 @@ class Diagnosed(val log: DiagnosisLog, val result: DiagnosisResult, val worth: M
                     "what is left depends most on ${it.description}, adjusted p ${three.format(it.adjusted)}"
                 } ?: "nothing else was looked at",
         )
+    }
+
+    /** Without a reference nothing is held out. */
+    private fun heldOut(model: ModelAssessment, three: SignificantDigits) =
+        if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}"
+
+    private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String = when {
+        !after.heldOutRmse.isNaN() ->
+            "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
+                "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
+        after === base -> "extended: the base, whose lag is what was named; no blocks are held out without a reference"
+        else ->
+            "extended: residuals ${three.format(after.trainRmse)} (root mean square); no blocks are held out without " +
+                "a reference"
     }
 }

@@ -50,7 +50,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         val series = listOfNotNull(
             Series("measured", time, columns.values),
             Series("base", time, result.baseline.predicted),
-            result.extended?.let { Series("extended", time, it.predicted) },
+            result.extended?.takeIf { it !== result.baseline }?.let { Series("extended", time, it.predicted) },
         )
         val plot = LinePlot("Measured and predicted", "", series, "Time since the first row (s)", quantity)
         return DiagnosisFigure(
@@ -151,31 +151,33 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         )
     }
 
-    /** The causes of the answer, and others that look likely. */
-    private fun causes(): List<Candidate> {
-        val named = when (val verdict = result.verdict) {
-            is Verdict.Named -> verdict.causes
-            is Verdict.Ambiguous -> verdict.sets.flatten()
-            else -> emptyList()
-        }
-        return result.candidates.filter {
-            it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
-        }
-            .distinctBy { it.cause }
+    /** The causes of the answer. */
+    private val named: List<Cause> = when (val verdict = result.verdict) {
+        is Verdict.Named -> verdict.causes
+        is Verdict.Ambiguous -> verdict.sets.flatten()
+        else -> emptyList()
     }
+
+    /** The causes of the answer, and others that look likely. */
+    private fun causes(): List<Candidate> = result.candidates.filter {
+        it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
+    }
+        .distinctBy { it.cause }
 
     private fun cause(candidate: Candidate): DiagnosisFigure {
         val change = DoubleArray(n) { candidate.predicted[it] - result.baseline.predicted[it] }
         val series = listOf(Series("residual of the base", time, residual), Series("what the cause adds", time, change))
+        val isNamed = candidate.cause in named
         val plot = LinePlot(
             candidate.cause.label,
-            "",
+            if (isNamed) "" else "looks likely by itself, but is no part of the answer",
             series,
             "Time since the first row (s)",
             quantity,
             references = listOf(0.0),
         )
-        return DiagnosisFigure("cause-${candidate.cause.label}", plot.draw(), candidate.cause.sentence)
+        val caption = if (isNamed) candidate.cause.sentence else "Not named. Tried was: ${candidate.cause.sentence}"
+        return DiagnosisFigure("cause-${candidate.cause.label}", plot.draw(), caption)
     }
 
     private fun rate() = DoubleArray(n) { i ->

@@ -2,6 +2,7 @@ package stillwater.diagnosis
 
 import stillwater.diagnose.MeasuredSeries
 import stillwater.io.LogPass
+import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
 import java.nio.file.Path
 
@@ -43,6 +44,8 @@ class DiagnosisLog private constructor(
                     else -> columns.add(time.seconds, x, y, value, others)
                 }
             }
+            val others = conditions.mapNotNull { columns.condition(it) }.toTypedArray()
+            SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
                 log.file,
                 log.format,

@@ -1,6 +1,7 @@
 package stillwater.diagnosis
 
 import stillwater.diagnose.Candidate
+import stillwater.diagnose.ModelAssessment
 import stillwater.report.HtmlReport
 import stillwater.report.Program
 import stillwater.report.Provenance
@@ -27,8 +28,11 @@ internal class DiagnosisReport(
         page.summary("Verdict", result.verdict.label)
         page.summary("Causes", diagnosed.causes.joinToString(", ").ifEmpty { "–" })
         page.summary("Rows", "${diagnosed.log.series.size}")
-        page.summary("Residuals on held-out blocks, base", three.format(result.baseline.heldOutRmse))
-        result.extended?.let { page.summary("The same, extended", three.format(it.heldOutRmse)) }
+        val isHeldOut = !result.baseline.heldOutRmse.isNaN()
+        val residuals = if (isHeldOut) "Residuals on held-out blocks" else "Residuals, nothing held out"
+        fun shown(model: ModelAssessment) = three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse)
+        page.summary("$residuals, base", shown(result.baseline))
+        result.extended?.let { page.summary("The same, extended", shown(it)) }
         diagnosed.warnings.forEach(page::warning)
         page.section("The answer") { answer() }
         page.section("Measured and predicted") { show("predicted") }
@@ -52,13 +56,7 @@ internal class DiagnosisReport(
         result.separatingManoeuvre?.let { paragraph("What would tell the causes apart: $it.") }
         val after = result.extended ?: return
         val before = result.baseline
-        paragraph(
-            "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
-                "${three.format(
-                    before.heldOutRmse,
-                )} to ${three.format(after.heldOutRmse)}, and the log-likelihood rises by " +
-                "${three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)}.",
-        )
+        if (!before.heldOutRmse.isNaN()) heldOut(before, after)
         diagnosed.worth?.let { worth ->
             paragraph(
                 "Worth for a map: in ${worth.environments} simulated fields sampled by the extended sensor, the " +
@@ -70,6 +68,15 @@ internal class DiagnosisReport(
             )
         }
         keyValues(after.parameters.map { it.name.replace('_', ' ') to "${three.format(it.value)} ${it.unit}" })
+    }
+
+    private fun stillwater.report.ReportSection.heldOut(before: ModelAssessment, after: ModelAssessment) {
+        val gain = three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)
+        paragraph(
+            "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
+                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}, and the log-likelihood " +
+                "rises by $gain.",
+        )
     }
 
     private fun stillwater.report.ReportSection.tried() {

@@ -50,16 +50,20 @@ internal class AnnotatedLog(
             .allowExtraFields(true).allowMissingFields(true).ofCsvRecord(survey.content.reader { })
         writer(out, survey.separator).use { writer ->
             var headerSeen = false
+            var width = 0
             for (row in reader) {
                 val fields = row.fields
                 if (fields.all { it.isBlank() }) continue
                 if (!headerSeen) {
                     headerSeen = true
+                    width = fields.size
                     writer.writeRecord(fields + names)
                     continue
                 }
                 val isReading = next < times.size && isRow(survey, fields, next)
-                writer.writeRecord(fields + ((if (isReading) cells(next) else null) ?: empty))
+                // A row that is too short would have the added cells under its own columns.
+                val own = fields + List(maxOf(0, width - fields.size)) { "" }
+                writer.writeRecord(own + ((if (isReading) cells(next) else null) ?: empty))
                 if (isReading) next++ else other++
             }
         }
@@ -70,9 +74,39 @@ internal class AnnotatedLog(
     private fun isRow(survey: CsvSurvey, fields: List<String>, k: Int): Boolean {
         val time = fields.getOrNull(survey.columns.time)?.let { DecimalText.parse(it) } ?: return false
         val value = fields.getOrNull(survey.columns.value)?.let { DecimalText.parse(it) } ?: return false
-        return time == times[k] && value == values[k]
+        return time == times[k] && value == values[k] && isPlace(survey.columns, fields, k)
+    }
+
+    /** Degrees are compared by being there only: a row left out for its place may be the next one's twin. */
+    private fun isPlace(columns: CsvColumns, fields: List<String>, k: Int): Boolean {
+        fun number(column: Int) = fields.getOrNull(column)?.let { DecimalText.parse(it) } ?: Double.NaN
+        if (columns.latitude != CsvColumns.NONE) {
+            val latitude = number(columns.latitude)
+            val longitude = number(columns.longitude)
+            return latitude.isFinite() && longitude.isFinite() && (latitude != 0.0 || longitude != 0.0)
+        }
+        return number(columns.x) == xs[k] && (columns.y == CsvColumns.NONE || number(columns.y) == ys[k])
     }
 
     private fun writer(out: OutputStream, separator: Char) = CsvWriter.builder().fieldSeparator(separator)
         .lineDelimiter(LineDelimiter.LF).build(OutputStreamWriter(out, Charsets.UTF_8))
+
+    companion object {
+        /**
+         * Refuses [log] if it has one of the columns that are to be added.
+         *
+         * @throws LogProblem if so.
+         */
+        fun requireNewNames(log: SurveyLog, names: List<String>) {
+            val survey = log as? CsvSurvey ?: return
+            val taken = names.firstOrNull { it in survey.columns.names } ?: return
+            throw LogProblem(
+                log.file,
+                survey.headerLine,
+                taken,
+                "a log without this column, which is added",
+                "one with it",
+            )
+        }
+    }
 }

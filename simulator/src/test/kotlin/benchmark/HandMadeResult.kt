@@ -13,7 +13,13 @@ internal class HandMadeResult(private val environments: Int = 2) {
     private val checkpoints = listOf(50, 100, 200)
 
     /** Adds a curve whose environments lie [SPREAD] below and above [means] in turn, a number for each checkpoint. */
-    fun curve(planner: PlannerKind, filter: FilterKind, vararg means: Double, field: String = Preset.UNIFORM) = apply {
+    fun curve(
+        planner: PlannerKind,
+        filter: FilterKind,
+        vararg means: Double,
+        field: String = Preset.UNIFORM,
+        boats: Int = 1,
+    ) = apply {
         val errors = List(environments) { environment ->
             TrialErrors(means.size).apply {
                 for (i in means.indices) {
@@ -24,7 +30,7 @@ internal class HandMadeResult(private val environments: Int = 2) {
                 }
             }
         }
-        curves += Curve(field, filter, planner, checkpoints, errors)
+        curves += Curve(field, filter, planner, checkpoints, errors, boats)
     }
 
     fun build(): ExperimentResult {
@@ -37,6 +43,7 @@ internal class HandMadeResult(private val environments: Int = 2) {
             environments = environments,
             moves = checkpoints.last(),
             checkpoints = checkpoints,
+            boats = curves.map { it.boats }.distinct(),
         )
         return ExperimentResult(settings, curves, fields.associateWith { 0.4375 })
     }

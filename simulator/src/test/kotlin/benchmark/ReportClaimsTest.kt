@@ -62,6 +62,16 @@ class ReportClaimsTest {
     }
 
     @Test
+    fun moreBoatsAreNotHeldAgainstOne() {
+        val claim = claim("eventually lowest") {
+            curve(WALK, BOUNDED, 0.2, 0.1, 0.05)
+            curve(WALK, BOUNDED, 0.1, 0.05, 0.02, boats = 4)
+            curve(PLANNER, BOUNDED, 0.3, 0.15, 0.06)
+        }
+        assertEquals(Verdict.HOLDS, claim.verdict, claim.detail)
+    }
+
+    @Test
     fun aTieInTheEndIsNotLowest() {
         val claim = claim("eventually lowest") {
             curve(WALK, BOUNDED, 0.2, 0.1, 0.0625)

@@ -270,7 +270,8 @@ class BenchmarkBadInputTest {
                 "",
             ),
             sensor(
-                "Field 'stages' is required for type with serial name 'stillwater.sensor.SensorSpec', but it was missing at path: \$",
+                "Field 'stages' is required for type with serial name 'stillwater.sensor.SensorSpec', " +
+                    "but it was missing at path: \$",
                 """{"name": "x"}""",
             ),
             sensor(

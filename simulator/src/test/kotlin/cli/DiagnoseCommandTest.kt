@@ -37,6 +37,12 @@ class DiagnoseCommandTest {
         return file.toString()
     }
 
+    private fun huge(): String {
+        val file = directory.resolve("huge.csv")
+        Files.write(file, listOf("time_s,x_m,y_m,probe") + List(99) { "$it,$it,0,${if (it == 7) 1e90 else 1.0}" })
+        return file.toString()
+    }
+
     @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
@@ -66,13 +72,63 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun withoutAReferenceAGivenSensorIsSaidToBeUnusedAndNothingIsHeldOut() {
+        val spec = directory.resolve("spec.json")
+        Files.writeString(spec, """{"name": "s", "stages": [{"type": "first-order-lag", "time_constant_s": 5.0}]}""")
+        val out = directory.resolve("blind")
+        val result = diagnose(bench(), "--value", "probe", "--sensor", "$spec", "--numbers-only", "--out", "$out")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "The sensor given was not used")
+        assertFalse("–" in result.stdout, result.stdout)
+        assertFalse("held-out" in result.stdout, result.stdout)
+    }
+
+    @Test
+    fun logsThatCannotShowItAreNotCalledConsistentOrLagging() {
+        val water = List(200) { 5 + sin(it / 9.0) }
+        val rest = directory.resolve("rest.csv")
+        Files.write(rest, listOf("time_s,x_m,y_m,probe") + water.indices.map { "$it,3,4,${water[it]}" })
+        val same = directory.resolve("same.csv")
+        Files.write(same, listOf("time_s,x_m,y_m,probe,sample") + water.indices.map { "$it,$it,0,8,8" })
+        val cases = listOf(
+            listOf("$rest", "--value", "probe") to "the boat never moves",
+            listOf("$same", "--value", "probe") to "the readings never change",
+            listOf("$same", "--value", "probe", "--reference", "sample") to "neither the readings nor the truth",
+        )
+        for ((arguments, reason) in cases) {
+            val out = directory.resolve("blind")
+            val result = diagnose(*arguments.toTypedArray(), "--numbers-only", "--out", "$out")
+            assertEquals(0, result.statusCode, result.output)
+            assertContains(result.stdout, "verdict: insufficient-data")
+            assertContains(result.stdout, reason)
+        }
+    }
+
+    @Test
+    fun givenSensorIsTheBaseAndMissingReferencesAreSaidToHideDelays() {
+        val spec = directory.resolve("spec.json")
+        Files.writeString(spec, """{"name": "s", "stages": [{"type": "slew-limit", "rate_per_s": 0.1}]}""")
+        val rows = Files.readAllLines(Path.of(bench()))
+        val sparse = directory.resolve("sparse.csv")
+        Files.write(sparse, rows.mapIndexed { i, row -> if (i % 3 == 2) row.substringBeforeLast(',') + "," else row })
+        val out = directory.resolve("given")
+        val arguments = listOf("$sparse", "--value", "probe", "--reference", "sample", "--sensor", "$spec")
+        val result = diagnose(*arguments.toTypedArray(), "--numbers-only", "--out", "$out")
+        assertContains(result.stdout, "base: the sensor given; residuals")
+        assertContains(result.stderr, "rows left out: no number in the column sample")
+        assertContains(result.stderr, "may look like a delay")
+    }
+
+    @Test
     fun badInputIsOneLineAndLeavesNothing() {
         val log = bench()
         val cases = listOf(
             listOf(log, "--value", "nothing") to "expected one of",
             listOf(log, "--value", "probe", "--reference", "nothing") to "no such column",
+            listOf(log, "--value", "probe", "--reference", "probe") to "another column",
             listOf(log, "--value", "probe", "--condition", "speed") to "expected NAME=COLUMN, found 'speed'",
             listOf(log, "--value", "probe", "--sensor", "nowhere.json") to "no such file",
+            listOf(huge(), "--value", "probe") to "found 1.0E90",
             listOf("nowhere.csv") to "no such file",
         )
         for ((arguments, message) in cases) {

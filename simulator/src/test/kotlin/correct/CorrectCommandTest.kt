@@ -37,6 +37,8 @@ class CorrectCommandTest {
 
     private fun log(text: String): String = directory.resolve("log.csv").also { it.writeText(text) }.toString()
 
+    private fun file(name: String, text: String) = directory.resolve(name).also { it.writeText(text) }.toString()
+
     private fun survey(rows: Int = 120) = buildString {
         appendLine("time_s,x_m,y_m,slow,fast,note")
         for (i in 0 until rows) appendLine("$i,$i,0,${water(i - 5)},${water(i)},\"a, b\"")
@@ -97,6 +99,24 @@ class CorrectCommandTest {
             listOf(file, "--value", "slow", "--sensor", "none.json") to "no such file",
             listOf(file, "--value", "slow", "--sensor", spec(twice)) to "cannot",
             listOf(file, "--value", "slow", "--sensor", spec(twice), "--reference", "fast") to "both",
+            listOf(file, "--value", "slow", "--reference", "slow") to "another column",
+            listOf(
+                file("still.csv", survey().replace(Regex("[-0-9.]+,\"a"), "1,\"a")),
+                "--value",
+                "slow",
+                "--reference",
+                "fast",
+            ) to
+                "a reference that changes",
+            listOf(file("again.csv", survey().replace("note", "corrected")), "--value", "slow") to
+                "a log without this column",
+            listOf(
+                file("huge.csv", survey().replace("\n7,7,0,", "\n7,7,0,1e90,1,\n8,8,0,")),
+                "--value",
+                "slow",
+                "--skip-bad-rows",
+            ) to
+                "1.0E90",
             listOf(directory.resolve("short.csv").also { it.writeText(survey(5)) }.toString(), "--value", "slow") to
                 "at least 30",
         )
@@ -108,6 +128,68 @@ class CorrectCommandTest {
             assertFalse(out.exists(), "$arguments")
         }
     }
+
+    @Test
+    fun boatAtRestAndConstantReadingsAreAnHonestAnswer() {
+        val rest = survey().lines().joinToString("\n") { row ->
+            row.split(',').let {
+                if (it.size > 3 &&
+                    it[0] != "time_s"
+                ) {
+                    "${it[0]},0,0,${it.drop(3).joinToString(",")}"
+                } else {
+                    row
+                }
+            }
+        }
+        val atRest = run(log(rest), "--value", "slow")
+        assertEquals(0, atRest.statusCode, atRest.output)
+        assertContains(atRest.stderr, "the boat never moves")
+        val same = (0 until 200).joinToString("\n", "time_s,x_m,y_m,slow\n") { "$it,${it % 50},${it / 50},8" }
+        val constant = run(log(same), "--value", "slow")
+        assertEquals(0, constant.statusCode, constant.output)
+        assertContains(constant.stderr, "the readings never change")
+        assertFalse("NaN" in constant.output, constant.output)
+    }
+
+    @Test
+    fun rowLeftOutForItsPlaceDoesNotTakeItsTwinsCells() {
+        val rows = survey().lines().toMutableList()
+        rows.add(8, rows[8].replaceFirst("7,7,", "7,,"))
+        rows.add(20, "1,2")
+        assertEquals(0, run(log(rows.joinToString("\n")), "--value", "slow", "--skip-bad-rows").statusCode)
+        val lines = out.resolve("corrected.csv").readLines()
+        assertTrue(lines[8].startsWith("7,,") && lines[8].endsWith(",,,"), lines[8])
+        assertTrue(lines[9].startsWith("7,7,") && !lines[9].endsWith(",,,"), lines[9])
+        // As many cells as the header, so that the added ones do not stand under the log's own.
+        assertEquals("1,2,,,,,,,", lines[20])
+    }
+
+    @Test
+    fun givenSensorIsDescribedInWords() {
+        val limited = """{"name": "s", "stages": [{"type": "slew-limit", "rate_per_s": 0.0301749999}]}"""
+        val result = run(log(survey()), "--value", "slow", "--sensor", spec(limited))
+        assertContains(result.stdout, "sensor: slew-limit: rate per s 0.0302\n")
+        assertContains(out.resolve("report.html").readText(), "A limit on the rate of change is recognised only where")
+    }
+
+    @Test
+    fun longLogOfShortLegsIsLearnedFromAPartOfIt() {
+        val rows = 12_000
+        val legs = buildString {
+            appendLine("time_s,x_m,y_m,slow")
+            for (i in 0 until rows) appendLine("$i,${along(i)},${i / 40},${water2(i - 5)}")
+        }
+        val result = run(log(legs), "--value", "slow")
+        assertEquals(0, result.statusCode, result.output)
+        assertEquals("revisits", summary().getValue("sensor_from").jsonPrimitive.content)
+        assertContains(result.stderr, "readings in the middle of the log")
+    }
+
+    /** Legs of 40 m, there and back. */
+    private fun along(t: Int) = Math.floorMod(t, 80).let { if (it < 40) it else 79 - it }
+
+    private fun water2(t: Int) = Math.round(1000 * (sin(along(t) / 9.0) + sin(along(t) / 4.1 + t / 4000.0))) / 1000.0
 
     @Test
     fun lacHertelsLegsAgreeBetterAndDeadTimeAndTimeConstantStayOpen() {
