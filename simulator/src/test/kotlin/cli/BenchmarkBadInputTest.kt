@@ -276,8 +276,9 @@ class BenchmarkBadInputTest {
             ),
             sensor(
                 "a stage must have a type, one of asymmetric-lag, cross-sensitivity, dead-time, drift, " +
-                    "first-order-lag, flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, outliers, " +
-                    "quantisation, saturation, slew-limit, temperature-dependent-lag, two-path-lag at path: \$.stages[0]",
+                    "first-order-lag, flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, " +
+                    "outliers, quantisation, saturation, slew-limit, temperature-dependent-lag, " +
+                    "two-path-lag at path: \$.stages[0]",
                 """{"name": "x", "stages": [{"type": "magic"}]}""",
             ),
             sensor(
