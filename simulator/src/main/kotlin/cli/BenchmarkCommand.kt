@@ -1,9 +1,6 @@
 package stillwater.cli
 
-import com.github.ajalt.clikt.core.CliktCommand
-import com.github.ajalt.clikt.core.CliktError
 import com.github.ajalt.clikt.core.Context
-import com.github.ajalt.clikt.core.context
 import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
 import com.github.ajalt.clikt.parameters.options.convert
@@ -21,7 +18,6 @@ import stillwater.model.Grid
 import stillwater.model.WaterArea
 import stillwater.plan.Lawnmower
 import stillwater.report.OutputDirectory
-import stillwater.report.OutputException
 import stillwater.report.toTerminal
 import stillwater.run.BudgetKind
 import stillwater.run.Checkpoints
@@ -35,11 +31,7 @@ import java.nio.file.Path
 import java.util.concurrent.atomic.AtomicLong
 
 /** `stillwater benchmark`: the report's comparison of filters and planners in simulated fields. */
-class BenchmarkCommand : CliktCommand("benchmark") {
-    init {
-        context { helpFormatter = { OneLineErrors(it) } }
-    }
-
+class BenchmarkCommand : WorkCommand("benchmark") {
     private val preset by option(
         "--preset",
         metavar = "NAME",
@@ -148,17 +140,8 @@ class BenchmarkCommand : CliktCommand("benchmark") {
         ),
     )
 
-    override fun run() {
-        try {
-            work(settings())
-        } catch (wrong: BadFlag) {
-            throw wrong.of(currentContext)
-        } catch (problem: OutputException) {
-            throw CliktError("stillwater benchmark: ${problem.message}", statusCode = BAD_INPUT)
-        }
-    }
-
-    private fun work(settings: ExperimentSettings) {
+    override fun work() {
+        val settings = settings()
         // Opened first: where results cannot be written, nobody wants to wait for them.
         OutputDirectory(Path.of(out)).use { directory ->
             val result = measure(Experiment(settings))
@@ -256,7 +239,7 @@ class BenchmarkCommand : CliktCommand("benchmark") {
                 speed = fleetOptions.speed(),
             )
         } catch (unfit: IllegalArgumentException) {
-            throw CliktError("stillwater benchmark: ${unfit.message}", statusCode = BAD_INPUT)
+            throw failure(unfit.message.orEmpty())
         }
     }
 

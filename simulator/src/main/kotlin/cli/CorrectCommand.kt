@@ -1,9 +1,6 @@
 package stillwater.cli
 
-import com.github.ajalt.clikt.core.CliktCommand
-import com.github.ajalt.clikt.core.CliktError
 import com.github.ajalt.clikt.core.Context
-import com.github.ajalt.clikt.core.context
 import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
@@ -14,19 +11,13 @@ import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.correct.CorrectFiles
 import stillwater.correct.CorrectedLog
-import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
-import stillwater.report.OutputException
 import java.nio.file.Files
 import java.nio.file.Path
 
 /** `stillwater correct`: a log with its sensor's response undone, row by row. */
-class CorrectCommand : CliktCommand("correct") {
-    init {
-        context { helpFormatter = { OneLineErrors(it) } }
-    }
-
+class CorrectCommand : WorkCommand("correct") {
     private val log by argument("LOG").help("survey CSV or Platypus log")
     private val out by option(
         "--out",
@@ -69,19 +60,7 @@ class CorrectCommand : CliktCommand("correct") {
         ),
     )
 
-    override fun run() {
-        try {
-            work()
-        } catch (wrong: BadFlag) {
-            throw wrong.of(currentContext)
-        } catch (problem: LogProblem) {
-            throw failure(problem.message.orEmpty())
-        } catch (problem: OutputException) {
-            throw failure(problem.message.orEmpty())
-        }
-    }
-
-    private fun work() {
+    override fun work() {
         if (sensor != null &&
             reference != null
         ) {
@@ -141,8 +120,6 @@ class CorrectCommand : CliktCommand("correct") {
                 "--held-out" to heldOut,
             ),
     )
-
-    private fun failure(message: String) = CliktError("stillwater correct: $message", statusCode = BAD_INPUT)
 
     private companion object {
         /** Smaller files are done before a bar can be read, bytes. */

@@ -1,9 +1,6 @@
 package stillwater.cli
 
-import com.github.ajalt.clikt.core.CliktCommand
-import com.github.ajalt.clikt.core.CliktError
 import com.github.ajalt.clikt.core.Context
-import com.github.ajalt.clikt.core.context
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
@@ -20,18 +17,12 @@ import stillwater.diagnosis.DiagnosisFiles
 import stillwater.diagnosis.DiagnosisJson
 import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
-import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
-import stillwater.report.OutputException
 import java.nio.file.Path
 
 /** `stillwater diagnose`: what the simulation gets wrong about a log, by name, with an extended sensor and the gain. */
-class DiagnoseCommand : CliktCommand("diagnose") {
-    init {
-        context { helpFormatter = { OneLineErrors(it) } }
-    }
-
+class DiagnoseCommand : WorkCommand("diagnose") {
     private val log by argument("LOG").help("survey CSV or Platypus log")
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
         .default("stillwater-diagnosis")
@@ -77,19 +68,7 @@ class DiagnoseCommand : CliktCommand("diagnose") {
         ),
     )
 
-    override fun run() {
-        try {
-            work()
-        } catch (wrong: BadFlag) {
-            throw wrong.of(currentContext)
-        } catch (problem: LogProblem) {
-            throw failure(problem.message.orEmpty())
-        } catch (problem: OutputException) {
-            throw failure(problem.message.orEmpty())
-        }
-    }
-
-    private fun work() {
+    override fun work() {
         val twice = conditions.map { it.first }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }
         if (twice != null) throw BadFlag("--condition", "each name once", "'${twice.key}' several times")
         val given = sensor?.let { SensorFile.read(it) }
@@ -136,8 +115,6 @@ class DiagnoseCommand : CliktCommand("diagnose") {
             listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
         return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
     }
-
-    private fun failure(message: String) = CliktError("stillwater diagnose: $message", statusCode = BAD_INPUT)
 
     private companion object {
         /** Fewer are no log. */

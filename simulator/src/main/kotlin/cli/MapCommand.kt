@@ -1,9 +1,6 @@
 package stillwater.cli
 
-import com.github.ajalt.clikt.core.CliktCommand
-import com.github.ajalt.clikt.core.CliktError
 import com.github.ajalt.clikt.core.Context
-import com.github.ajalt.clikt.core.context
 import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
@@ -13,11 +10,9 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.io.DecimalText
-import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
 import stillwater.model.Interval
 import stillwater.report.OutputDirectory
-import stillwater.report.OutputException
 import stillwater.run.FilterKind
 import stillwater.run.LagFilterSettings
 import stillwater.survey.GridWish
@@ -32,11 +27,7 @@ import java.nio.file.Files
 import java.nio.file.Path
 
 /** `stillwater map`: a real log becomes a map, figures and a report. */
-class MapCommand : CliktCommand("map") {
-    init {
-        context { helpFormatter = { OneLineErrors(it) } }
-    }
-
+class MapCommand : WorkCommand("map") {
     private val log by argument("LOG").help("survey CSV or Platypus log")
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
         .default("stillwater-map")
@@ -99,19 +90,7 @@ class MapCommand : CliktCommand("map") {
         ),
     )
 
-    override fun run() {
-        try {
-            work()
-        } catch (wrong: BadFlag) {
-            throw wrong.of(currentContext)
-        } catch (problem: LogProblem) {
-            throw failure(problem.message.orEmpty())
-        } catch (problem: OutputException) {
-            throw failure(problem.message.orEmpty())
-        }
-    }
-
-    private fun work() {
+    override fun work() {
         if (cell != null && gridSize != null) throw failure("--grid: expected either --grid or --cell, found both")
         if (calibrate != null && !epsilon.isNaN()) throw failure("--calibrate: expected --epsilon auto, found a number")
         val file = Path.of(log)
@@ -181,8 +160,6 @@ class MapCommand : CliktCommand("map") {
             logOptions.flags() + own + filterOptions.flags() + lagOptions.flags(),
         )
     }
-
-    private fun failure(message: String) = CliktError("stillwater map: $message", statusCode = BAD_INPUT)
 
     private companion object {
         /** Smaller files are done before a bar can be read, bytes. */

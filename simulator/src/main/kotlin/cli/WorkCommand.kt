@@ -1,0 +1,33 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.CliktCommand
+import com.github.ajalt.clikt.core.CliktError
+import com.github.ajalt.clikt.core.context
+import stillwater.io.LogProblem
+import stillwater.report.OutputException
+
+/** A command whose every way to fail is one line that begins with its name, and exit code [BAD_INPUT]. */
+abstract class WorkCommand(name: String) : CliktCommand(name) {
+    init {
+        context { helpFormatter = { OneLineErrors(it) } }
+    }
+
+    /** What the command does. May throw [BadFlag], [LogProblem] and [OutputException] besides [failure]. */
+    protected abstract fun work()
+
+    final override fun run() {
+        try {
+            work()
+        } catch (wrong: BadFlag) {
+            throw wrong.of(currentContext)
+        } catch (problem: LogProblem) {
+            throw failure(problem.message.orEmpty())
+        } catch (problem: OutputException) {
+            throw failure(problem.message.orEmpty())
+        }
+    }
+
+    /** The end of the command because of [message]. */
+    protected fun failure(message: String): CliktError =
+        CliktError("stillwater $commandName: $message", statusCode = BAD_INPUT)
+}
