@@ -48,10 +48,8 @@ class CorrectCommand : WorkCommand("correct") {
 
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes corrected.csv (every row of the log and corrected, corrected_low, corrected_high), sensor.json " +
-            "(the sensor, " +
-            "for --sensor), summary.json, figures as SVG and PNG, and report.html into DIR; nothing at all when " +
-            "something " +
-            "is wrong with the log.",
+            "(the sensor, for --sensor), summary.json, figures as SVG and PNG, and report.html into DIR; nothing at " +
+            "all when something is wrong with the log.",
         listOf(
             "stillwater correct survey.csv --value odo_percent_sat --unit %sat",
             "stillwater correct profiles.csv --x pres_dbar --value doxy_umol",
@@ -61,9 +59,7 @@ class CorrectCommand : WorkCommand("correct") {
     )
 
     override fun work() {
-        if (sensor != null &&
-            reference != null
-        ) {
+        if (sensor != null && reference != null) {
             throw failure("--sensor: expected either --sensor or --reference, found both")
         }
         val spec = sensor?.let(SensorFile::read)
@@ -85,13 +81,8 @@ class CorrectCommand : WorkCommand("correct") {
                 try {
                     CorrectedLog.of(opened, spec, reference != null, progress::advance)
                 } catch (wrong: IllegalArgumentException) {
-                    throw if (spec ==
-                        null
-                    ) {
-                        wrong
-                    } else {
-                        BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
-                    }
+                    if (spec == null) throw wrong
+                    throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
                 }
             }
             val files = CorrectFiles(result, unit, commandLine(), if (heldOut) result.heldOut() else null)

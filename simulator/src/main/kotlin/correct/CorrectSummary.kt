@@ -35,13 +35,10 @@ internal class CorrectSummary(
             val choice = result.choice
             return when {
                 result.origin == SensorOrigin.NOTHING ->
-                    "not learned: nothing in the log shows it; taken as " +
-                        "without lag"
+                    "not learned: nothing in the log shows it; taken as without lag"
                 choice == null -> stages().ifEmpty { "without lag" }
-                choice.isAmbiguous -> "cannot be told apart on this log: ${choice.open.joinToString(
-                    "; ",
-                    transform = ::words,
-                )}"
+                choice.isAmbiguous ->
+                    "cannot be told apart on this log: " + choice.open.joinToString("; ", transform = ::words)
                 else -> words(choice.first)
             }
         }
@@ -149,16 +146,13 @@ internal class CorrectSummary(
                 result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->
                     add("a lag is not told from none: the intervals cover both")
                 result.choice?.isAmbiguous == true -> add(
-                    "the log leaves ${result.choice.open.size} responses open (${result.choice.open.joinToString {
-                        it.kind.label
-                    }}): " +
+                    "the log leaves ${result.choice.open.size} responses open " +
+                        result.choice.open.joinToString(prefix = "(", postfix = "): ") { it.kind.label } +
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
             }
             val silent = result.track.silent.count { it }
-            if (silent >
-                0
-            ) {
+            if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
             }
             if (result.learnedOn in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
