@@ -34,12 +34,6 @@ public class CandidateResponse internal constructor(
     /** Sum of [heldOut]. */
     public val heldOutScore: Double get() = heldOut.sum()
 
-    /** Standard error of the mean delay, s. */
-    public val delayError: Double
-        get() = likely().map { it.meanDelay }.let { all ->
-            sqrt(all.sumOf { (it - response.meanDelay) * (it - response.meanDelay) } / maxOf(1, all.size - 1))
-        }
-
     /** Responses about the best one that together have the mean and the spread of what is likely. */
     internal fun likely(): List<Response> {
         val scale = sqrt(axes.size.toDouble())

@@ -7,9 +7,8 @@ import kotlin.math.hypot
  *
  * @property firsts first node of each run, the passes before, the block itself last.
  * @property lengths nodes in each run, in the same order.
- * @property nearest distance from the middle of the block to the nearest other pass, m.
  */
-internal class RevisitBlock(val firsts: IntArray, val lengths: IntArray, val nearest: Double) {
+internal class RevisitBlock(val firsts: IntArray, val lengths: IntArray) {
     /** First node of the block. */
     val start: Int get() = firsts.last()
 }
@@ -30,13 +29,13 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         val passes = starts.map { passes(it) }
         val nearest = passes.mapNotNull { found -> found.minOfOrNull { it.distance } }.sorted()
         if (nearest.isEmpty()) return emptyList()
-        val reach = FARTHEST * nearest[nearest.size / 2] + ownLength()
+        val reach = FARTHEST * nearest[nearest.size / 2] + ownLength(starts)
         return starts.indices.mapNotNull { block(starts[it], passes[it].filter { pass -> pass.distance <= reach }) }
     }
 
     /** Usual way along a block, m. */
-    private fun ownLength(): Double {
-        val lengths = starts().map { nodes.distance(it, it + BLOCK - 1) }.sorted()
+    private fun ownLength(starts: List<Int>): Double {
+        val lengths = starts.map { nodes.distance(it, it + BLOCK - 1) }.sorted()
         return if (lengths.isEmpty()) 0.0 else lengths[lengths.size / 2] / 2
     }
 
@@ -91,7 +90,7 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         if (ranges.isEmpty()) return null
         val firsts = ranges.map { it.first } + start
         val lengths = ranges.map { it.last - it.first + 1 } + BLOCK
-        return RevisitBlock(firsts.toIntArray(), lengths.toIntArray(), chosen.minOf { it.distance })
+        return RevisitBlock(firsts.toIntArray(), lengths.toIntArray())
     }
 
     /** Nodes about [node], in its stretch and not in the block at [start]. */

@@ -38,10 +38,6 @@ public class RevisitLearner private constructor(
      */
     public val blocks: Int get() = found.size
 
-    /** Usual distance from a block to the nearest other pass, m; NaN without any. */
-    public val passDistance: Double
-        get() = if (found.isEmpty()) Double.NaN else found.map { it.nearest }.sorted()[found.size / 2]
-
     override val groups: Int get() = (groupOf.lastOrNull() ?: -1) + 1
 
     init {

@@ -104,11 +104,6 @@ public class BoardPort(
         return true
     }
 
-    /** Takes what the board said of itself to be no longer known. */
-    public fun forgetState() {
-        state = null
-    }
-
     private fun send(command: Command) {
         if (!link.write(encoder.encode(command))) unsent++
     }
