@@ -152,7 +152,7 @@ public enum class PlannerName(public val keepsToWater: Boolean = false) {
     @SerialName("information")
     INFORMATION,
 
-    /** In a fixed order, staying in each cell until its bounds have closed, for two of the longest time constants at most. */
+    /** In a fixed order, staying in each cell until its bounds close, for two longest time constants at most. */
     @SerialName("settling-lawnmower")
     SETTLING_LAWNMOWER,
 

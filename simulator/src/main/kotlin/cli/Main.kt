@@ -22,7 +22,13 @@ class Stillwater : CliktCommand("stillwater") {
 }
 
 fun main(args: Array<String>) {
-    val command = Stillwater().subcommands(BenchmarkCommand(), MapCommand(), CorrectCommand(), DiagnoseCommand(), SimulateCommand())
+    val command = Stillwater().subcommands(
+        BenchmarkCommand(),
+        MapCommand(),
+        CorrectCommand(),
+        DiagnoseCommand(),
+        SimulateCommand(),
+    )
     try {
         command.parse(args)
     } catch (wrong: UsageError) {

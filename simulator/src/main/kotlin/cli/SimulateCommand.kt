@@ -49,7 +49,7 @@ class SimulateCommand : WorkCommand("simulate") {
             "stillwater simulate docs/missions/ten-by-ten.json",
             "stillwater simulate docs/missions/ten-by-ten.json --field smooth --current 0.2,0.1 --wind 3,0",
             "stillwater simulate docs/missions/ten-by-ten.json --link-loss 0.001 --link-corruption 0.001 --seed 7",
-            "stillwater simulate docs/missions/ten-by-ten.json --sensor docs/sensors/noisy-second-order.json --out slow",
+            "stillwater simulate docs/missions/bay-with-island.json --sensor docs/sensors/noisy-two-path.json",
         ),
     )
 

@@ -30,15 +30,20 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
     private val waterRange by option(
         "--field-range",
         metavar = "LOW,HIGH",
-        help = "range of the water at the cells' centres, sensor units; without it the middle 80 % of the mission's range",
+        help = "range of the water at the cells' centres, sensor units; without it the middle 80 % of the mission's",
     ).numberPair(',', "two numbers, the first below the second") { low, high -> low < high }
-    private val waterSeed by option("--field-seed", metavar = "N", help = "where the water comes from, instead of --seed")
-        .convert { text -> text.toLongOrNull() ?: throw BadFlag(name, "a whole number", "'$text'") }
+    private val waterSeed by option(
+        "--field-seed",
+        metavar = "N",
+        help = "where the water comes from, instead of --seed",
+    ).convert { text -> text.toLongOrNull() ?: throw BadFlag(name, "a whole number", "'$text'") }
 
     /** Where all chance comes from. */
-    val seed: Long by option("--seed", metavar = "N", help = "where all chance comes from; the same seed, the same bytes")
-        .convert { text -> text.toLongOrNull() ?: throw BadFlag(name, "a whole number", "'$text'") }
-        .default(1)
+    val seed: Long by option(
+        "--seed",
+        metavar = "N",
+        help = "where all chance comes from; the same seed, the same bytes",
+    ).convert { text -> text.toLongOrNull() ?: throw BadFlag(name, "a whole number", "'$text'") }.default(1)
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
@@ -66,8 +71,11 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         .number("a number within 0..600") { it in 0.0..LONGEST_PERIOD }
     private val linkLoss by option("--link-loss", metavar = "P", help = "probability that a byte is lost (0)")
         .number("a number within 0..1") { it in 0.0..1.0 }
-    private val linkCorruption by option("--link-corruption", metavar = "P", help = "probability that a byte is changed (0)")
-        .number("a number within 0..1") { it in 0.0..1.0 }
+    private val linkCorruption by option(
+        "--link-corruption",
+        metavar = "P",
+        help = "probability that a byte is changed (0)",
+    ).number("a number within 0..1") { it in 0.0..1.0 }
     private val watchdog by option("--watchdog", metavar = "S", help = "of the board, s (0.5; 3 on firmware 4.2.0)")
         .number("a number above 0") { it > 0 }
     private val arming by option("--arming", metavar = "S", help = "time that the board takes to arm, s (2)")

@@ -81,7 +81,8 @@ class Animation(
         if (!(abs(value) < LARGEST)) return JsonNull
         val power = 10.0.pow(decimals)
         val scaled = (value * power).roundToLong()
-        return if (scaled % power.toLong() == 0L) JsonPrimitive(scaled / power.toLong()) else JsonPrimitive(scaled / power)
+        val whole = power.toLong()
+        return if (scaled % whole == 0L) JsonPrimitive(scaled / whole) else JsonPrimitive(scaled / power)
     }
 
     private companion object {

@@ -105,13 +105,14 @@ class SimulationFiles(private val result: SimulationResult, private val command:
             "in_process_value",
         )
         val HOW = listOf(
-            "The mission that runs on the phone runs here unchanged: bytes of a virtual board come in over a virtual link, " +
-                "bytes go out to its motors, ten times a second of virtual time. The board behaves as the boats' firmware " +
-                "does; hull, wind, current, water, probe and position fixes are simulated behind it.",
-            "In process means: the readings that the mission took, put straight into the same estimator with the places " +
-                "where the boat really was. What the mission's map is worse by is the stack's own part.",
-            "mission.txt is the mission's log, a superset of the Platypus 4.2 format: map, diagnose and correct read it. " +
-                "It begins on 1 January 2026 whatever the day, so that the same seed gives the same bytes.",
+            "The mission that runs on the phone runs here unchanged: bytes of a virtual board come in over a " +
+                "virtual link, bytes go out to its motors, ten times a second of virtual time. The board behaves " +
+                "as the boats' firmware does; hull, wind, current, water, probe and position fixes are simulated " +
+                "behind it.",
+            "In process means: the readings that the mission took, put straight into the same estimator with the " +
+                "places where the boat really was. What the mission's map is worse by is the stack's own part.",
+            "mission.txt is the mission's log, a superset of the Platypus 4.2 format: map, diagnose and correct " +
+                "read it. It begins on 1 January 2026 whatever the day, so that the same seed gives the same bytes.",
         )
     }
 }

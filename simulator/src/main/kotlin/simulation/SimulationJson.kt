@@ -43,6 +43,22 @@ internal object SimulationJson {
             errors("mission_over_the_same_cells", result.comparedError)
             put("mission_over_in_process", finite(result.comparedError.mean / result.inProcessError.mean))
         }
+        way(result)
+        readings(result.readings)
+        link(result)
+        result.belief?.let { belief ->
+            putJsonObject("sensor_learned") {
+                put("explained", belief.isExplained)
+                put("response", belief.chosen.kind.label)
+                belief.chosen.parameters.forEach { put(it.name, finite(it.value)) }
+            }
+        }
+        put("states", states(run.history))
+        putJsonArray("warnings") { warnings.forEach { add(JsonPrimitive(it)) } }
+    }
+
+    private fun JsonObjectBuilder.way(result: SimulationResult) {
+        val run = result.run
         putJsonObject("way") {
             put("distance_m", run.track.distance)
             put("under_way_s", round(result.timeUnderWay))
@@ -54,26 +70,20 @@ internal object SimulationJson {
             put("energy_wh", run.world.battery.used)
             put("battery_v", run.world.battery.volts)
         }
-        readings(result.readings)
+    }
+
+    private fun JsonObjectBuilder.link(result: SimulationResult) {
+        val mission = result.run.mission
         putJsonObject("link") {
-            put("unreadable_lines", run.mission.board.unreadable)
+            put("unreadable_lines", mission.board.unreadable)
             putJsonObject("by_kind") { result.unreadable.forEach { (kind, count) -> put(kind, count) } }
-            put("commands_the_board_could_not_use", run.mission.board.refusals)
-            put("writes_not_taken", run.mission.board.unsent)
+            put("commands_the_board_could_not_use", mission.board.refusals)
+            put("writes_not_taken", mission.board.unsent)
         }
         putJsonObject("refused") {
-            put("fixes", run.mission.refusedFixes)
-            put("steps", run.mission.refusedSteps)
+            put("fixes", mission.refusedFixes)
+            put("steps", mission.refusedSteps)
         }
-        result.belief?.let { belief ->
-            putJsonObject("sensor_learned") {
-                put("explained", belief.isExplained)
-                put("response", belief.chosen.kind.label)
-                belief.chosen.parameters.forEach { put(it.name, finite(it.value)) }
-            }
-        }
-        put("states", states(run.history))
-        putJsonArray("warnings") { warnings.forEach { add(JsonPrimitive(it)) } }
     }
 
     private fun JsonObjectBuilder.readings(account: ReadingAccount) = putJsonObject("readings") {

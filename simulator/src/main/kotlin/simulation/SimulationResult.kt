@@ -92,7 +92,7 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
 
     /** Time between start and end of the way, s: all states in which the boat may move. */
     val timeUnderWay: Double = run.history.spans
-        .filter { it.state == MissionState.Surveying || it.state is MissionState.Holding || it.state is MissionState.Returning }
+        .filter { mayMove(it.state) }
         .sumOf { it.until - it.from }
 
     /** The true value at the centre of [cell], sensor units. */
@@ -100,6 +100,9 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
 
     /** The true mean over [cell], sensor units. */
     fun mean(cell: Int): Double = means[cell]
+
+    private fun mayMove(state: MissionState) =
+        state == MissionState.Surveying || state is MissionState.Holding || state is MissionState.Returning
 
     private fun isInBoth(cell: Int) = map.readings(cell) > 0 && inProcess.readings(cell) > 0
 

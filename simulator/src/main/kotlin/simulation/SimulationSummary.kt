@@ -44,7 +44,10 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
         if (result.belief?.isExplained == false) {
             val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
-            add("no sensor model explains the readings$where: the map has no bounds of its own and its values may be far off")
+            add(
+                "no sensor model explains the readings$where: the map has no bounds of its own and its values may be " +
+                    "far off",
+            )
         }
         if (result.againstMeans.mean > result.averagesError.mean) {
             add(
@@ -54,7 +57,10 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         }
         val holding = result.boundsAtCentres
         if (holding.cells > 0 && holding.holding < CREDIBLE) {
-            add("the bounds hold the water at the cells' centres in only ${percent(holding.holding)} of ${holding.cells} cells")
+            add(
+                "the bounds hold the water at the cells' centres in only ${percent(holding.holding)} of " +
+                    "${holding.cells} cells",
+            )
         }
         if (result.atCentres.cells == 0) add("no cell has a reading")
     }
@@ -63,21 +69,22 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
 
     private fun mapError(): String {
         val centres = result.atCentres
-        return "${number(centres.mean)}$space$unit mean, ${number(centres.rootMeanSquare)} RMS over ${centres.cells} of " +
-            "${run.world.site.grid.size} cells at their centres; ${number(result.againstMeans.mean)} against their means"
+        return "${number(centres.mean)}$space$unit mean, ${number(centres.rootMeanSquare)} RMS over " +
+            "${centres.cells} of ${run.world.site.grid.size} cells at their centres; " +
+            "${number(result.againstMeans.mean)} against their means"
     }
 
     private fun inProcess(): String {
         val own = result.comparedError
         val ratio = own.mean / result.inProcessError.mean
         val times = if (ratio.isFinite()) ", ${number(ratio)} times as much" else ""
-        return "${number(result.inProcessError.mean)}$space$unit with the same readings at the true places; the mission " +
-            "${number(own.mean)} over the same ${own.cells} cells$times"
+        return "${number(result.inProcessError.mean)}$space$unit with the same readings at the true places; the " +
+            "mission ${number(own.mean)} over the same ${own.cells} cells$times"
     }
 
-    private fun way() = "${number(run.track.distance)} m in ${clock(result.timeUnderWay)}; ${number(run.track.crossTrack)} m " +
-        "RMS off its legs (largest ${number(run.track.largestCrossTrack)} m), believed place off by " +
-        "${number(run.track.poseError)} m RMS"
+    private fun way() = "${number(run.track.distance)} m in ${clock(result.timeUnderWay)}; " +
+        "${number(run.track.crossTrack)} m RMS off its legs (largest ${number(run.track.largestCrossTrack)} m), " +
+        "believed place off by ${number(run.track.poseError)} m RMS"
 
     private fun readings(): String {
         val account = result.readings
@@ -90,14 +97,15 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     private fun bounds(): String? {
         val centres = result.boundsAtCentres
         if (centres.cells == 0) return null
-        return "${number(centres.meanWidth)}$space$unit wide in ${centres.cells} cells; they hold the water at the centre in " +
-            "${percent(centres.holding)}, the cell's mean in ${percent(result.boundsAroundMeans.holding)}"
+        return "${number(centres.meanWidth)}$space$unit wide in ${centres.cells} cells; they hold the water at the " +
+            "centre in ${percent(centres.holding)}, the cell's mean in ${percent(result.boundsAroundMeans.holding)}"
     }
 
     private fun link(): String {
         val board = run.mission.board
         val kinds = result.unreadable.entries.joinToString { "${it.key} ${it.value}" }
-        val lines = if (kinds.isEmpty()) "all lines could be read" else "${board.unreadable} lines could not be read ($kinds)"
+        val bad = "${board.unreadable} lines could not be read ($kinds)"
+        val lines = if (kinds.isEmpty()) "all lines could be read" else bad
         return "$lines; the board could not use ${board.refusals} commands"
     }
 

@@ -24,7 +24,11 @@ class MissionFileTest {
     fun whatIsWrongIsSaidWithItsPlaceAndWhatWasExpected() {
         for ((old, new, expected) in listOf(
             Triple("\"columns\": 6", "\"columns\": 0", "5:11: grid: columns (0) must be at least 1"),
-            Triple("\"columns\": 6", "\"columns\": \"six\"", "5:59: grid.columns: expected a whole number, found 'six'"),
+            Triple(
+                "\"columns\": 6",
+                "\"columns\": \"six\"",
+                "5:59: grid.columns: expected a whole number, found 'six'",
+            ),
             Triple("\"columns\": 6", "\"columns\": 1.5", "5:59: grid.columns: expected a whole number, found '1.5'"),
             Triple("\"columns\": 6, ", "", "5:11: grid: expected the field columns, found none"),
             Triple("\"lowest\": 0", "\"lowest\": NaN", "6:66: probe.lowest: expected a number, found 'NaN'"),
@@ -42,7 +46,7 @@ class MissionFileTest {
             Triple("{\"seconds\": 900}", "{}", "8:13: budget: a budget needs either metres or seconds"),
             Triple("\"home\": {", "\"home\": [", "9:11: home: expected one of x_m, y_m, found '[\"x_m\": 5'"),
             Triple("\"x_m\": 5,", "\"x_m\": 500,", "1:1: home (500.0, 5.0) must lie on the water"),
-            Triple("\"y_m\": 80}", "\"y_m\": {}}", "4:81: area.north_east.y_m: expected a number, found '{'"),
+            Triple("\"y_m\": 80}", "\"y_m\": {}}", "4:85: area.north_east.y_m: expected a number, found '{'"),
         )) {
             assertEquals("pond.json:$expected", problem(old, new))
         }

@@ -6,13 +6,13 @@ import stillwater.world.WorldSettings
 /** Missions that are soon over, for tests. */
 internal object SmallMission {
     /** Six by six cells of 10 m, five minutes on the lawnmower's way. */
-    fun pond(estimator: String, more: String = ""): MissionSpec = MissionSpec.fromJson(pondJson(estimator, more))
-
-    fun pondJson(estimator: String, more: String = ""): String = """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-73.6},
+    fun pond(estimator: String, more: String = ""): MissionSpec = MissionSpec.fromJson(
+        """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-73.6},
         "area":{"south_west":{"x_m":-20,"y_m":-20},"north_east":{"x_m":80,"y_m":80}},
         "grid":{"south_west":{"x_m":0,"y_m":0},"columns":6,"rows":6,"cell_m":10},
         "probe":{"quantity":"dissolved-oxygen","port":1,"lowest":0,"highest":15},$more
-        "estimator":"$estimator","planner":"lawnmower","budget":{"seconds":300},"home":{"x_m":5,"y_m":5}}"""
+        "estimator":"$estimator","planner":"lawnmower","budget":{"seconds":300},"home":{"x_m":5,"y_m":5}}""",
+    )
 
     /** Ten by ten cells of 10 m, half an hour. */
     fun tenByTen(estimator: String, planner: String = "bounded-extended"): MissionSpec = MissionSpec.fromJson(
