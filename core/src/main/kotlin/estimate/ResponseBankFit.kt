@@ -257,9 +257,11 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private fun truncate(low: Double, high: Double) {
         val deviation = sqrt(spreadSecond)
         if (placeSecond - low > CERTAIN * deviation && high - placeSecond > CERTAIN * deviation) return
-        val from = maxOf(low, minOf(placeSecond, high) - CERTAIN * deviation)
-        val width = (minOf(high, maxOf(placeSecond, low) + CERTAIN * deviation) - from) / PARTS
         val nearest = (placeSecond.coerceIn(low, high) - placeSecond) / deviation
+        // Far out in its tail the normal density falls by e within a deviation over the distance in deviations.
+        val reach = CERTAIN * deviation / if (abs(nearest) > CERTAIN) abs(nearest) else 1.0
+        val from = maxOf(low, minOf(placeSecond, high) - reach)
+        val width = (minOf(high, maxOf(placeSecond, low) + reach) - from) / PARTS
         var sum = 0.0
         var first = 0.0
         var second = 0.0

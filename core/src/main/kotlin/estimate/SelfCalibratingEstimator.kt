@@ -23,7 +23,8 @@ import kotlin.math.sqrt
  * spent in the second: sample often on a border. Between cells that do not touch, or after leaving the grid or a reading
  * without a value in another cell, the sensor's state is taken as unknown. A reading farther than [FARTHEST] widths of
  * the prior from its middle is not used and counts as a conflict. Where no model explains the readings [isExplained] says
- * so, values are biased and bounds go back to the prior's.
+ * so: bounds are then those of a [BoundedExtendedFilter], which needs no model, and so are values if the nearest model's
+ * have run away from it.
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
@@ -51,6 +52,7 @@ public class SelfCalibratingEstimator(
     private var visitedCount = 0
     private var refreshed = 0
     private var lastCell = Grid.OUTSIDE
+    private val fallback = Fallback(grid, prior)
 
     /**
      * The most likely time constant τ of a first-order lag, s; with an asymmetric response the geometric mean of the
@@ -60,8 +62,8 @@ public class SelfCalibratingEstimator(
 
     /**
      * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike. Where it does
-     * not, values are the best that such a sensor gives and the map's bounds are the prior's. True until there is
-     * evidence against it.
+     * not, the map's bounds need no sensor model, and its values are the nearest model's or need none either. True until
+     * there is evidence against it; then false until innovations are clearly unlike.
      */
     public val isExplained: Boolean get() = choice.isExplained
 
@@ -81,6 +83,7 @@ public class SelfCalibratingEstimator(
     public fun sensor(): SensorBelief = choice.belief(scale)
 
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
+        fallback.take(cell, seconds, value, conditions)
         val scaled = (value - middle) / scale
         if (!(abs(scaled) <= FARTHEST)) {
             map.countConflict(cell)
@@ -93,7 +96,7 @@ public class SelfCalibratingEstimator(
         if (tape.isComplete && tape.size >= nextReplay) {
             while (nextReplay <= tape.size) nextReplay += nextReplay / 2
             choice.decide(tape)
-            for (i in 0 until visitedCount) write(i)
+            writeAll()
             return
         }
         if (!tape.isComplete) choice.follow()
@@ -101,16 +104,32 @@ public class SelfCalibratingEstimator(
         choice.take(slot, seconds, scaled)
         if (isExplained != wasExplained) {
             // Bounds that no longer hold, or hold again, do so in all cells.
-            for (i in 0 until visitedCount) write(i)
+            writeAll()
             return
         }
         write(slot)
         if (choice.active.here != LagBank.NONE) write(choice.active.here)
         if (choice.active.before != LagBank.NONE) write(choice.active.before)
         repeat(REFRESHED) {
-            if (++refreshed >= visitedCount) refreshed = 0
+            if (++refreshed >= visitedCount) {
+                refreshed = 0
+                compareWithFallback()
+            }
             write(refreshed)
         }
+    }
+
+    private fun writeAll() {
+        compareWithFallback()
+        for (i in 0 until visitedCount) write(i)
+    }
+
+    /** Where nothing explains the readings: whether the nearest model's values are to be kept. */
+    private fun compareWithFallback() {
+        if (isExplained) return
+        fallback.begin()
+        for (i in 0 until visitedCount) fallback.compare(visited[i], middle + scale * choice.active.truth(i))
+        fallback.decide()
     }
 
     private fun enter(cell: Int) {
@@ -126,6 +145,7 @@ public class SelfCalibratingEstimator(
     override fun leave() {
         if (lastCell == Grid.OUTSIDE) return
         lastCell = Grid.OUTSIDE
+        fallback.leave()
         choice.leave()
         tape.add(LagBank.NONE, 0.0, 0.0)
     }
@@ -156,8 +176,9 @@ public class SelfCalibratingEstimator(
         val cell = visited[slot]
         val prior = map.prior
         if (!isExplained) {
-            map.setValue(cell, value.coerceIn(prior.lower, prior.upper))
-            map.setBounds(cell, prior.lower, prior.upper)
+            val kept = if (fallback.isPreferred) fallback.map.value(cell) else value.coerceIn(prior.lower, prior.upper)
+            map.setValue(cell, kept)
+            map.setBounds(cell, minOf(kept, fallback.map.lower(cell)), maxOf(kept, fallback.map.upper(cell)))
         } else if (upper < prior.lower || lower > prior.upper) {
             map.setValue(cell, value)
             map.setBounds(cell, lower, upper)

@@ -36,7 +36,12 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     var rival: SensorFit? = null
         private set
 
-    val isExplained: Boolean get() = active.isWhite
+    /**
+     * Whether the chosen model explains the readings. Once it does not, it takes innovations that are clearly white to
+     * say that one does again: a freer model that fits what is not the sensor's hovers about the limit.
+     */
+    var isExplained: Boolean = true
+        private set
 
     val timeConstant: Double get() = (active as? ResponseBankFit)?.let { exp(it.logTime) } ?: lag.timeConstant
 
@@ -52,6 +57,11 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     fun take(slot: Int, seconds: Double, value: Double) {
         active.take(slot, seconds, value)
         rival?.take(slot, seconds, value)
+        judge()
+    }
+
+    private fun judge() {
+        isExplained = if (isExplained) active.isWhite else active.isClearlyWhite
     }
 
     fun leave() {
@@ -66,7 +76,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         active = lag
         rival = null
         lag.calibrate(tape)
-        if (lag.freedom < SensorFit.FEWEST_TO_JUDGE) return
+        if (lag.freedom < SensorFit.FEWEST_TO_JUDGE) return judge()
         val penalty = ln(lag.freedom)
         criteria.fill(Double.NaN)
         criteria[0] = lag.freedom * ln(lag.misfit) + penalty
@@ -84,6 +94,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
             for (k in fits.indices) if (k != best && isPossible(k) && (next < 0 || odds[k] < odds[next])) next = k
         }
         if (next >= 0) rival = fits[next]
+        judge()
     }
 
     private fun criterion(fit: SensorFit, tape: ReadingTape, penalty: Double): Double {

@@ -27,6 +27,10 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
     var isWhite: Boolean = true
         private set
 
+    /** Whether successive innovations are not even half as alike as speaks against the model. */
+    var isClearlyWhite: Boolean = true
+        private set
+
     /** Slot of the cell the sensor is in, [LagBank.NONE] if not known. */
     abstract val here: Int
 
@@ -54,7 +58,10 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
         freedom = FIRST_FREEDOM + maxOf(0.0, free)
         noiseVariance = misfit / freedom
         // The correlation of white noise has the standard deviation 1/√freedom, eq. (13).
-        isWhite = freedom < FEWEST_TO_JUDGE || succession / misfit <= LEAST_CORRELATION + DEVIATIONS / sqrt(freedom)
+        val correlation = succession / misfit
+        val most = LEAST_CORRELATION + DEVIATIONS / sqrt(freedom)
+        isWhite = freedom < FEWEST_TO_JUDGE || correlation <= most
+        isClearlyWhite = freedom < FEWEST_TO_JUDGE || correlation <= most / 2
     }
 
     companion object {

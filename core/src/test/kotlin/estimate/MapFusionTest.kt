@@ -80,7 +80,7 @@ class MapFusionTest {
 
     @Test
     fun anIntervalThatIsNoneDoesNotMakeAnotherNarrower() {
-        // A boat whose model does not explain its readings gives the prior's bounds.
+        // A boat that nothing told about the cell gives the prior's bounds.
         MapFusion.INVERSE_VARIANCE.fuse(arrayOf(map(1, 0.2, 0.0, 1.0, 9), map(1, 0.7, 0.6, 0.8, 3)), into)
         assertEquals(0.7, into.value(1), 1e-15, "rounding")
         assertEquals(0.2, into.upper(1) - into.lower(1), 1e-15, "rounding")

@@ -26,8 +26,8 @@ internal class SensorWording(private val belief: SensorBelief) {
         return if (belief.isExplained) {
             "${chosen.kind.label}, ${parameters(chosen)}"
         } else {
-            "none explains the readings: the map has no bounds of its own; ${chosen.kind.label} comes closest, with " +
-                chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
+            "none explains the readings: bounds are those of bounded-extended; ${chosen.kind.label} comes closest, " +
+                "with " + chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
         }
     }
 

@@ -67,7 +67,6 @@ class MissionRunTest {
         assertEquals(false, assertNotNull(result.belief).isExplained)
         val warnings = SimulationSummary(result, "mg/L").warnings
         assertTrue(warnings.any { "where the water changes within a cell" in it }, "$warnings")
-        assertEquals(0, result.boundsAtCentres.cells, "bounds of their own")
     }
 
     @Test

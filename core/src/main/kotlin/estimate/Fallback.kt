@@ -1,0 +1,66 @@
+package stillwater.estimate
+
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+import kotlin.math.sqrt
+
+/**
+ * What a [SelfCalibratingEstimator] falls back on where no sensor model explains the readings: a [BoundedExtendedFilter]
+ * of the same readings, which needs none.
+ *
+ * Its bounds always count then. Its values count where the nearest model's have run away: they differ from this filter's
+ * by more than [FARTHEST] times what this filter itself adds to the mean of a cell's readings. Source:
+ * core/docs/SelfCalibratingEstimator.md, section "Whether the model holds".
+ */
+internal class Fallback(private val grid: Grid, prior: Interval) {
+    private val filter = BoundedExtendedFilter(grid, prior)
+    private val sums = DoubleArray(grid.size)
+    /** Farther from the first cell than any other is. */
+    private val outside = grid.centerX(0) - 2 * (grid.columns * grid.cellWidth + grid.rows * grid.cellHeight)
+    private var seconds = 0.0
+    private var apart = 0.0
+    private var added = 0.0
+
+    /** Value and bounds of every cell, sensor units. */
+    val map: FieldMap get() = filter.map
+
+    /** Whether its values count instead of the nearest model's. */
+    var isPreferred: Boolean = false
+        private set
+
+    fun take(cell: Int, seconds: Double, value: Double, conditions: Conditions) {
+        this.seconds = seconds
+        sums[cell] += value
+        filter.update(BoatTime(seconds), grid.centerX(cell), grid.centerY(cell), value, conditions)
+    }
+
+    /** The boat left the last cell without a reading of where it went. */
+    fun leave() {
+        filter.update(BoatTime(seconds), outside, grid.centerY(0), 0.0, Conditions.NONE)
+    }
+
+    fun begin() {
+        apart = 0.0
+        added = 0.0
+    }
+
+    /** Compares its value with [value] of the nearest model in a visited cell, sensor units. */
+    fun compare(cell: Int, value: Double) {
+        val own = map.value(cell)
+        val off = value - own
+        val mean = sums[cell] / map.readings(cell)
+        apart += off * off
+        added += (own - mean) * (own - mean)
+    }
+
+    fun decide() {
+        isPreferred = !(sqrt(apart) <= FARTHEST * sqrt(added))
+    }
+
+    private companion object {
+        const val FARTHEST = 2.0
+    }
+}
