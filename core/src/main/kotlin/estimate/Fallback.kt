@@ -11,8 +11,9 @@ import kotlin.math.sqrt
  * What a [SelfCalibratingEstimator] falls back on where no sensor model explains the readings: a [BoundedExtendedFilter]
  * of the same readings, which needs none.
  *
- * Its bounds always count then. Its values count where the nearest model's have run away: they differ from this filter's
- * by more than [FARTHEST] times what this filter itself adds to the mean of a cell's readings. Source:
+ * Its bounds always count then. Its values count where the nearest model's have run away: its time constant is longer
+ * than [LONGEST] stays, so that a stay looks the same as one in water that changes evenly, and its values differ from this
+ * filter's by more than [FARTHEST] times what this filter itself adds to the mean of a cell's readings. Source:
  * core/docs/SelfCalibratingEstimator.md, section "Whether the model holds".
  */
 internal class Fallback(private val grid: Grid, prior: Interval) {
@@ -56,11 +57,13 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
         added += (own - mean) * (own - mean)
     }
 
-    fun decide() {
-        isPreferred = !(sqrt(apart) <= FARTHEST * sqrt(added))
+    /** Decides whose values count, with the model's time constant in [stays] of a mean length. */
+    fun decide(stays: Double) {
+        isPreferred = !(stays <= LONGEST) && !(sqrt(apart) <= FARTHEST * sqrt(added))
     }
 
     private companion object {
         const val FARTHEST = 2.0
+        const val LONGEST = 2.0
     }
 }

@@ -129,7 +129,7 @@ public class SelfCalibratingEstimator(
         if (isExplained) return
         fallback.begin()
         for (i in 0 until visitedCount) fallback.compare(visited[i], middle + scale * choice.active.truth(i))
-        fallback.decide()
+        fallback.decide(choice.timeConstant / tape.meanStay())
     }
 
     private fun enter(cell: Int) {
