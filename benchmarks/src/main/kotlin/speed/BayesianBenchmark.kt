@@ -26,7 +26,8 @@ import kotlin.random.Random
 /**
  * A move of a boat with a Bayesian map: ten readings in a cell, and the map asked for once, as a planner does.
  *
- * The mean over the first 400 moves of a survey, the learning of the covariance included; the longest of them is in the scaling table.
+ * The mean over the first 400 moves of a survey, the learning of the covariance included; `DecisionTimes` has the
+ * longest of them.
  */
 @State(Scope.Thread)
 @BenchmarkMode(Mode.AverageTime)

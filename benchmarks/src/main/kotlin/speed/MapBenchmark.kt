@@ -18,7 +18,7 @@ import java.util.concurrent.TimeUnit
 import kotlin.io.path.ExperimentalPathApi
 import kotlin.io.path.deleteRecursively
 
-/** `stillwater map` of a log of 1 million rows, figures and report included, in a warm machine; `measure.py` has it cold. */
+/** `stillwater map` of 1 million rows, figures and report included, in a warm machine; `measure.py` has it cold. */
 @State(Scope.Thread)
 @BenchmarkMode(Mode.SingleShotTime)
 @OutputTimeUnit(TimeUnit.MILLISECONDS)

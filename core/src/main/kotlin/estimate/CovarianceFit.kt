@@ -5,8 +5,8 @@ import kotlin.math.pow
 
 /**
  * Learns which of the [covariances] the field has, from the cells around some of the [blocks]: begun anew each time a
- * quarter more cells are visited, and so many blocks at a time that a decision can wait for them. Until the last of them
- * the weights of before hold. No call allocates but for the covariances' tables.
+ * quarter more cells are visited, and so many blocks at a time that a decision can wait for them. Until the last of
+ * them the weights of before hold. No call allocates but for the covariances' tables.
  */
 internal class CovarianceFit(
     private val covariances: FieldCovariances,

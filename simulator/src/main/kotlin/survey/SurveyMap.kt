@@ -84,8 +84,8 @@ class SurveyMap internal constructor(
         private const val PRIOR_MARGIN = 0.1
 
         /**
-         * Goes through [log] twice: once to see what it is, once into the filters. Read again is only what is too long to
-         * be kept; the legs are compared meanwhile, on the other cores.
+         * Goes through [log] twice: once to see what it is, once into the filters. Read again is only what is too long
+         * to be kept; the legs are compared meanwhile, on the other cores.
          *
          * @param progress told how many bytes of the two readings are done.
          * @throws LogProblem if the log cannot be used.
@@ -113,14 +113,9 @@ class SurveyMap internal constructor(
             val grid = GridChoice(statistics, track).grid(settings.grid)
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
-            val estimators = settings.filters.associateWith {
-                it.estimator(
-                    grid,
-                    prior,
-                    bounded ?: BoundedFilterSettings(epsilon = 0.0),
-                    lagFilters(settings, statistics),
-                )
-            }
+            val forBounded = bounded ?: BoundedFilterSettings(epsilon = 0.0)
+            val lag = lagFilters(settings, statistics)
+            val estimators = settings.filters.associateWith { it.estimator(grid, prior, forBounded, lag) }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
             val gaps = Gaps(statistics.gapLimit)
