@@ -60,8 +60,8 @@ internal class CovarianceFit(
         return true
     }
 
-    private fun begin(blocks: Int) {
-        parts = blocks
+    private fun begin(wanted: Int) {
+        parts = wanted
         done = 0
         count = 0
         logLikelihoods.fill(0.0)
