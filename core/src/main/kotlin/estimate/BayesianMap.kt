@@ -7,7 +7,6 @@ import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
 import kotlin.math.abs
-import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
@@ -25,8 +24,8 @@ import kotlin.math.sqrt
  *
  * The posterior is brought up to date when [map] is asked for, not at a reading: ask for it after updates rather than
  * keeping it. When it was asked for before matters a little: that is when the covariance is learned anew. It costs O(1)
- * for each cell entered since, apart from a look at every visited cell and the learning each time a quarter more are
- * visited; the work of a longer way is left for later times. Grids of up to 144 cells are done at once; larger
+ * for each cell entered since, apart from a look at every visited cell; the work of a longer way is left for later times,
+ * and so is the learning, which begins anew each time a quarter more are visited. Grids of up to 144 cells are done at once; larger
  * ones in blocks of 8 x 8 cells, each from the 96 visited cells nearest. Memory: O(cells), whatever the readings. No call
  * allocates once tables of correlations are there. Confined to one thread.
  *
@@ -51,7 +50,7 @@ public class BayesianMap(
     private val blocks = CellBlocks(grid)
     private val regression = CellRegression(grid, covariances, blocks.capacity)
     private val precisions = DoubleArray(blocks.capacity)
-    private val logLikelihoods = DoubleArray(covariances.size)
+    private val fit = CovarianceFit(covariances, blocks, regression)
     private val cut = TruncatedNormal()
 
     private var visited = IntArray(FIRST_CELLS)
@@ -74,18 +73,13 @@ public class BayesianMap(
     private val surprises = DoubleArray(grid.size)
     private val tellings = DoubleArray(grid.size)
 
-    private var nextFit = 1
     private var lastCell = 0
     private var entries = 0
     private var isCurrent = true
 
-    /** Standard deviations in a 97.5 % quantile over the normal distribution's, for what the amplitude leaves open. */
-    private var widening = 1.0
-
     init {
         require(source.grid == grid) { "cells' grid (${source.grid}) must be the same as grid ($grid)" }
         require(source.prior == prior) { "cells' prior (${source.prior}) must be the same as prior ($prior)" }
-        covariances.weigh(logLikelihoods)
         believed.correlation = SpatialCorrelation { columns, rows -> correlation(columns, rows) }
     }
 
@@ -157,21 +151,18 @@ public class BayesianMap(
         isCurrent = true
         explain()
         for (k in 0 until visitedCount) read(visited[k])
-        if (visitedCount >= nextFit) {
-            nextFit = visitedCount + maxOf(1, visitedCount / 4)
-            fit()
-            blocks.allStale()
-        }
+        val isFitting = fit.go(visited, visitedCount, values, variances, maxOf(1, entries))
+        if (isFitting && fit.isComplete) blocks.allStale()
         val reach = 1 + (covariances.length(covariances.kept[0]) / REACH).toInt()
         for (k in 0 until visitedCount) note(visited[k], reach)
-        var budget = MOST_BLOCKS * (1 + entries.toLong())
+        var budget = MOST_BLOCKS * (entries + if (isFitting) 0L else 1L)
         entries = 0
         while (budget-- > 0) {
             val block = blocks.take(lastCell)
             if (block < 0) break
             predict(block)
         }
-        isCurrent = blocks.staleCount == 0
+        isCurrent = blocks.staleCount == 0 && fit.isComplete
         for (k in 0 until visitedCount) write(visited[k])
     }
 
@@ -211,39 +202,6 @@ public class BayesianMap(
         blocks.stale(cell, reach)
     }
 
-    /** Weighs the candidates by the marginal likelihood of the cells around some blocks; eq. (5). */
-    private fun fit() {
-        val first = FieldCovariances.FIRST_CELLS
-        val parts = minOf(blocks.size, visitedCount, MOST_FITTED)
-        val level = covariances.amplitudes[covariances.kept[0]]
-        logLikelihoods.fill(0.0)
-        val misfits = covariances.amplitudes
-        misfits.fill(0.0)
-        var count = 0
-        for (part in 0 until parts) {
-            val block = blocks.blockOf(visited[part * visitedCount / parts])
-            blocks.gather(block, visited, visitedCount, values, variances, regression)
-            count += regression.size
-            for (candidate in 0 until covariances.size) {
-                if (!regression.solve(candidate, level)) logLikelihoods[candidate] = Double.NEGATIVE_INFINITY
-                logLikelihoods[candidate] -= regression.logDeterminant / 2
-                misfits[candidate] += regression.misfit
-            }
-        }
-        // Blocks may share cells, which are evidence once.
-        val evidence = FieldCovariances.EVIDENCE * minOf(1.0, visitedCount.toDouble() / count)
-        val freedom = evidence * count + first
-        for (candidate in 0 until covariances.size) {
-            // ln p = −κ ln|A|/2 − (κn + n₀)/2 · ln(κ yᵀA⁻¹y + n₀s₀²)
-            val sum = evidence * misfits[candidate] + first * FieldCovariances.FIRST_AMPLITUDE
-            logLikelihoods[candidate] = evidence * logLikelihoods[candidate] - freedom / 2 * ln(sum)
-            covariances.amplitudes[candidate] = sum / freedom
-        }
-        covariances.weigh(logLikelihoods)
-        val normal = TruncatedNormal.NORMAL
-        widening = 1 + (normal * normal + 1) / (4 * freedom)
-    }
-
     /** What the cells with data near [block] say of each of its cells: the candidates' moments pooled, eqs. (3), (4). */
     private fun predict(block: Int) {
         blocks.gather(block, visited, visitedCount, values, variances, regression)
@@ -276,7 +234,7 @@ public class BayesianMap(
         forEachCell(block) { cell ->
             val mean = outer[cell] / solved
             outer[cell] = mean
-            raw[cell] = maxOf(outerVariances[cell] / solved - mean * mean, LEAST_VARIANCE) * widening * widening
+            raw[cell] = maxOf(outerVariances[cell] / solved - mean * mean, LEAST_VARIANCE) * fit.widening * fit.widening
             judge(cell)
         }
         forEachCell(block) { cell ->
@@ -364,9 +322,6 @@ public class BayesianMap(
 
         /** Blocks done at a time, and for each cell entered since the last time: a block and those around it. */
         const val MOST_BLOCKS = 9
-
-        /** Blocks whose data the covariance is learned from, at most. */
-        const val MOST_FITTED = 6
 
         /** Correlation length, sides of a cell, for which data matter one block farther. */
         const val REACH = 4.0

@@ -132,10 +132,12 @@ internal class CellBlocks(private val grid: Grid) {
         return maxOf(columns, rows)
     }
 
-    private companion object {
+    companion object {
         /** Cells of the largest grid that is one block. */
-        const val WHOLE = 144
-        const val SIDE = 8
+        private const val WHOLE = 144
+        private const val SIDE = 8
+
+        /** Cells with data that a block of a larger one is predicted from at most. */
         const val NEAREST = 96
     }
 }

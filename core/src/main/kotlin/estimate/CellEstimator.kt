@@ -20,6 +20,9 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     final override val map: FieldMap = FieldMap(grid, prior)
     private val grid = grid
     private var lastCell = Grid.OUTSIDE
+    private var placeX = Double.NaN
+    private var placeY = Double.NaN
+    private var placeCell = Grid.OUTSIDE
     private var lastSeconds = Double.NEGATIVE_INFINITY
 
     final override fun update(
@@ -39,7 +42,13 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
             return ReadingUse.OUT_OF_ORDER
         }
         lastSeconds = time.seconds
-        val cell = grid.cellAt(x, y)
+        // A boat that stays, or a fix that is repeated: the same place is the same cell.
+        if (x != placeX || y != placeY) {
+            placeX = x
+            placeY = y
+            placeCell = grid.cellAt(x, y)
+        }
+        val cell = placeCell
         if (cell == Grid.OUTSIDE) {
             if (lastCell != Grid.OUTSIDE) leave()
             lastCell = Grid.OUTSIDE

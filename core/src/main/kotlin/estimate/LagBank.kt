@@ -25,6 +25,7 @@ internal class LagBank {
 
     /** Variance of the prior of a cell's truth, over the noise's. */
     private var priorVariance = 1.0
+    private var priorInformation = 1.0
 
     /** θ of the middle filter, ln s. */
     var node: Double = 0.0
@@ -56,6 +57,7 @@ internal class LagBank {
         this.node = node
         this.step = step
         priorVariance = 1 / maxOf(noise, LEAST_RATIO)
+        priorInformation = 1 / priorVariance
         states.fill(0.0)
         memory.fill(0.0)
         keepsFor = Double.NaN
@@ -115,19 +117,29 @@ internal class LagBank {
     fun truth(slot: Int, i: Int): Double {
         val at = slot * SLOT
         var sum = 0.0
-        if (visitsPooled(slot)) sum = pooledInformation(slot, i) * recall(at + MEAN, nodeOf(at, i))
-        if (slot == current) sum += states[i * STRIDE + P] / states[i * STRIDE + PP]
-        if (slot == previous) sum += states[i * STRIDE + Q] / states[i * STRIDE + QQ]
-        return sum / information(slot, i)
+        var information = 0.0
+        if (visitsPooled(slot)) {
+            val place = nodeOf(at, i)
+            information = recall(at + INFORMATION, place)
+            sum = information * recall(at + MEAN, place)
+        }
+        if (slot == current) {
+            sum += states[i * STRIDE + P] / states[i * STRIDE + PP]
+            information += 1 / states[i * STRIDE + PP] - priorInformation
+        }
+        if (slot == previous) {
+            sum += states[i * STRIDE + Q] / states[i * STRIDE + QQ]
+            information += 1 / states[i * STRIDE + QQ] - priorInformation
+        }
+        return sum / (information + priorInformation)
     }
 
     /** The information on the truth of the cell with [slot] at node [i], over the noise's variance; eq. (8). */
     fun information(slot: Int, i: Int): Double {
         var information = if (visitsPooled(slot)) pooledInformation(slot, i) else 0.0
-        val own = 1 / priorVariance
-        if (slot == current) information += 1 / states[i * STRIDE + PP] - own
-        if (slot == previous) information += 1 / states[i * STRIDE + QQ] - own
-        return information + own
+        if (slot == current) information += 1 / states[i * STRIDE + PP] - priorInformation
+        if (slot == previous) information += 1 / states[i * STRIDE + QQ] - priorInformation
+        return information + priorInformation
     }
 
     /** Moves all three nodes by [change] of θ, at most h either way; eq. (10). */

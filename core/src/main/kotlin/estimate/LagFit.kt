@@ -18,6 +18,12 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** Inverse variance of θ̂. */
     private var information = priorInformation
 
+    // The cell whose truth was last asked for, and its truths at the three nodes.
+    private var asked = LagBank.NONE
+    private var low = 0.0
+    private var middle = 0.0
+    private var high = 0.0
+
     init {
         bank.reset(mean, WIDEST_STEP, noiseVariance)
     }
@@ -93,20 +99,19 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         judge(left, bank.freedom, bank.succession)
     }
 
-    override fun truth(slot: Int): Double = LagBank.interpolate(
-        bank.truth(slot, 0),
-        bank.truth(slot, 1),
-        bank.truth(slot, 2),
-        offset / bank.step,
-    )
+    override fun truth(slot: Int): Double {
+        asked = slot
+        low = bank.truth(slot, 0)
+        middle = bank.truth(slot, 1)
+        high = bank.truth(slot, 2)
+        return LagBank.interpolate(low, middle, high, offset / bank.step)
+    }
 
     /** Eq. (12). */
-    override fun variance(slot: Int): Double {
-        val low = bank.truth(slot, 0)
-        val high = bank.truth(slot, 2)
-        val bend = high - 2 * bank.truth(slot, 1) + low
+    override fun variance(): Double {
+        val bend = high - 2 * middle + low
         val byTheta = ((high - low) / 2 + offset / bank.step * bend) / bank.step
-        return noiseVariance / bank.information(slot, 1) + byTheta * byTheta / information
+        return noiseVariance / bank.information(asked, 1) + byTheta * byTheta / information
     }
 
     private companion object {

@@ -24,10 +24,15 @@ public class MedianWindow(public val size: Int) {
     public val full: Boolean get() = count == size
 
     /** Median of the samples, sensor units. Meaningful once [full]. */
-    public val median: Double get() = sorted[size / 2]
+    public val median: Double
+        get() = if (size == THREE) middle(ring[0], ring[1], ring[2]) else sorted[size / 2]
 
     /** Time of the middle sample, s. Meaningful once [full]. */
-    public val time: Double get() = times[(next + size / 2) % size]
+    public val time: Double
+        get() {
+            val place = next + size / 2
+            return times[if (place < size) place else place - size]
+        }
 
     /** Forgets all samples. */
     public fun clear() {
@@ -37,10 +42,20 @@ public class MedianWindow(public val size: Int) {
 
     /** Adds the sample [value], sensor units, taken at [seconds] s; drops the oldest when [full]. Both finite. */
     public fun add(seconds: Double, value: Double) {
+        if (size != THREE) {
+            sort(ring[next], value)
+        } else if (count < THREE) {
+            count++
+        }
+        ring[next] = value
+        times[next] = seconds
+        next = if (next + 1 == size) 0 else next + 1
+    }
+
+    private fun sort(leaving: Double, value: Double) {
         // Shift the sorted values between the leaving and the entering one by a place.
         var place: Int
         if (count == size) {
-            val leaving = ring[next]
             place = 0
             while (sorted[place] != leaving) place++
         } else {
@@ -55,8 +70,16 @@ public class MedianWindow(public val size: Int) {
             place++
         }
         sorted[place] = value
-        ring[next] = value
-        times[next] = seconds
-        next = (next + 1) % size
+    }
+
+    private companion object {
+        /** The report's window, for which nothing need be kept in order. */
+        const val THREE = 3
+
+        fun middle(a: Double, b: Double, c: Double): Double = if (a < b) {
+            if (c < a) a else if (c < b) c else b
+        } else {
+            if (c < b) b else if (c < a) c else a
+        }
     }
 }

@@ -10,6 +10,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private val bank = ResponseBank()
     private val surface = QuadraticSurface()
 
+    /** The cell whose truth was last asked for, which the surface shows then. */
+    private var asked = LagBank.NONE
+
     /** Slope of half the misfit over σ² and its second derivatives, the belief included, in the bank's steps. */
     private var slopeFirst = 0.0
     private var slopeSecond = 0.0
@@ -280,16 +283,16 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
 
     override fun truth(slot: Int): Double {
+        asked = slot
         for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
         return surface.at(placeFirst, placeSecond)
     }
 
-    override fun variance(slot: Int): Double {
-        for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
+    override fun variance(): Double {
         val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
         val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
         val alongRidge = bySecond - tilt * byFirst
-        return noiseVariance / bank.information(slot, 0) + byFirst * byFirst * certain(1 / curveFirst) +
+        return noiseVariance / bank.information(asked, 0) + byFirst * byFirst * certain(1 / curveFirst) +
             alongRidge * alongRidge * certain(spreadSecond)
     }
 

@@ -160,14 +160,14 @@ public class SelfCalibratingEstimator(
     private fun write(slot: Int) {
         val active = choice.active
         val value = middle + scale * active.truth(slot)
-        val reach = scale * quantile(active) * sqrt(active.variance(slot))
+        val reach = scale * quantile(active) * sqrt(active.variance())
         var lower = value - reach
         var upper = value + reach
         val rival = choice.rival
         if (rival != null) {
             // Where two models are possible the bounds hold what either says.
             val other = middle + scale * rival.truth(slot)
-            val otherReach = scale * quantile(rival) * sqrt(rival.variance(slot))
+            val otherReach = scale * quantile(rival) * sqrt(rival.variance())
             lower = minOf(lower, other - otherReach)
             upper = maxOf(upper, other + otherReach)
         }

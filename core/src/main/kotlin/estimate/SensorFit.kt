@@ -49,8 +49,8 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
     /** Truth of the cell with [slot]. */
     abstract fun truth(slot: Int): Double
 
-    /** Variance of [truth], what the parameters and the noise leave open included. */
-    abstract fun variance(slot: Int): Double
+    /** Variance of the [truth] last asked for, what the parameters and the noise leave open included. */
+    abstract fun variance(): Double
 
     /** From the sum of squares left, the degrees of freedom and the sum of products of successive innovations. */
     protected fun judge(left: Double, free: Double, succession: Double) {

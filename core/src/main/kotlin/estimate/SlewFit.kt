@@ -8,6 +8,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     private val filter = SlewFilter()
     private val slopes = DoubleArray(belief.recalled)
     private var start = 1.0
+    private var asked = LagBank.NONE
 
     /** The most likely rate r, widths of the prior a second. */
     val rate: Double get() = filter.rate
@@ -98,13 +99,16 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         return maxOf(median * median / MEDIAN_SQUARED, LEAST_NOISE * LEAST_NOISE)
     }
 
-    override fun truth(slot: Int): Double = filter.truth(slot)
+    override fun truth(slot: Int): Double {
+        asked = slot
+        return filter.truth(slot)
+    }
 
-    override fun variance(slot: Int): Double {
-        val information = filter.information(slot)
+    override fun variance(): Double {
+        val information = filter.information(asked)
         if (information > 0) return 1 / information
         // A truth never reached lies anywhere between its bounds.
-        val reach = (filter.upper(slot) - filter.lower(slot)) / 2 / SensorChoice.quantile(freedom)
+        val reach = (filter.upper(asked) - filter.lower(asked)) / 2 / SensorChoice.quantile(freedom)
         return reach * reach
     }
 

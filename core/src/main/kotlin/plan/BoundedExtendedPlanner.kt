@@ -83,7 +83,7 @@ public class BoundedExtendedPlanner(
 
     /** Grows the tree; whether it was stopped. */
     private fun search(map: FieldMap, start: Int, sensor: Double, stop: StopCondition): Boolean {
-        tree.clear()
+        tree.clear(map.grid.size)
         tree.add(start, parent = -1, value = 0.0, sensor = sensor, priority = 0.0, queued = true)
         var polls = 0
         while (polls < settings.expansions && !tree.exhausted) {
@@ -95,13 +95,14 @@ public class BoundedExtendedPlanner(
     }
 
     private fun expand(map: FieldMap, node: Int) {
+        tree.walk(node)
         neighbours.forEach(map.grid, tree.cell(node)) { cell -> enter(map, node, cell) }
     }
 
     private fun enter(map: FieldMap, from: Int, cell: Int) {
         val sensor = tree.sensor(from)
         // What a visit of this path has taken from a cell, the next cannot take again.
-        val earlier = tree.visitsOnPath(from, cell)
+        val earlier = tree.visitsOnPath(cell)
         val gain = progress.worth(map, cell, sensor) / (1 + earlier) / (1 + earlier)
         val value = tree.value(from) + gain
         val depth = tree.depth(from) + 1

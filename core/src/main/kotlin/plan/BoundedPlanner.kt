@@ -102,6 +102,9 @@ public class BoundedPlanner(
     private val tree =
         SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
     private val path = IntArray(minOf(settings.horizon, settings.expansions))
+
+    /** The node with the highest value, of equal ones the first; [ROOT] when none has any. */
+    private var best = ROOT
     private val neighbours =
         NeighbourOrder(random, if (settings.neighbours == Neighbours.EDGE) EDGES else MOST_CHILDREN)
 
@@ -116,7 +119,8 @@ public class BoundedPlanner(
         val start = map.grid.cellAt(from)
         if (start == Grid.OUTSIDE) return PlanOutcome.OffMap
         val sensor = if (sensorValue.isFinite()) sensorValue else midpoint(map, start)
-        tree.clear()
+        tree.clear(map.grid.size)
+        best = ROOT
         tree.add(start, parent = -1, value = 0.0, sensor = sensor, priority = 0.0, queued = true)
         var lastPolled = ROOT
         var polls = 0
@@ -129,7 +133,7 @@ public class BoundedPlanner(
             if (tree.depth(node) < settings.horizon) expand(map, node)
             polls++
         }
-        val chosen = if (settings.choice == PathChoice.BEST) best() else lastPolled
+        val chosen = if (settings.choice == PathChoice.BEST) best else lastPolled
         if (chosen == ROOT) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
         write(map.grid, chosen, plan)
         if (settings.execution == Execution.SINGLE_STEP) plan.truncate(1)
@@ -137,28 +141,31 @@ public class BoundedPlanner(
     }
 
     private fun expand(map: FieldMap, node: Int) {
-        neighbours.forEach(map.grid, tree.cell(node)) { cell -> enter(map, node, cell) }
-    }
-
-    private fun enter(map: FieldMap, from: Int, cell: Int) {
-        val sensor = tree.sensor(from)
-        val middle = midpoint(map, cell)
-        var gain = maxOf(0.0, map.upper(cell) - map.lower(cell) - abs(middle - sensor))
-        if (settings.discountVisits) gain /= 1 + tree.visitsOnPath(from, cell)
-        val value = tree.value(from) + gain
-        val change = (middle - sensor).coerceIn(-settings.maxChange, settings.maxChange)
-        val depth = tree.depth(from) + 1
+        if (settings.discountVisits) tree.walk(node)
+        val value = tree.value(node)
+        val sensor = tree.sensor(node)
+        val depth = tree.depth(node) + 1
         // A node at the horizon can't be expanded; polling it matters only to the original's choice.
         val queued = depth < settings.horizon || settings.choice == PathChoice.LAST_POLLED
-        val priority = if (settings.priority == Priority.VALUE) value else value / depth
-        tree.add(cell, from, value, sensor + change, priority, queued)
+        neighbours.forEach(map.grid, tree.cell(node)) { cell ->
+            val middle = midpoint(map, cell)
+            val promise = map.upper(cell) - map.lower(cell) - abs(middle - sensor)
+            var gain = if (promise > 0) promise else 0.0
+            if (settings.discountVisits) gain /= 1 + tree.visitsOnPath(cell)
+            enter(node, cell, value + gain, towards(sensor, middle), depth, queued)
+        }
     }
 
-    /** The node with the highest value, of equal ones the first; [ROOT] when none has any. */
-    private fun best(): Int {
-        var best = ROOT
-        for (node in 1 until tree.size) if (tree.value(node) > tree.value(best)) best = node
-        return best
+    private fun towards(sensor: Double, middle: Double) =
+        sensor + (middle - sensor).coerceIn(-settings.maxChange, settings.maxChange)
+
+    /** What is not queued and not the best so far will never be looked at again. */
+    private fun enter(from: Int, cell: Int, value: Double, sensor: Double, depth: Int, queued: Boolean) {
+        val isBest = value > tree.value(best)
+        if (!queued && !isBest) return
+        if (isBest) best = tree.size
+        val priority = if (settings.priority == Priority.VALUE) value else value / depth
+        tree.add(cell, from, value, sensor, priority, queued)
     }
 
     private fun write(grid: Grid, node: Int, plan: Plan) {

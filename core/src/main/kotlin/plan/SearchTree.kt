@@ -15,16 +15,19 @@ internal class SearchTree(capacity: Int) {
     private var depths = IntArray(capacity)
     private var values = DoubleArray(capacity)
     private var sensors = DoubleArray(capacity)
-    private var priorities = DoubleArray(capacity)
-    private var heap = IntArray(capacity)
-    private var open = 0
+    private val queue = NodeQueue(capacity)
+
+    // The path last walked to, by depth, and how often each cell occurs on it.
+    private var pathNodes = IntArray(FIRST_DEPTH) { NONE }
+    private var pathLength = 0
+    private var visits = IntArray(0)
 
     /** Nodes in the tree. */
     var size: Int = 0
         private set
 
     /** Whether no node waits to be polled. */
-    val exhausted: Boolean get() = open == 0
+    val exhausted: Boolean get() = queue.isEmpty
 
     fun cell(node: Int): Int = cells[node]
 
@@ -40,21 +43,40 @@ internal class SearchTree(capacity: Int) {
     /** The sensor's expected reading on leaving [node]. */
     fun sensor(node: Int): Double = sensors[node]
 
-    /** Times [cell] occurs on the path from the root to [node], both included. O(depth). */
-    fun visitsOnPath(node: Int, cell: Int): Int {
-        var visits = 0
+    /** Times [cell] occurs on the path last [walk]ed, both ends included. O(1). */
+    fun visitsOnPath(cell: Int): Int = visits[cell]
+
+    /**
+     * Makes the path from the root to [node] the one of [visitsOnPath].
+     *
+     * O(moves that it does not share with the path walked before): the search mostly goes on where it is.
+     */
+    fun walk(node: Int) {
+        val length = depths[node] + 1
+        if (length > pathNodes.size) pathNodes = pathNodes.copyOf(2 * length)
+        while (pathLength > length) visits[cells[pathNodes[--pathLength]]]--
         var at = node
-        while (at >= 0) {
-            if (cells[at] == cell) visits++
+        for (depth in length - 1 downTo pathLength) {
+            pathNodes[depth] = at
+            visits[cells[at]]++
             at = parents[at]
         }
-        return visits
+        var depth = pathLength - 1
+        while (depth >= 0 && pathNodes[depth] != at) {
+            visits[cells[pathNodes[depth]]]--
+            visits[cells[at]]++
+            pathNodes[depth--] = at
+            at = parents[at]
+        }
+        pathLength = length
     }
 
-    /** Empties the tree. */
-    fun clear() {
+    /** Empties the tree, for a map of [gridSize] cells. */
+    fun clear(gridSize: Int) {
+        while (pathLength > 0) visits[cells[pathNodes[--pathLength]]]--
+        if (visits.size < gridSize) visits = IntArray(gridSize)
         size = 0
-        open = 0
+        queue.clear()
     }
 
     /** Adds a node and puts it into the queue where [queued]. */
@@ -66,41 +88,11 @@ internal class SearchTree(capacity: Int) {
         depths[node] = if (parent < 0) 0 else depths[parent] + 1
         values[node] = value
         sensors[node] = sensor
-        priorities[node] = priority
-        if (queued) push(node)
+        if (queued) queue.push(node, priority)
     }
 
     /** Takes the open node with the highest priority out of the queue. */
-    fun poll(): Int {
-        check(open > 0) { "poll of an empty queue" }
-        val first = heap[0]
-        val moved = heap[--open]
-        var place = 0
-        while (true) {
-            var child = 2 * place + 1
-            if (child >= open) break
-            if (child + 1 < open && before(heap[child + 1], heap[child])) child++
-            if (!before(heap[child], moved)) break
-            heap[place] = heap[child]
-            place = child
-        }
-        heap[place] = moved
-        return first
-    }
-
-    private fun push(node: Int) {
-        var place = open++
-        while (place > 0) {
-            val above = (place - 1) / 2
-            if (!before(node, heap[above])) break
-            heap[place] = heap[above]
-            place = above
-        }
-        heap[place] = node
-    }
-
-    private fun before(a: Int, b: Int): Boolean =
-        priorities[a] > priorities[b] || (priorities[a] == priorities[b] && a > b)
+    fun poll(): Int = queue.poll()
 
     private fun grow() {
         val capacity = 2 * size
@@ -109,7 +101,10 @@ internal class SearchTree(capacity: Int) {
         depths = depths.copyOf(capacity)
         values = values.copyOf(capacity)
         sensors = sensors.copyOf(capacity)
-        priorities = priorities.copyOf(capacity)
-        heap = heap.copyOf(capacity)
+    }
+
+    private companion object {
+        const val NONE = -1
+        const val FIRST_DEPTH = 16
     }
 }

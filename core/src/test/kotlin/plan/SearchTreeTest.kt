@@ -20,7 +20,7 @@ class SearchTreeTest {
             // Of equal priorities the one added last.
             val queue = PriorityQueue(compareByDescending<Node> { it.priority }.thenByDescending { it.index })
             repeat(2) {
-                tree.clear()
+                tree.clear(gridSize = 1)
                 queue.clear()
                 var added = 0
                 repeat(400) {
@@ -46,6 +46,7 @@ class SearchTreeTest {
     @Test
     fun keepsWhatANodeIsWhileItGrows() {
         val tree = SearchTree(capacity = 1)
+        tree.clear(gridSize = 8)
         val parents = List(200) { if (it == 0) -1 else it / 3 }
         for (node in 0 until 200) {
             tree.add(node % 7, parents[node], node * 0.5, -node * 0.25, priority = node * 1.0, queued = true)
@@ -57,16 +58,36 @@ class SearchTreeTest {
             assertEquals(-node * 0.25, tree.sensor(node), 0.0)
             val path = generateSequence(node) { parents[it] }.takeWhile { it >= 0 }.toList()
             assertEquals(path.size - 1, tree.depth(node))
-            for (cell in 0 until 8) assertEquals(path.count { it % 7 == cell }, tree.visitsOnPath(node, cell))
+            tree.walk(node)
+            for (cell in 0 until 8) assertEquals(path.count { it % 7 == cell }, tree.visitsOnPath(cell))
         }
         assertEquals(List(200) { 199 - it }, List(200) { tree.poll() })
     }
 
     @Test
+    fun theVisitsOfAPathDoNotDependOnThePathWalkedBefore() {
+        val random = Random(9)
+        val tree = SearchTree(capacity = 4)
+        tree.clear(gridSize = 5)
+        // Chains with few branches: paths of up to a hundred moves, many of which share most of their way.
+        val parents = List(300) { if (it == 0) -1 else maxOf(0, it - 1 - random.nextInt(4)) }
+        parents.forEachIndexed { node, parent -> tree.add(node * 7 % 5, parent, 0.0, 0.0, 0.0, queued = false) }
+        repeat(2000) {
+            val node = random.nextInt(300)
+            tree.walk(node)
+            val path = generateSequence(node) { parents[it] }.takeWhile { it >= 0 }.toList()
+            for (cell in 0 until 5) assertEquals(path.count { it * 7 % 5 == cell }, tree.visitsOnPath(cell))
+        }
+    }
+
+    @Test
     fun clearEmptiesTheQueueToo() {
         val tree = SearchTree(capacity = 4)
-        repeat(3) { tree.add(0, it - 1, 0.0, 0.0, 0.0, queued = true) }
-        tree.clear()
+        tree.clear(gridSize = 3)
+        repeat(3) { tree.add(it, it - 1, 0.0, 0.0, 0.0, queued = true) }
+        tree.walk(2)
+        tree.clear(gridSize = 3)
+        assertEquals(listOf(0, 0, 0), List(3) { tree.visitsOnPath(it) })
         assertEquals(0, tree.size)
         assertTrue(tree.exhausted)
         assertFailsWith<IllegalStateException> { tree.poll() }

@@ -6,11 +6,9 @@ public fun interface Drawing {
     public fun draw(): Figure
 }
 
-/**
- * Draws several figures at once, on up to all cores, in the order given.
- *
- * @param png whether to make each figure's PNG too, so that a later [Figure.png] costs nothing.
- * @throws FigureException as [Figure.png], if [png] is asked for.
- */
-public fun List<Drawing>.drawAll(png: Boolean = false): List<Figure> =
-    parallelStream().map { it.draw().also { figure -> if (png) figure.png() } }.toList()
+/** Draws several figures and their PNGs at once, on up to all cores, in the order given. */
+public fun List<Drawing>.drawAll(): List<Figure> = drawConcurrently(map { drawing -> drawing::draw }) { it }
+
+/** The same for what [draw] gives, of which [figure] is the figure. Missing fonts show when a PNG is asked for. */
+public fun <T : Any> drawConcurrently(draw: List<() -> T>, figure: (T) -> Figure): List<T> =
+    draw.parallelStream().map { it().also { drawn -> figure(drawn).prepare() } }.toList()

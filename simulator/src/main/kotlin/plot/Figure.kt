@@ -26,6 +26,15 @@ public class Figure internal constructor(
      * @throws FigureException if this machine cannot draw text (a Java without any font).
      */
     public fun png(): ByteArray = image.copyOf()
+
+    /** Makes the PNG now, so that [png] costs nothing; where it cannot be made, [png] says so. */
+    internal fun prepare() {
+        try {
+            image
+        } catch (_: FigureException) {
+            // Not for this caller to tell.
+        }
+    }
 }
 
 /** A figure that could not be made; the message is one line and says what to do. */

@@ -1,7 +1,5 @@
 package stillwater.plot
 
-import java.math.BigDecimal
-import java.math.RoundingMode
 import java.util.zip.CRC32
 
 /**
@@ -14,17 +12,8 @@ import java.util.zip.CRC32
  */
 internal object StableSvg {
     private val id = Regex("""\bid="(\w+)"""")
-    private val attribute = Regex("""="([^"]*)"""")
-    private val longNumber = Regex("""-?\d+\.\d+(?:E-?\d+)?""")
     private val styleElement = Regex("""(?s)\s*<style type="text/css">.*?</style>""")
     private val styleRule = Regex("""(?s)#\w+ \.([\w-]+) \{\s*(.*?)\s*\}""")
-    private val usedClass = Regex(""" class="([\w-]+)"""")
-    private val indentation = Regex("""\n\s*""")
-    private val unused = Regex("""font-family:sans-serif;| clip-bounds-jfx="[^"]*"""")
-    private val emptyElement = Regex("""></(?:rect|path|line|circle|polygon|polyline)>""")
-    private val unstroked = Regex("""<[^<>]* stroke-width="0"[^<>]*>""")
-    private val stroke = Regex(""" stroke(?:-width|-opacity)?="[^"]*"""")
-
     /** Without spaces, which jsvg takes for parts of the names. */
     private const val FONTS = "Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif"
 
@@ -36,7 +25,7 @@ internal object StableSvg {
      */
     fun of(drawn: String, title: String, width: Int, height: Int): String {
         val body = drawn.substringAfter('>').substringBeforeLast("</svg>")
-        val shapes = compact(styled(styleElement.replace(body, ""), rules(body)))
+        val shapes = CompactSvg(styleElement.replace(body, ""), rules(body)).text()
         val ids = id.findAll(shapes).map { it.groupValues[1] }.toList()
         val numbered = ids.foldIndexed(shapes) { n, text, name -> text.replace(name, "$MARK$n$MARK") }
         val prefix = "f" + checksum(title + numbered)
@@ -56,24 +45,6 @@ internal object StableSvg {
             .filter { it.isNotEmpty() && !it.startsWith("font-family") && !it.endsWith(": normal") }
             .joinToString(";") { it.replace(": ", ":") }
     }
-
-    private fun styled(shapes: String, rules: Map<String, String>): String = usedClass.replace(shapes) { match ->
-        rules[match.groupValues[1]]?.let { " style=\"$it\"" }.orEmpty()
-    }
-
-    private fun compact(shapes: String): String {
-        val plain = unused.replace(shapes, "")
-        val dense = emptyElement.replace(indentation.replace(plain, ""), "/>")
-        val short = attribute.replace(dense) { match ->
-            val value = match.groupValues[1]
-            if ('.' in value) "=\"" + longNumber.replace(value) { rounded(it.value) } + "\"" else match.value
-        }
-        // A stroke of no width is none to SVG, but a hairline to Java's graphics, and so to jsvg.
-        return unstroked.replace(short) { stroke.replace(it.value, "") }
-    }
-
-    private fun rounded(number: String): String =
-        BigDecimal(number).setScale(2, RoundingMode.HALF_EVEN).stripTrailingZeros().toPlainString()
 
     private fun checksum(text: String): String =
         CRC32().apply { update(text.toByteArray()) }.value.toString(HEXADECIMAL).padStart(8, '0')

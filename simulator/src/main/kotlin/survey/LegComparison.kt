@@ -1,5 +1,6 @@
 package stillwater.survey
 
+import java.util.stream.IntStream
 import kotlin.math.abs
 import kotlin.math.sqrt
 import kotlin.random.Random
@@ -25,7 +26,7 @@ class LegComparison(
     /** Leg [leg] and the legs it is held against, as indices into the legs. */
     private class Triple(val leg: Int, val before: Int, val after: Int)
 
-    /** The comparison, or null where too few legs have opposite neighbours. */
+    /** The comparison, or null where too few legs have opposite neighbours. Shifts are tried on all cores at once. */
     fun compare(legs: Legs): LegMismatch? {
         val list = legs.legs
         val opposite = triples(list, reach = 1)
@@ -34,8 +35,8 @@ class LegComparison(
         val shifts = shifts(list)
         // scores[triple][shift], sensor units
         val scores = List(opposite.size) { DoubleArray(shifts.size) }
-        for ((s, shift) in shifts.withIndex()) {
-            val shifted = list.map { profiles.of(it, shift) }
+        IntStream.range(0, shifts.size).parallel().forEach { s ->
+            val shifted = list.map { profiles.of(it, shifts[s]) }
             for ((i, triple) in opposite.withIndex()) scores[i][s] = score(shifted, triple)
         }
         val unshifted = shifts.size / 2

@@ -3,6 +3,7 @@ package stillwater.survey
 import stillwater.field.FieldMap
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import stillwater.plot.drawConcurrently
 import stillwater.report.CsvTable
 import stillwater.report.GeoCorner
 import stillwater.report.GeoJson
@@ -37,21 +38,10 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             table.close()
         }
         map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
-        val warnings = LinkedHashSet<String>()
-        val figures = MapFigures(map).draw().map { draw ->
-            trimHeap()
-            draw().also { warnings += directory.writeFigures(listOf(it.name to it.figure)) }
-        }
+        val figures = drawConcurrently(MapFigures(map).draw()) { it.figure }
+        val warnings = directory.writeFigures(figures.map { it.name to it.figure })
         directory.write("report.html", MapReport(map, summary, figures, command).render())
-        return warnings.toList()
-    }
-
-    /**
-     * Lets the collector give memory back between figures of a long log. The plot library leaves hundreds of megabytes
-     * of garbage a figure, and with much memory free the collector would rather grow than tidy up.
-     */
-    private fun trimHeap() {
-        if (map.pass.readings >= LONG_LOG) System.gc()
+        return warnings
     }
 
     private fun rows(table: CsvTable, kind: FilterKind, field: FieldMap) {
@@ -117,7 +107,6 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
     }
 
     private companion object {
-        const val LONG_LOG = 500_000
         const val HALF_TURN = 180.0
         val COLUMNS = listOf(
             "filter",

@@ -1,5 +1,9 @@
 package stillwater.survey
 
+import kotlinx.coroutines.Dispatchers
+import kotlinx.coroutines.async
+import kotlinx.coroutines.coroutineScope
+import kotlinx.coroutines.runBlocking
 import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.EpsilonCalibration
@@ -8,6 +12,7 @@ import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
+import stillwater.io.ReadingSink
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.model.Grid
@@ -79,50 +84,54 @@ class SurveyMap internal constructor(
         private const val PRIOR_MARGIN = 0.1
 
         /**
-         * Reads [log] twice: once to see what it is, once into the filters.
+         * Goes through [log] twice: once to see what it is, once into the filters. Read again is only what is too long
+         * to be kept; the legs are compared meanwhile, on the other cores.
          *
          * @param progress told how many bytes of the two readings are done.
          * @throws LogProblem if the log cannot be used.
          */
-        fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap {
+        fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap =
+            runBlocking(Dispatchers.Default) { read(log, settings, progress) }
+
+        private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
             val scan = SurveyScan()
+            val kept = KeptReadings()
             val epsilon = EpsilonSearch(settings)
             var bytes = 0L
             val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, value, conditions ->
                 scan.take(time, x, y, value, conditions)
+                kept.take(time, x, y, value, conditions)
                 epsilon.add(time.seconds, value)
             }
             if (first.readings < 2) throw tooFew(log, first)
             val statistics = scan.statistics()
             val track = scan.track()
+            val legs = LegFinder(statistics).find(track)
+            val mismatch = async { LegComparison(statistics, track).compare(legs) }
             val stepSlope = stepSlope(statistics, settings)
             val calibration = epsilon.calibration(log)?.atLeast(stepSlope)
             val grid = GridChoice(statistics, track).grid(settings.grid)
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
-            val estimators = settings.filters.associateWith {
-                it.estimator(
-                    grid,
-                    prior,
-                    bounded ?: BoundedFilterSettings(epsilon = 0.0),
-                    lagFilters(settings, statistics),
-                )
-            }
+            val forBounded = bounded ?: BoundedFilterSettings(epsilon = 0.0)
+            val lag = lagFilters(settings, statistics)
+            val estimators = settings.filters.associateWith { it.estimator(grid, prior, forBounded, lag) }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
             val gaps = Gaps(statistics.gapLimit)
             var outsideRange = 0L
-            val pass = log.read({ progress(bytes + it) }) { time, x, y, value, _ ->
+            val takeIn = ReadingSink { time, x, y, value, _ ->
                 for (estimator in running) estimator.update(time, x, y, value, Conditions.NONE)
                 passes.add(x, y, value)
                 gaps.add(time.seconds, x, y)
                 if (value !in prior.lower..prior.upper) outsideRange++
             }
+            if (kept.holds(first.readings)) kept.read(takeIn) else log.read({ progress(bytes + it) }, takeIn)
+            progress(2 * bytes)
             passes.finish()
-            val legs = LegFinder(statistics).find(track)
-            return SurveyMap(
+            SurveyMap(
                 log,
-                pass,
+                first,
                 statistics,
                 track,
                 grid,
@@ -133,7 +142,7 @@ class SurveyMap internal constructor(
                 gaps,
                 passes,
                 legs,
-                LegComparison(statistics, track).compare(legs),
+                mismatch.await(),
                 rangeGiven = settings.prior != null,
                 outsideRange,
                 epsilonGiven = settings.epsilon != null,

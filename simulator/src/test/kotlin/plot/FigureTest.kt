@@ -66,7 +66,7 @@ class FigureTest {
 
     @Test
     fun pngIsTwiceTheSizeOnWhiteAndHasInk() {
-        for (figure in drawings().drawAll(png = true)) {
+        for (figure in drawings().drawAll()) {
             val image = ImageIO.read(figure.png().inputStream())
             assertEquals(2 * figure.width to 2 * figure.height, image.width to image.height)
             assertTrue(image.width >= 1200, "${figure.title}: ${image.width} px")

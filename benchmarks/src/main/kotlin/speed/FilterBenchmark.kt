@@ -1,0 +1,42 @@
+package stillwater.speed
+
+import org.openjdk.jmh.annotations.Benchmark
+import org.openjdk.jmh.annotations.BenchmarkMode
+import org.openjdk.jmh.annotations.Mode
+import org.openjdk.jmh.annotations.OperationsPerInvocation
+import org.openjdk.jmh.annotations.OutputTimeUnit
+import org.openjdk.jmh.annotations.Param
+import org.openjdk.jmh.annotations.Scope
+import org.openjdk.jmh.annotations.State
+import stillwater.estimate.FieldEstimator
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.run.FilterKind
+import stillwater.run.Preset
+import java.util.concurrent.TimeUnit
+
+/** A reading into a filter: surveys of 2000 moves over 10 x 10 cells, the filter's making included in every survey. */
+@State(Scope.Thread)
+@BenchmarkMode(Mode.AverageTime)
+@OutputTimeUnit(TimeUnit.NANOSECONDS)
+open class FilterBenchmark {
+    private val grid = Grid.unit(10, 10)
+    private val survey = Survey(grid, MOVES)
+
+    /** Label of the filter. */
+    @Param("averaging", "bounded", "interval", "bounded-extended", "self-calibrating")
+    var filter: String = ""
+
+    @Benchmark
+    @OperationsPerInvocation(MOVES * Survey.SAMPLES)
+    fun update(): FieldEstimator {
+        val kind = FilterKind.entries.first { it.label == filter }
+        val estimator = kind.estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
+        survey.read(estimator)
+        return estimator
+    }
+
+    private companion object {
+        const val MOVES = 2000
+    }
+}
