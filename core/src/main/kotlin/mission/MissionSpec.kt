@@ -94,28 +94,32 @@ public data class GridSpec(
     public fun grid(): Grid = Grid(southWest.position, columns, rows, cell)
 }
 
-/** What a probe on a board's port measures. */
+/**
+ * What a probe on a board's port measures.
+ *
+ * @property unit as it is written behind a value; empty where it has none.
+ */
 @Serializable
-public enum class Quantity {
+public enum class Quantity(public val unit: String) {
     /** Dissolved oxygen, mg/L. */
     @SerialName("dissolved-oxygen")
-    DISSOLVED_OXYGEN,
+    DISSOLVED_OXYGEN("mg/L"),
 
     /** Acidity, dimensionless. */
     @SerialName("acidity")
-    ACIDITY,
+    ACIDITY(""),
 
     /** Electrical conductivity, µS/cm. */
     @SerialName("conductivity")
-    CONDUCTIVITY,
+    CONDUCTIVITY("µS/cm"),
 
     /** Water temperature, °C. */
     @SerialName("temperature")
-    TEMPERATURE,
+    TEMPERATURE("°C"),
 
     /** Depth of the water below the transducer, m. */
     @SerialName("depth")
-    DEPTH,
+    DEPTH("m"),
 }
 
 /**
