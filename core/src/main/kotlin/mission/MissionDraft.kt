@@ -1,11 +1,12 @@
 package stillwater.mission
 
 import kotlinx.serialization.Serializable
-import kotlinx.serialization.SerializationException
 import kotlinx.serialization.json.Json
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.slowestResponse
 import kotlin.math.round
 
 /**
@@ -76,6 +77,18 @@ public data class MissionDraft(
         ),
     )
 
+    /**
+     * With the probe in [json] ([ProbeSpec]), or as slow as the sensor in it ([SensorSpec], as a diagnosis writes it).
+     *
+     * @throws IllegalArgumentException if it is neither; the message is one line that says what was expected.
+     */
+    public fun measuring(json: String): MissionDraft {
+        if (!json.contains("\"stages\"")) return measuring(ProbeSpec.fromJson(json))
+        val (low, high) = listOf(DraftField.LOWEST, DraftField.HIGHEST).map { text(it).toDoubleOrNull() ?: 0.0 }
+        val seconds = SensorSpec.fromJson(json).slowestResponse(low, if (high > low) high else low + 1)
+        return with(DraftField.SLOWEST, written(seconds))
+    }
+
     /** Places are set from here on: an origin at [place], unless there is one. */
     public fun around(place: LatLon): MissionDraft =
         if (origin != null) this else copy(origin = OriginSpec(place.latitudeDeg, place.longitudeDeg))
@@ -96,9 +109,8 @@ public data class MissionDraft(
         /** The draft whose [toJson] is [json]; a new one where it is something else, as another version's may be. */
         public fun fromJson(json: String): MissionDraft = try {
             Json.decodeFromString(serializer(), json)
-        } catch (_: SerializationException) {
-            MissionDraft()
         } catch (_: IllegalArgumentException) {
+            // A SerializationException is one too.
             MissionDraft()
         }
 

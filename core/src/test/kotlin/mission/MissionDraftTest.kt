@@ -3,6 +3,7 @@ package stillwater.mission
 import org.junit.jupiter.api.Test
 import stillwater.model.LatLon
 import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
 import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
@@ -96,6 +97,21 @@ class MissionDraftTest {
         assertEquals("", acidity.text(DraftField.LARGEST_JUMP))
         val probe = ProbeSpec(Quantity.DEPTH, 3, 0.5, 12.0, 1.0, 0.25, 2.0)
         assertEquals(probe, triangle.measuring(probe).check().spec?.probe)
+    }
+
+    @Test
+    fun aSensorFileSaysHowSlowTheProbeIsAndAProbeFileAllOfIt() {
+        val lag = """{"name":"slow","stages":[{"type":"first-order-lag","time_constant_s":9.5}]}"""
+        assertEquals(9.5, triangle.measuring(lag).check().spec?.probe?.longestTimeConstant)
+        val uneven = """{"name":"u","stages":[{"type":"asymmetric-lag","rising_time_constant_s":4,
+            "falling_time_constant_s":12}]}"""
+        assertEquals(12.0, triangle.measuring(uneven).check().spec?.probe?.longestTimeConstant)
+        val probe = """{"quantity":"temperature","lowest":4,"highest":30}"""
+        assertEquals(30.0, triangle.measuring(probe).check().spec?.probe?.highest)
+        for (wrong in listOf("", "{}", "[1]", """{"stages":[{"type":"magic"}]}""", """{"quantity":"fish"}""")) {
+            val words = assertFailsWith<IllegalArgumentException>(wrong) { triangle.measuring(wrong) }.message.orEmpty()
+            assertTrue(words.startsWith("not a ") && words.lines().size == 1, words)
+        }
     }
 
     private fun place(x: Int, y: Int) = PlaceSpec(x.toDouble(), y.toDouble())
