@@ -233,7 +233,7 @@ public enum class FailsafeSpec(internal val failsafe: Failsafe) {
  * @property battery when the battery is low.
  * @property lowestVolts below which it is, V; 0 where none is measured.
  * @property fence when the boat is beyond the shore line.
- * @property end when the mission has nothing left to do.
+ * @property end when the mission has nothing left to do, or can no longer be written down.
  * @property rearms whether a board that disarmed itself, as after a long cut, is armed again without a person.
  */
 @Serializable
@@ -254,6 +254,9 @@ public data class FailsafePolicy(
             Danger.BATTERY_LOW to battery.failsafe,
             Danger.FENCE to fence.failsafe,
             Danger.MISSION_END to end.failsafe,
+            Danger.LOG_LOST to end.failsafe,
+            Danger.OPERATOR_HOLD to Failsafe.HOLD,
+            Danger.OPERATOR_RETURN to Failsafe.RETURN_HOME,
         ),
     )
 }

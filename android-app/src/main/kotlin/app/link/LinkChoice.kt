@@ -13,17 +13,22 @@ sealed interface LinkChoice {
     /** Whatever serial adapter is plugged in. */
     data object Usb : LinkChoice
 
+    /** No board: core's virtual boat on virtual water. */
+    data object Demo : LinkChoice
+
     companion object {
         private const val KIND = "link"
         private const val ADDRESS = "address"
         private const val NAME = "name"
         private const val BLUETOOTH = "bluetooth"
         private const val USB = "usb"
+        private const val DEMO = "demo"
 
         /** Puts [choice] into [intent]. */
         fun put(intent: Intent, choice: LinkChoice): Intent =
             when (choice) {
                 is Usb -> intent.putExtra(KIND, USB)
+                is Demo -> intent.putExtra(KIND, DEMO)
                 is Bluetooth ->
                     intent.putExtra(KIND, BLUETOOTH).putExtra(ADDRESS, choice.address).putExtra(NAME, choice.name)
             }
@@ -37,6 +42,7 @@ sealed interface LinkChoice {
             when (choice) {
                 null -> Unit
                 is Usb -> edit.putString(KIND, USB)
+                is Demo -> edit.putString(KIND, DEMO)
                 is Bluetooth ->
                     edit.putString(KIND, BLUETOOTH).putString(ADDRESS, choice.address).putString(NAME, choice.name)
             }
@@ -50,6 +56,7 @@ sealed interface LinkChoice {
         private fun of(text: (String) -> String?): LinkChoice? =
             when (text(KIND)) {
                 USB -> Usb
+                DEMO -> Demo
                 BLUETOOTH -> text(ADDRESS)?.let { Bluetooth(it, text(NAME) ?: it) }
                 else -> null
             }
@@ -66,6 +73,7 @@ fun interface LinkMaker {
         val REAL =
             LinkMaker { context, choice ->
                 when (choice) {
+                    is LinkChoice.Demo -> error("the demo's link is the virtual boat's")
                     is LinkChoice.Usb ->
                         ReconnectingLink(UsbTransport(context, context.getString(R.string.usb_serial)))
                     is LinkChoice.Bluetooth ->

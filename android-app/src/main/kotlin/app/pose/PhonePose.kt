@@ -30,6 +30,18 @@ data class PhoneFix(
     val elapsedNanos: Long,
 )
 
+/** What is in the way of a fix. */
+enum class PoseProblem {
+    /** The phone has no receiver. */
+    NO_RECEIVER,
+
+    /** The permission is not given. */
+    NOT_PERMITTED,
+
+    /** It is switched off in the phone's settings. */
+    SWITCHED_OFF,
+}
+
 /**
  * Where the phone is and which way it points: the platform's GPS at its best rate, and its rotation sensor, which joins
  * compass and gyro, for the heading at low speed.
@@ -49,27 +61,24 @@ internal class PhonePose(context: Context) {
         private set
 
     /** Why there can be no fix, null where nothing is in the way. */
-    @Volatile var problem: Problem? = null
+    @Volatile var problem: PoseProblem? = null
         private set
 
     @Volatile private var declinationDeg = 0f
-
-    /** What is in the way of a fix. */
-    enum class Problem { NO_RECEIVER, NOT_PERMITTED, SWITCHED_OFF }
 
     /** Begins to listen, on [handler]'s thread. */
     @SuppressLint("MissingPermission") // a refusal is the SecurityException below
     fun start(handler: Handler) {
         val locations = this.locations
         if (locations == null || LocationManager.GPS_PROVIDER !in locations.allProviders) {
-            problem = Problem.NO_RECEIVER
+            problem = PoseProblem.NO_RECEIVER
         } else {
             try {
                 locations.requestLocationUpdates(LocationManager.GPS_PROVIDER, 0L, 0f, places, handler.looper)
                 val on = locations.isProviderEnabled(LocationManager.GPS_PROVIDER)
-                problem = if (on) null else Problem.SWITCHED_OFF
+                problem = if (on) null else PoseProblem.SWITCHED_OFF
             } catch (_: SecurityException) {
-                problem = Problem.NOT_PERMITTED
+                problem = PoseProblem.NOT_PERMITTED
             }
         }
         sensors?.getDefaultSensor(Sensor.TYPE_ROTATION_VECTOR)?.let {
@@ -114,7 +123,7 @@ internal class PhonePose(context: Context) {
             }
 
             override fun onProviderDisabled(provider: String) {
-                problem = Problem.SWITCHED_OFF
+                problem = PoseProblem.SWITCHED_OFF
             }
         }
 
@@ -132,8 +141,10 @@ internal class PhonePose(context: Context) {
             override fun onAccuracyChanged(sensor: Sensor?, accuracy: Int) = Unit
         }
 
-    private companion object {
-        const val ROTATION_SIZE = 9
-        const val ANGLES = 3
+    companion object {
+        /** Wider than a lawnmower's lane on a pond, a fix is no use. m. */
+        const val WIDEST_FIX = 10f
+        private const val ROTATION_SIZE = 9
+        private const val ANGLES = 3
     }
 }

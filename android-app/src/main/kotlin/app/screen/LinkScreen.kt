@@ -78,6 +78,7 @@ internal class LinkScreen(
                 when (choice) {
                     is LinkChoice.Bluetooth -> choice.name
                     is LinkChoice.Usb -> context.getString(R.string.usb_serial)
+                    is LinkChoice.Demo -> context.getString(R.string.demo)
                 }
             choices.below(context.largeButton(context.getString(R.string.connect_to, name)) { onConnect(choice) })
         }
@@ -154,6 +155,7 @@ private fun PreflightCheck.words(): Int =
         PreflightCheck.PERMISSIONS -> R.string.check_permissions
         PreflightCheck.LINK -> R.string.check_link
         PreflightCheck.FIX -> R.string.check_fix
+        PreflightCheck.BOAT_BATTERY -> R.string.check_boat_battery
         PreflightCheck.PHONE_BATTERY -> R.string.check_phone_battery
         PreflightCheck.STORAGE -> R.string.check_storage
         PreflightCheck.BATTERY_SAVER -> R.string.check_battery_saver

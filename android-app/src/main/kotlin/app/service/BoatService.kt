@@ -25,6 +25,7 @@ import stillwater.app.pose.PhonePose
 import stillwater.model.Actuation
 import stillwater.wire.Command
 import stillwater.wire.PlatypusEncoder
+import java.io.File
 
 /**
  * Holds the link and the phone's position while the app is out of sight: in the foreground, with the processor awake.
@@ -33,7 +34,9 @@ import stillwater.wire.PlatypusEncoder
  * service again without an intent: the link that was held is taken up again, and nothing moves. Everything that may
  * wait runs on a thread of the service's own; the main thread starts and asks.
  */
-open class BoatService : Service() {
+open class BoatService :
+    Service(),
+    BoatCommands {
     private lateinit var thread: HandlerThread
     private lateinit var handler: Handler
     private lateinit var pose: PhonePose
@@ -158,6 +161,25 @@ open class BoatService : Service() {
         look()
     }
 
+    override fun load(json: String) = Unit
+
+    override fun arm() = Unit
+
+    override fun start() = Unit
+
+    override fun hold() = Unit
+
+    override fun goHome() = Unit
+
+    override fun stop() = Unit
+
+    override fun newMission() = Unit
+
+    override fun lookForPast() = Unit
+
+    /** The file of the past mission [name]; may not be there any more. */
+    fun logOf(name: String): File = File(File(filesDir, "missions"), name)
+
     private fun keepAwake() {
         if (wakeLock != null) return
         val power = getSystemService(PowerManager::class.java) ?: return
@@ -184,7 +206,7 @@ open class BoatService : Service() {
                 fix = fix,
                 fixAgeSeconds = age,
                 headingDeg = pose.headingDeg,
-                preflight = preflight.look(health, age, fix?.accuracyMetres),
+                preflight = preflight.look(BoatAtRest(link != null, health, fixAgeSeconds = age, accuracyMetres = fix?.accuracyMetres)),
             )
         if (link != null && (before.link.state != health.state || before.linkName != shown.linkName)) {
             getSystemService(NotificationManager::class.java)?.notify(BoatNotification.ID, notification.of(shown))
