@@ -34,7 +34,9 @@ import stillwater.mission.MissionSpec
  * It holds nothing that matters: it looks at the service twice a second while it is in sight, and may be turned, left
  * or swiped away at any time. What is being filled in is kept in its state and in a file.
  */
-class MainActivity : Activity(), ScreenHost {
+internal class MainActivity :
+    Activity(),
+    ScreenHost {
     private lateinit var frame: WindowFrame
     private lateinit var documents: Documents
     private lateinit var drafts: DraftFile
@@ -188,7 +190,7 @@ class MainActivity : Activity(), ScreenHost {
     }
 
     private fun use(spec: MissionSpec) {
-        boat?.load(spec)
+        boat?.load(spec.toJson())
         open(ScreenName.START)
     }
 
@@ -238,8 +240,10 @@ class MainActivity : Activity(), ScreenHost {
             }
         }
 
-    private fun show() {
-        val snapshot = boat?.snapshot ?: BoatSnapshot()
+    private fun show() = show(boat?.snapshot ?: BoatSnapshot())
+
+    /** Shows [snapshot] until the next look at the service. */
+    internal fun show(snapshot: BoatSnapshot) {
         frame.show(snapshot)
         screens[trail.last()]?.show(snapshot)
     }

@@ -43,7 +43,7 @@ internal class AreaScreen(
         AreaView(context, onPlace = ::place, onCorner = { take(pen.taking(it)) }).apply { id = R.id.area }
     private val summary = context.liveLine()
     private val problem = context.liveLine().apply { setTextColor(context.getColor(R.color.bad)) }
-    private val drop = button(R.string.drop_corner, R.id.drop_corner, ::drop)
+    private val drop = button(R.string.drop_corner, R.id.drop_corner, ::dropHere)
     private val remove = button(R.string.undo_corner, R.id.undo_corner) { change { pen.remove(it) } }
     private val shore = button(R.string.draw_shore, R.id.draw_shore) { take(AreaPen()) }
     private val keepOut = button(R.string.draw_keep_out, R.id.draw_keep_out) { take(pen.newKeepOut(desk.draft)) }
@@ -163,7 +163,7 @@ internal class AreaScreen(
         change { pen.add(it, position) }
     }
 
-    private fun drop() {
+    private fun dropHere() {
         val fix = usable(fix, fixAge) ?: return
         add(fix.place)
     }

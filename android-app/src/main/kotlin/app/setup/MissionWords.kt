@@ -57,6 +57,10 @@ internal fun Danger.words(): Int =
         Danger.FIX_JUMPING -> R.string.danger_fix_jumping
         Danger.BATTERY_LOW -> R.string.danger_battery
         Danger.FENCE -> R.string.danger_fence
+        Danger.LOG_LOST -> R.string.danger_log
+        Danger.OPERATOR_WAIT -> R.string.danger_wait
+        Danger.OPERATOR_HOLD -> R.string.danger_hold
+        Danger.OPERATOR_RETURN -> R.string.danger_return
         Danger.MISSION_END -> R.string.danger_end
     }
 
