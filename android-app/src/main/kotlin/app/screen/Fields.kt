@@ -14,11 +14,7 @@ import stillwater.app.R
 
 /** A column of a form: what is asked, then what was answered, then what is wrong with it. */
 internal open class FieldColumn(context: Context, protected val name: String) : LinearLayout(context) {
-    private val wrong =
-        context.liveLine().apply {
-            setTextColor(context.getColor(R.color.bad))
-            visibility = View.GONE
-        }
+    private val wrong = context.liveLine().apply { setTextColor(context.getColor(R.color.bad)) }
 
     init {
         orientation = VERTICAL

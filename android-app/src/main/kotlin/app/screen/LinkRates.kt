@@ -13,12 +13,16 @@ internal class LinkRates {
         private set
 
     private val looks = ArrayDeque<LongArray>()
+    private var counted: Any? = null
 
     /** Notes the counters of [snapshot] at [millis] of a clock that never stands still. */
     fun look(millis: Long, snapshot: BoatSnapshot) {
         val now = longArrayOf(millis, snapshot.link.bytesIn, snapshot.mission?.counts?.received ?: 0)
-        // Another link counts anew.
-        if (looks.isNotEmpty() && (1..2).any { now[it] < looks.last()[it] }) looks.clear()
+        // Another link or mission counts anew.
+        val source = snapshot.linkName to snapshot.mission?.spec
+        val isOther = counted != source || (looks.isNotEmpty() && (1..2).any { now[it] < looks.last()[it] })
+        if (isOther) looks.clear()
+        counted = source
         if (looks.isNotEmpty() && looks.last()[0] == millis) return
         looks.addLast(now)
         while (looks.size > 2 && millis - looks.first()[0] > SPAN_MILLIS) looks.removeFirst()
@@ -29,11 +33,13 @@ internal class LinkRates {
     private fun rate(counter: Int): Double? {
         if (looks.size < 2) return null
         val (first, last) = looks.first() to looks.last()
+        if (last[0] - first[0] < LEAST_MILLIS) return null
         return (last[counter] - first[counter]) * MILLIS_PER_SECOND / (last[0] - first[0])
     }
 
     private companion object {
         const val SPAN_MILLIS = 10_000L
+        const val LEAST_MILLIS = 2_000L
         const val MILLIS_PER_SECOND = 1000.0
     }
 }

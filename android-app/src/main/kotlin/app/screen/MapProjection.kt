@@ -25,14 +25,21 @@ internal class MapProjection(val centre: Position, val scale: Float, width: Floa
         /** A boat that has not moved yet is shown in 10 m of water, m. */
         private const val SMALLEST_SPAN = 10.0
 
-        /** All of [extent], at least one position, in sight, with [margin] px free at every edge. */
-        fun fitting(extent: List<Position>, width: Float, height: Float, margin: Float): MapProjection {
+        /** All of [extent], at least one position, in sight, [margin] px free at every edge and [foot] px more below. */
+        fun fitting(
+            extent: List<Position>,
+            width: Float,
+            height: Float,
+            margin: Float,
+            foot: Float = 0f,
+        ): MapProjection {
             val (west, east) = extent.minOf { it.x } to extent.maxOf { it.x }
             val (south, north) = extent.minOf { it.y } to extent.maxOf { it.y }
             val across = (width - 2 * margin) / (east - west).coerceAtLeast(SMALLEST_SPAN)
-            val up = (height - 2 * margin) / (north - south).coerceAtLeast(SMALLEST_SPAN)
+            val up = (height - foot - 2 * margin) / (north - south).coerceAtLeast(SMALLEST_SPAN)
             val scale = minOf(across, up).coerceAtLeast(Float.MIN_VALUE.toDouble()).toFloat()
-            return MapProjection(Position((west + east) / 2, (south + north) / 2), scale, width, height)
+            val middle = Position((west + east) / 2, (south + north) / 2 - foot / 2 / scale)
+            return MapProjection(middle, scale, width, height)
         }
     }
 }

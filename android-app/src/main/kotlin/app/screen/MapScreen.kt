@@ -12,7 +12,7 @@ import stillwater.app.service.BoatSnapshot
 internal class MapScreen(private val context: Context) : Screen {
     private val map = MapView(context).apply { id = R.id.map }
     private val words =
-        context.liveLine(context.getString(R.string.map_hint)).apply {
+        context.liveLine(context.getString(R.string.map_begin)).apply {
             id = R.id.map_words
             val gap = resources.getDimensionPixelSize(R.dimen.gap)
             setPadding(gap, gap / 3, gap, gap / 3)
@@ -52,6 +52,9 @@ internal class MapScreen(private val context: Context) : Screen {
         if (drawn?.first === now.first && drawn?.second == now.second) return
         drawn = now
         map.scene = snapshot.mission?.let { scene(it, snapshot.headingDeg) } ?: MapScene()
+        if (!map.isTold) {
+            words.say(context.getString(if (snapshot.mission == null) R.string.map_begin else R.string.map_hint))
+        }
     }
 
     private fun toggleFollow() {

@@ -30,6 +30,9 @@ internal class MapView(context: Context) : WaterView(context) {
             invalidate()
         }
 
+    /** Whether a cell is outlined and told of. */
+    val isTold: Boolean get() = tapped != null
+
     private var tapped: Int? = null
     private val legend = ColourLegend(this)
 

@@ -28,7 +28,10 @@ internal class StartScreen(private val context: Context, private val host: Scree
     private val start = button(R.string.start, R.id.start) { host.boat?.start() }
     private val hold = button(R.string.hold, R.id.hold) { host.boat?.hold() }
     private val goHome = button(R.string.go_home, R.id.go_home) { host.boat?.goHome() }
-    private val another = button(R.string.another, R.id.another) { host.boat?.newMission() }
+    private val another = button(R.string.another, R.id.another) {
+        host.boat?.newMission()
+        host.open(ScreenName.MISSION)
+    }
     private val controls = context.column()
     private val ready = context.liveLine().apply { id = R.id.readiness }
     private val checks = PreflightCheck.entries.associateWith(::CheckLine)
@@ -47,11 +50,11 @@ internal class StartScreen(private val context: Context, private val host: Scree
                     below(name)
                     below(about)
                     below(answer)
+                    below(ready)
                     below(controls)
                     below(setUp)
                     below(another)
                     below(context.heading(context.getString(R.string.preflight)))
-                    below(ready)
                     checks.values.forEach { below(it) }
                 },
             )
@@ -95,7 +98,7 @@ internal class StartScreen(private val context: Context, private val host: Scree
                 context.getString(spec.planner.words()),
             )
         val recovered = context.getString(R.string.mission_recovered).takeIf { mission.isRecovered }
-        return listOfNotNull(context.missionWords(mission.state), recovered, method, used).joinToString("\n")
+        return listOfNotNull(recovered, method, used).joinToString("\n")
     }
 
     private fun button(words: Int, id: Int, action: () -> Unit): Button =

@@ -7,6 +7,7 @@ import android.graphics.Paint
 import android.graphics.Path
 import android.view.View
 import stillwater.app.R
+import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.floor
@@ -49,15 +50,16 @@ internal class TraceView(context: Context) : View(context) {
         }
         val span = moments.last().seconds - moments.first().seconds
         val time = Axis(moments.last().seconds - maxOf(span, LEAST_SPAN), moments.last().seconds)
-        val values = moments.flatMap { listOf(it.reading, it.corrected) } + boundsInSight(moments)
-        val left = EDGE_DP * density + words.measureText(resources.getString(R.string.trace_tick, widest(values)))
+        val values = Axis.round(moments.flatMap { listOf(it.reading, it.corrected) } + boundsInSight(moments), VALUE_TICKS)
+        val slopes = Axis.round(moments.map { it.gradient } + listOf(0.0), SLOPE_TICKS)
+        val ticks = (values.ticks() + slopes.ticks()).map { (_, words) -> words }
+        val left = EDGE_DP * density + ticks.maxOf { words.measureText(it) }
         val text = words.textSize
         val bottom = height - text - 2 * GAP_DP * density
         val middle = text + (bottom - text) * UPPER_SHARE
-        val upper = Panel(left, 2 * text, width - GAP_DP * density, middle - text, time, Axis.round(values))
+        val upper = Panel(left, 2 * text, width - GAP_DP * density, middle - text, time, values)
         drawValues(canvas, upper, moments)
-        val slopes = moments.map { it.gradient } + listOf(0.0)
-        val lower = Panel(left, middle + text, width - GAP_DP * density, bottom, time, Axis.round(slopes))
+        val lower = Panel(left, middle + text, width - GAP_DP * density, bottom, time, slopes)
         drawFrame(canvas, lower, resources.getString(R.string.trace_gradient, perSecond()))
         drawLine(canvas, lower, moments, R.color.text) { it.gradient }
         drawTimes(canvas, lower)
@@ -123,10 +125,9 @@ internal class TraceView(context: Context) : View(context) {
         words.textAlign = Paint.Align.RIGHT
         line.color = context.getColor(R.color.line)
         line.strokeWidth = HAIR_DP * density
-        for (tick in panel.value.ticks()) {
+        for ((tick, text) in panel.value.ticks()) {
             val y = panel.y(tick)
             canvas.drawLine(panel.left, y, panel.right, y, line)
-            val text = resources.getString(R.string.trace_tick, tick)
             canvas.drawText(text, panel.left - GAP_DP * density, y + words.textSize / 3, words)
         }
     }
@@ -143,44 +144,38 @@ internal class TraceView(context: Context) : View(context) {
     private fun perSecond(): String =
         if (scene.unit.isEmpty()) resources.getString(R.string.per_second) else "${scene.unit}/s"
 
-    private fun widest(values: List<Double>): Double =
-        values.filter { it.isFinite() }.maxByOrNull { abs(it) + if (it < 0) abs(it) else 0.0 } ?: 0.0
-
     private fun described(scene: TraceScene): String {
         val last = scene.moments.lastOrNull { it.reading.isFinite() } ?: return resources.getString(R.string.trace_empty)
         val span = context.duration(last.seconds - scene.moments.first().seconds)
         return resources.getString(R.string.trace_said, span)
     }
 
-    /** A range of numbers along an edge. */
-    private class Axis(val low: Double, val high: Double) {
-        /** Round numbers within, three or so. */
-        fun ticks(): List<Double> {
-            val step = step(high - low)
-            val first = ceil(low / step - ROUNDING).toLong()
-            val last = floor(high / step + ROUNDING).toLong()
-            return (first..last).map { it * step }
+    /** A range of numbers along an edge, with a mark every [step]. */
+    private class Axis(val low: Double, val high: Double, private val step: Double = high - low) {
+        /** Where a number is written, and how: with as many digits as tell it from the next. */
+        fun ticks(): List<Pair<Double, String>> {
+            val digits = maxOf(0, -floor(log10(step) + ROUNDING).toInt())
+            val first = Math.round(low / step)
+            val last = Math.round(high / step)
+            return (first..last).map { it * step to String.format(Locale.getDefault(), "%.${digits}f", it * step) }
         }
 
         companion object {
-            /** From a round number below [values] to one above them. */
-            fun round(values: List<Double>): Axis {
+            /** From a round number below [values] to one above them, in [count] steps or so. */
+            fun round(values: List<Double>, count: Int): Axis {
                 val known = values.filter { it.isFinite() }
-                if (known.isEmpty()) return Axis(-1.0, 1.0)
+                if (known.isEmpty()) return Axis(-1.0, 1.0, 1.0)
                 val (low, high) = known.min() to known.max()
-                val spread = maxOf(high - low, abs(high) * 1e-3, 1e-3)
-                val step = step(spread)
-                return Axis(floor((low - spread / 20) / step) * step, ceil((high + spread / 20) / step) * step)
-            }
-
-            /** 1, 2 or 5 times a power of ten, a third of [span] or so. */
-            private fun step(span: Double): Double {
-                val raw = span / 3
+                val spread = maxOf(high - low, abs(high) * LEAST_ROOM, LEAST_ROOM)
+                val raw = spread / count
                 val power = 10.0.pow(floor(log10(raw)))
-                return power * (listOf(1.0, 2.0, 5.0).firstOrNull { it * power >= raw } ?: 10.0)
+                val step = power * (listOf(1.0, 2.0, 5.0).firstOrNull { it * power >= raw } ?: 10.0)
+                val lowest = floor(low / step + ROUNDING) * step
+                return Axis(lowest, maxOf(ceil(high / step - ROUNDING) * step, lowest + step), step)
             }
 
             private const val ROUNDING = 1e-9
+            private const val LEAST_ROOM = 1e-3
         }
     }
 
@@ -208,6 +203,8 @@ internal class TraceView(context: Context) : View(context) {
 
         /** Shorter, a trace would move too fast to be read, s. */
         const val LEAST_SPAN = 30.0
+        const val VALUE_TICKS = 5
+        const val SLOPE_TICKS = 2
         const val LEAST_ROOM = 1e-3
     }
 }

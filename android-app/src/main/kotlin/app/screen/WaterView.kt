@@ -69,8 +69,11 @@ internal abstract class WaterView(context: Context) : View(context) {
         }
         val extent = extent()
         if (extent.isEmpty()) return null
-        return MapProjection.fitting(extent, width.toFloat(), height.toFloat(), MARGIN_DP * density)
+        return MapProjection.fitting(extent, width.toFloat(), height.toFloat(), MARGIN_DP * density, foot())
     }
+
+    /** What is kept free of the water at the lower edge, for scale and legend, px. */
+    private fun foot() = words.textSize + FOOT_DP * density
 
     /** Shows all there is again. */
     fun showAll() {
@@ -271,8 +274,9 @@ internal abstract class WaterView(context: Context) : View(context) {
     }
 
     protected companion object {
-        const val MARGIN_DP = 34f
+        const val MARGIN_DP = 24f
         private const val HALO_DP = 2f
+        private const val FOOT_DP = 14f
         private const val MARK_DP = 10f
         private const val MARK_WALL = 0.65f
         private const val HOME_DP = 2f

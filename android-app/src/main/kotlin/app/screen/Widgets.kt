@@ -23,7 +23,10 @@ internal fun Context.line(text: CharSequence, colour: Int = R.color.text): TextV
 
 /** A line that talk-back says whenever it changes. */
 internal fun Context.liveLine(text: CharSequence = ""): TextView =
-    line(text).apply { accessibilityLiveRegion = View.ACCESSIBILITY_LIVE_REGION_POLITE }
+    line(text).apply {
+        accessibilityLiveRegion = View.ACCESSIBILITY_LIVE_REGION_POLITE
+        show(text.isNotEmpty())
+    }
 
 /** A line that begins a part of a screen; talk-back can jump to it where the platform knows headings. */
 internal fun Context.heading(text: CharSequence): TextView =
@@ -98,8 +101,9 @@ internal fun LinearLayout.below(view: View, weight: Float = 0f) {
 
 /** Shows [words], or nothing at all where there are none; a line that says what it said before is left alone. */
 internal fun TextView.say(words: CharSequence?) {
-    if (text.toString() != words?.toString().orEmpty()) text = words
+    // In sight first: talk-back does not say what changes out of sight.
     show(!words.isNullOrEmpty())
+    if (text.toString() != words?.toString().orEmpty()) text = words
 }
 
 /** Makes it seen, or takes no room. */

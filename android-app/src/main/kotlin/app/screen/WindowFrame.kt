@@ -2,6 +2,7 @@ package stillwater.app.screen
 
 import android.content.Context
 import android.content.res.Configuration
+import android.view.Gravity
 import android.view.View
 import android.view.ViewGroup
 import android.widget.FrameLayout
@@ -46,7 +47,7 @@ internal class WindowFrame(private val context: Context, onMenu: () -> Unit, onS
         val now = context.stateWords(snapshot)
         if (now == shown) return
         shown = now
-        state.text = now
+        state.say(now)
         state.setTextColor(context.getColor(if (isBad(snapshot)) R.color.bad else R.color.text))
     }
 
@@ -56,6 +57,8 @@ internal class WindowFrame(private val context: Context, onMenu: () -> Unit, onS
         val head =
             LinearLayout(context).apply {
                 val wrap = ViewGroup.LayoutParams.WRAP_CONTENT
+                isBaselineAligned = false
+                gravity = Gravity.CENTER_VERTICAL
                 addView(menu, LinearLayout.LayoutParams(0, wrap, MENU_SHARE))
                 addView(padded(state), LinearLayout.LayoutParams(0, wrap, STATE_SHARE))
             }

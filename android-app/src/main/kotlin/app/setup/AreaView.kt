@@ -66,9 +66,9 @@ internal class AreaView(
         drawLine(canvas, projection, shore(), LineStyle(R.color.fence, OUTLINE_DP, isClosed = true))
         val keepOut = LineStyle(R.color.fence, OUTLINE_DP, isClosed = true, isDashed = true)
         for (ring in draft.keepOuts) drawLine(canvas, projection, ring.map { it.position }, keepOut)
+        draft.home?.position?.let { drawHome(canvas, projection.x(it), projection.y(it)) }
         drawCorners(canvas, projection, draft.shore, ring = -1)
         draft.keepOuts.forEachIndexed { ring, places -> drawCorners(canvas, projection, places, ring) }
-        draft.home?.position?.let { drawHome(canvas, projection.x(it), projection.y(it)) }
         here?.let { drawHere(canvas, projection, it) }
         drawScale(canvas, projection)
     }

@@ -92,10 +92,10 @@ internal fun Context.areaSummary(draft: MissionDraft, check: DraftCheck): String
     val out = draft.keepOuts.size
     val parts =
         listOfNotNull(
-            corners,
+            corners.takeIf { draft.shore.isNotEmpty() },
             resources.getQuantityString(R.plurals.keep_outs, out, out).takeIf { out > 0 },
             getString(R.string.home_is_set).takeIf { draft.home != null },
-            check.grid?.let { getString(R.string.cells_of, it.columns, it.rows, it.cell) },
+            check.grid?.let { getString(R.string.cells_of, it.columns, it.rows, draft.text(DraftField.CELL)) },
         )
     return parts.joinToString()
 }

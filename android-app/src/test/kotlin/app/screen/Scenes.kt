@@ -15,8 +15,8 @@ import stillwater.app.service.FixCounts
 import stillwater.app.service.PreflightCheck
 import stillwater.app.service.PreflightItem
 import stillwater.app.service.PreflightReason
-import stillwater.estimate.BoundedFilter
-import stillwater.estimate.BoundedFilterSettings
+import stillwater.estimate.BoundedExtendedFilter
+import stillwater.estimate.update
 import stillwater.field.FieldMap
 import stillwater.mission.AreaSpec
 import stillwater.mission.BudgetSpec
@@ -126,7 +126,7 @@ internal object Scenes {
             position = track.last(),
             track = track,
             plan = lane(ROWS_DONE).reversed() + lane(ROWS_DONE + 2) + lane(ROWS_DONE + 4).reversed(),
-            used = 662.0,
+            used = if (state == MissionState.Idle && !isRecovered) 0.0 else 662.0,
             trace = trace.takeLast(TRACE),
             counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 7, 3),
             log = LogReport("North pond 2026-07-14 0931.txt.incomplete", 9_113, 9_110),
@@ -148,7 +148,7 @@ internal object Scenes {
 
     /** Lanes along the rows, there and back; mg/L of oxygen. */
     private fun surveyed(): FieldMap {
-        val filter = BoundedFilter(grid, spec.probe.range, BoundedFilterSettings(epsilon = 0.002))
+        val filter = BoundedExtendedFilter(grid, spec.probe.range)
         val sensor = FirstOrderLag(TIME_CONSTANT, oxygen(grid.center(0)))
         var time = 0.0
         for (row in 0 until ROWS_DONE) {
