@@ -68,7 +68,8 @@ internal class LinkScreen(
     fun offer() {
         val paired =
             BluetoothTransport.paired(context).map { LinkChoice.Bluetooth(it.address, nameOf(it.name, it.address)) }
-        val now = paired + if (SerialDrivers.areBuiltIn()) listOf(LinkChoice.Usb) else emptyList()
+        val usb = if (SerialDrivers.areBuiltIn()) listOf(LinkChoice.Usb) else emptyList()
+        val now: List<LinkChoice> = paired + usb + LinkChoice.Demo
         if (now == offered) return
         offered = now
         choices.removeAllViews()
