@@ -7,11 +7,14 @@ import stillwater.app.R
 
 /** Which way to the board the person chose. */
 sealed interface LinkChoice {
+    /** A way to a real board. */
+    sealed interface Board : LinkChoice
+
     /** A paired device. */
-    data class Bluetooth(val address: String, val name: String) : LinkChoice
+    data class Bluetooth(val address: String, val name: String) : Board
 
     /** Whatever serial adapter is plugged in. */
-    data object Usb : LinkChoice
+    data object Usb : Board
 
     /** No board: core's virtual boat on virtual water. */
     data object Demo : LinkChoice
@@ -63,17 +66,16 @@ sealed interface LinkChoice {
     }
 }
 
-/** Makes the link that a choice stands for; a test's makes a fake. */
+/** Makes the link to a board that a choice stands for; a test's makes a fake. */
 fun interface LinkMaker {
     /** A link, not opened. */
-    fun make(context: Context, choice: LinkChoice): BoardLink
+    fun make(context: Context, choice: LinkChoice.Board): BoardLink
 
     companion object {
         /** Real links. */
         val REAL =
             LinkMaker { context, choice ->
                 when (choice) {
-                    is LinkChoice.Demo -> error("the demo's link is the virtual boat's")
                     is LinkChoice.Usb ->
                         ReconnectingLink(UsbTransport(context, context.getString(R.string.usb_serial)))
                     is LinkChoice.Bluetooth ->

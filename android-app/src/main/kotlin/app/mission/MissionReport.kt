@@ -45,6 +45,12 @@ class MissionReport(
     /** What may be used of the budget, in its unit. */
     val budget: Double get() = spec.budget.metres ?: spec.budget.seconds ?: 0.0
 
+    /** The same with [log], which has moved on. */
+    internal fun withLog(log: LogReport): MissionReport =
+        MissionReport(
+            spec, state, wish, isRecovered, isOver, map, position, track, plan, used, trace, counts, log, readAt, now,
+        )
+
     /** Time since the last reading in [cell], s; null where there was none, or none since the app was started. */
     fun ageOf(cell: Int): Double? = readAt[cell].takeIf { it.isFinite() }?.let { now - it }
 }
@@ -109,7 +115,7 @@ data class LogReport(
 )
 
 /**
- * A mission that was, as a list shows it; `BoatService.logOf` has its file.
+ * A mission that was, as a list shows it; `BoatService.logOf` is its file.
  *
  * @property name of the log's file.
  * @property bytes it takes.
