@@ -136,7 +136,7 @@ internal class MainActivity :
     }
 
     @Deprecated("The call that replaces it is androidx's.")
-    override fun onActivityResult(code: Int, result: Int, data: Intent?) {
+    public override fun onActivityResult(code: Int, result: Int, data: Intent?) {
         val purpose = DocumentPurpose.entries.getOrNull(code) ?: return
         documents.chosen(purpose, data?.data?.takeIf { result == RESULT_OK })
     }
