@@ -91,7 +91,7 @@ class WholeMissionTest {
         }
         assertTrue((0 until ours.grid.size).count { ours.readings(it) > 0 } >= 8, "most of the pond was seen")
         assertEquals(listOf(told.name), desk.snapshot.past?.map { it.name })
-        // For the simulator's own reader, which is no part of the app: SurveyFromThePhoneTest in `tests`.
+        // For the simulator's own reader, which is no part of the app: PhoneLogTest in `tests`.
         file.copyTo(File("target/mission-logs/android-${Build.VERSION.SDK_INT}.log"), overwrite = true)
     }
 
