@@ -2,7 +2,6 @@ package stillwater.mission
 
 import kotlinx.serialization.SerialName
 import kotlinx.serialization.Serializable
-import kotlinx.serialization.SerializationException
 import kotlinx.serialization.json.Json
 import stillwater.control.Danger
 import stillwater.control.Failsafe
@@ -21,7 +20,8 @@ public data class PlaceSpec(@SerialName("x_m") val x: Double, @SerialName("y_m")
         require(x.isFinite() && y.isFinite()) { "x_m, y_m ($x, $y) must be finite" }
     }
 
-    internal val position: Position get() = Position(x, y)
+    /** The same in the local frame. */
+    public val position: Position get() = Position(x, y)
 }
 
 /** Where the mission's frame has its zero, degrees, WGS-84. */
@@ -94,28 +94,32 @@ public data class GridSpec(
     public fun grid(): Grid = Grid(southWest.position, columns, rows, cell)
 }
 
-/** What a probe on a board's port measures. */
+/**
+ * What a probe on a board's port measures.
+ *
+ * @property unit as it is written behind a value; empty where it has none.
+ */
 @Serializable
-public enum class Quantity {
+public enum class Quantity(public val unit: String) {
     /** Dissolved oxygen, mg/L. */
     @SerialName("dissolved-oxygen")
-    DISSOLVED_OXYGEN,
+    DISSOLVED_OXYGEN("mg/L"),
 
     /** Acidity, dimensionless. */
     @SerialName("acidity")
-    ACIDITY,
+    ACIDITY(""),
 
     /** Electrical conductivity, µS/cm. */
     @SerialName("conductivity")
-    CONDUCTIVITY,
+    CONDUCTIVITY("µS/cm"),
 
     /** Water temperature, °C. */
     @SerialName("temperature")
-    TEMPERATURE,
+    TEMPERATURE("°C"),
 
     /** Depth of the water below the transducer, m. */
     @SerialName("depth")
-    DEPTH,
+    DEPTH("m"),
 }
 
 /**
@@ -157,9 +161,18 @@ public data class ProbeSpec(
     /** What the water can have, sensor units. */
     public val range: Interval get() = Interval(lowest, highest)
 
-    private companion object {
+    public companion object {
         /** The pose history reaches a minute back. */
-        const val LONGEST_LATENCY = 30.0
+        private const val LONGEST_LATENCY = 30.0
+
+        /**
+         * Reads the JSON form.
+         *
+         * @throws IllegalArgumentException as [MissionSpec.fromJson] does.
+         */
+        public fun fromJson(json: String): ProbeSpec = oneLine("not a probe") {
+            Json.decodeFromString(serializer(), json)
+        }
     }
 }
 
@@ -317,12 +330,16 @@ public data class MissionSpec(
          * @throws IllegalArgumentException if [json] is not of that form or a number is out of its range; the message is one
          *   line that says where and what was expected.
          */
-        public fun fromJson(json: String): MissionSpec = try {
+        public fun fromJson(json: String): MissionSpec = oneLine("not a mission") {
             FORMAT.decodeFromString(serializer(), json)
-        } catch (e: SerializationException) {
-            throw IllegalArgumentException("not a mission: ${e.message.orEmpty().lineSequence().first()}", e)
-        } catch (e: IllegalArgumentException) {
-            throw IllegalArgumentException("not a mission: ${e.message.orEmpty().lineSequence().first()}", e)
         }
     }
+}
+
+/** What [read] gives; what it throws, in one line that begins with [what]. */
+private fun <T> oneLine(what: String, read: () -> T): T = try {
+    read()
+} catch (e: IllegalArgumentException) {
+    // A SerializationException is one too.
+    throw IllegalArgumentException("$what: ${e.message.orEmpty().lineSequence().first()}", e)
 }

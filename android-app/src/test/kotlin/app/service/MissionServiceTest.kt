@@ -140,7 +140,6 @@ class MissionServiceTest {
         val left = file.readText().dropLast(20)
         desk.end()
         file.writeText(left)
-        BoatService.links = LinkMaker { _, _ -> wire.link }
         val told = desk.told.length
         desk.start(intent = null)
         desk.pass(5.0)
@@ -248,7 +247,7 @@ class MissionServiceTest {
                     }
                 }
             }
-        BoatService.links =
+        val links =
             LinkMaker { _, _ ->
                 object : BoardLink by wire.link {
                     override fun read(into: ByteArray): Int = wire.link.read(into).also { note("read") }
@@ -256,7 +255,7 @@ class MissionServiceTest {
                     override fun write(bytes: ByteArray): Boolean = wire.link.write(bytes).also { note("send") }
                 }
             }
-        desk.start()
+        desk.start(links = links)
         desk.ask { load(ServiceDesk.POND) }
         desk.until(10.0) { shot -> shot.preflight.all { it.ready } }
         survey()
@@ -278,7 +277,7 @@ class MissionServiceTest {
         return desk.state
     }
 
-    private fun logs(): List<File> = desk.service.logOf("").listFiles().orEmpty().sorted()
+    private fun logs(): List<File> = BoatService.logOf(context, "").listFiles().orEmpty().sorted()
 
     private fun read(file: File): RecoveredMission =
         assertNotNull(MissionRecovery().apply { file.forEachLine { line(it) } }.recovered())

@@ -65,7 +65,6 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
     val told = StringBuilder()
 
     init {
-        BoatService.links = LinkMaker { _, _ -> wire.link }
         for (permission in Preflight.neededPermissions()) shadowOf(context).grantPermissions(permission)
         locations.setProviderEnabled(LocationManager.GPS_PROVIDER, true)
         sensors.addSensor(rotation)
@@ -81,15 +80,21 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
     val state: MissionState get() = report.state
 
     /** A service as Android makes it, started with [intent], null after the process died. */
-    fun start(intent: Intent? = BoatService.startIntent(context, BOARD)) {
+    fun start(
+        intent: Intent? = BoatService.startIntent(context, BOARD),
+        links: LinkMaker = LinkMaker { _, _ -> wire.link },
+    ) {
+        BoatService.links = links
         controller = Robolectric.buildService(BoatService::class.java).create()
         service.onStartCommand(intent, 0, 1)
         settle()
     }
 
-    /** The service goes. */
+    /** The service goes, and what it still had to do is done. */
     fun end() {
+        val threads = listOf(service.boatLooper.thread, service.diskLooper.thread)
         controller.destroy()
+        threads.forEach { it.join() }
         BoatService.links = LinkMaker.REAL
         BoatService.logs = LogOpener(::FileOutput)
     }

@@ -66,7 +66,7 @@ class WholeMissionTest {
         val counts = desk.report.counts
         val sum = counts.run { taken + waiting + outOfRange + unconfirmed + withoutPlace }
         assertEquals(counts.received, sum)
-        val log = desk.service.logOf(desk.report.log!!.name).readText()
+        val log = BoatService.logOf(context, desk.report.log!!.name).readText()
         assertEquals(Regex("\"reading\":\\{").findAll(log).count().toLong(), counts.received)
         assertEquals(Regex("atlas_do").findAll(said).count().toLong(), counts.received)
         assertTrue(counts.taken >= 150, "$counts")
@@ -79,7 +79,7 @@ class WholeMissionTest {
         assertTrue(told.isClosed && told.name.endsWith("-pond.log"), "$told")
         assertEquals(told.lines, told.written)
         assertEquals(0L, told.lost)
-        val file = desk.service.logOf(told.name)
+        val file = BoatService.logOf(context, told.name)
         assertEquals(told.lines, file.readLines().size.toLong())
         val read = MissionRecovery().apply { file.forEachLine { line(it) } }.recovered()!!
         assertEquals(0L, read.unreadable)
