@@ -102,7 +102,7 @@ internal class PastScreen(
         context.column().apply {
             below(context.line(context.getString(R.string.share)))
             below(
-                context.row(
+                context.rowIfWide(
                     sharing(mission, R.string.share_log, R.string.share_log_said, DocumentPurpose.LOG),
                     sharing(mission, R.string.share_csv, R.string.share_csv_said, DocumentPurpose.CSV),
                     sharing(mission, R.string.share_geojson, R.string.share_geojson_said, DocumentPurpose.GEOJSON),

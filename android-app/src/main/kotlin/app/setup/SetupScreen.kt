@@ -18,7 +18,6 @@ import stillwater.app.screen.below
 import stillwater.app.screen.column
 import stillwater.app.screen.heading
 import stillwater.app.screen.largeButton
-import stillwater.app.screen.line
 import stillwater.app.screen.liveLine
 import stillwater.app.screen.row
 import stillwater.app.screen.say
