@@ -181,10 +181,10 @@ internal class BoatLoop(
             messages = held.ears.messages
         }
         if (ticks++ % LOOK_TICKS == 0L || held.link == null) {
-            missions.flush()
             missions.closeAgain()
             look(now)
         }
+        if (ticks % FLUSH_TICKS == 0L) missions.flush()
     }
 
     /** Whatever a board was told before this connection, by a process that died perhaps: it is over. */
@@ -266,6 +266,9 @@ internal class BoatLoop(
         const val STEP_MILLIS = 100L
         const val IDLE_MILLIS = 500L
         const val LOOK_TICKS = 5L
+
+        /** A second: no more of a log is lost with the process. */
+        const val FLUSH_TICKS = 10L
         const val QUESTION_SECONDS = 1.0
 
         /** A sensor speaks fifty times a second, s. */

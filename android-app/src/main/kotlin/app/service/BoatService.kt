@@ -127,7 +127,7 @@ open class BoatService :
         }
 
     /** The file of the past mission [name]; may not be there any more. */
-    fun logOf(name: String): File = File(logFolder(), name)
+    fun logOf(name: String): File = logOf(this, name)
 
     private fun logFolder() = File(filesDir, LOGS)
 
@@ -234,6 +234,9 @@ open class BoatService :
 
         /** How logs are opened. */
         @Volatile internal var logs: LogOpener = LogOpener(::FileOutput)
+
+        /** The file of the past mission [name]; may not be there any more. Touches the disk. */
+        fun logOf(context: Context, name: String): File = File(File(context.filesDir, LOGS), name)
 
         /** Starts the service with [choice], or hands a running one that link instead. */
         fun startIntent(context: Context, choice: LinkChoice): Intent =
