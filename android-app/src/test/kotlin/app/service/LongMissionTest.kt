@@ -58,13 +58,14 @@ class LongMissionTest {
         pass(5)
         assertTrue(service.snapshot.isDemo && service.snapshot.preflight.all { it.ready }, "${service.snapshot.preflight}")
         service.start()
-        pass(600)
+        // What the first minutes load, and what Android's own start leaves, is gone or settled by then.
+        pass(3000)
         val early = heap()
-        pass(5400)
+        pass(3000)
         assertEquals(MissionState.Surveying, service.snapshot.mission?.state)
         val late = heap()
-        // The estimator's cells and the lists for the screens are of fixed size; the log alone would be 20 MB by now.
-        assertTrue(late - early < MOST_GROWTH, "$early bytes after 10 min, $late after 100")
+        // The estimator's cells and the lists for the screens are of fixed size; the log alone grew by 8 MB meanwhile.
+        assertTrue(late - early < MOST_GROWTH, "$early bytes after 50 min, $late after 100")
 
         pass(1300)
         val report = assertNotNull(service.snapshot.mission)
