@@ -36,7 +36,8 @@ internal class HeldLink : ByteLink {
 
     /** Reads all that has arrived, for nobody but the ears. */
     fun listen() {
-        while (read(buffer) > 0) Unit
+        var length = read(buffer)
+        while (length > 0) length = read(buffer)
     }
 
     private companion object {

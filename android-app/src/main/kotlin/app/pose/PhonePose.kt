@@ -58,7 +58,8 @@ internal class PhonePose(context: Context) : Pose {
     @Volatile override var jumps = 0L
         private set
 
-    private var last: Location? = null
+    private var trusted: Location? = null
+    private var doubted: Location? = null
     private var declinationDeg = 0.0
     private var yawRate = Double.NaN
 
@@ -95,7 +96,6 @@ internal class PhonePose(context: Context) : Pose {
                 .declination
                 .toDouble()
         val jumped = isJump(location)
-        last = location
         fixes++
         if (jumped) jumps++
         fix =
@@ -109,9 +109,20 @@ internal class PhonePose(context: Context) : Pose {
             )
     }
 
-    /** What the receiver itself takes for possible counts as its error, three times over. */
+    /** Two that lie apart from those before, but near each other, are where the phone is now. */
     private fun isJump(location: Location): Boolean {
-        val before = last ?: return false
+        val jumped = trusted?.let { isFar(it, location) } == true
+        if (!jumped || doubted?.let { !isFar(it, location) } == true) {
+            trusted = location
+            doubted = null
+        } else {
+            doubted = location
+        }
+        return jumped
+    }
+
+    /** What the receiver itself takes for possible counts as its error, three times over. */
+    private fun isFar(before: Location, location: Location): Boolean {
         val seconds = (location.elapsedRealtimeNanos - before.elapsedRealtimeNanos) * SECONDS_PER_NANO
         val errors = ERRORS * (location.accuracy + before.accuracy)
         return location.distanceTo(before) > errors + FASTEST_BOAT * maxOf(0.0, seconds)

@@ -192,10 +192,10 @@ internal class BoatLoop(
             listen()
         }
         if (ticks++ % LOOK_TICKS == 0L || held.link == null) {
-            missions.flush()
             missions.closeAgain()
             look(now)
         }
+        if (ticks % FLUSH_TICKS == 0L) missions.flush()
     }
 
     /** Where the phone is, while someone looks; a permission that is given meanwhile counts from then on. */
@@ -289,6 +289,9 @@ internal class BoatLoop(
         const val STEP_MILLIS = 100L
         const val IDLE_MILLIS = 500L
         const val LOOK_TICKS = 5L
+
+        /** A second: no more of a log is lost with the process. */
+        const val FLUSH_TICKS = 10L
         const val QUESTION_SECONDS = 1.0
 
         /** A sensor speaks fifty times a second, s. */

@@ -134,6 +134,9 @@ open class BoatService :
             }
         }
 
+    /** The file of the past mission [name]; may not be there any more. */
+    fun logOf(name: String): File = logOf(this, name)
+
     private fun logFolder() = File(filesDir, LOGS)
 
     private fun onBoat(work: BoatLoop.() -> Unit) {

@@ -63,6 +63,7 @@ class MissionServiceTest {
         assertEquals(Answer(Answer.Reason.UNDER_WAY), desk.snapshot.answer)
         desk.ask { newMission() }
         assertEquals(Answer(Answer.Reason.UNDER_WAY), desk.snapshot.answer)
+        desk.pass(20.0)
         desk.ask { goHome() }
         assertTrue(desk.until(1.0) { it.mission?.state == MissionState.Returning(Danger.OPERATOR_RETURN) })
         assertNull(desk.snapshot.answer)
@@ -198,6 +199,8 @@ class MissionServiceTest {
         desk.fix(LatLon(spec.latitude, spec.longitude), accuracy = 80f)
         desk.pass(0.5)
         assertEquals(1L, desk.snapshot.fixes.wide)
+        // Not in the step in which the boat's own next fix comes: the newest one counts.
+        desk.until(2.0) { (it.fixAgeSeconds ?: 9.0) in 0.2..0.6 }
         desk.fix(LatLon(spec.latitude + 0.01, spec.longitude))
         desk.pass(0.5)
         assertEquals(1L, desk.snapshot.fixes.jumps)

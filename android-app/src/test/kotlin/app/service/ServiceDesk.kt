@@ -47,6 +47,7 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
     private val sensors = shadowOf(context.getSystemService(SensorManager::class.java)!!)
     private val rotation = ShadowSensor.newInstance(Sensor.TYPE_ROTATION_VECTOR)
     private val buffer = ByteArray(4096)
+    private var steps = 0
     private lateinit var controller: ServiceController<BoatService>
 
     /** The boat. */
@@ -124,12 +125,15 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
         val commands = wire.fromPhone()
         told.append(String(commands))
         boat.phone.write(commands)
+        // Files are worked on by the real clock; here they are to keep up with the virtual one.
+        if (++steps % STEPS_A_SECOND == 0) shadowOf(service.diskLooper).idle()
     }
 
-    /** Lets [seconds] s pass. */
+    /** Lets [seconds] s pass, at least half a one; the snapshot afterwards has all that was done before the last half. */
     fun pass(seconds: Double) {
-        repeat((seconds / STEP).toInt()) { step() }
+        repeat((seconds / STEP).toInt() - LOOK_STEPS) { step() }
         settle()
+        repeat(LOOK_STEPS) { step() }
     }
 
     /** Lets time pass until [ended] holds, for [seconds] s at most; answers whether it does. */
@@ -188,6 +192,8 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
 
         private const val STEP = 0.1
         private const val MILLIS = 100L
+        private const val STEPS_A_SECOND = 10
+        private const val LOOK_STEPS = 5
         private val PROBE =
             SensorSpec.fromJson(
                 """{"name":"probe","stages":[{"type":"first-order-lag","time_constant_s":6.0},""" +
