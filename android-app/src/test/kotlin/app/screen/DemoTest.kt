@@ -2,7 +2,9 @@ package stillwater.app.screen
 
 import android.app.Application
 import android.content.ComponentName
+import android.os.BatteryManager
 import android.os.Looper
+import android.os.PowerManager
 import android.view.View
 import android.widget.TextView
 import org.junit.After
@@ -41,10 +43,10 @@ class DemoTest {
     fun theDemoGoesFromTheMenuToAMeasuredMap() {
         Background.executor = Executor { it.run() }
         Preflight.neededPermissions().forEach { shadowOf(context).grantPermissions(it) }
-        shadowOf(checkNotNull(context.getSystemService(android.os.PowerManager::class.java)))
+        shadowOf(checkNotNull(context.getSystemService(PowerManager::class.java)))
             .setIgnoringBatteryOptimizations(context.packageName, true)
-        shadowOf(checkNotNull(context.getSystemService(android.os.BatteryManager::class.java)))
-            .setIntProperty(android.os.BatteryManager.BATTERY_PROPERTY_CAPACITY, 80)
+        shadowOf(checkNotNull(context.getSystemService(BatteryManager::class.java)))
+            .setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, 80)
         service.create()
         val binder = service.get().onBind(null)
         shadowOf(context).setComponentNameAndServiceForBindService(
@@ -81,7 +83,8 @@ class DemoTest {
         assertTrue("Stopped: you stopped it" in activity.view<TextView>(R.id.state).text, "${activity.wordsShown()}")
         activity.go(ScreenName.PAST)
         pass(2.0)
-        assertTrue(activity.wordsShown().any { it.startsWith("pond") && it.endsWith("complete") }, "${activity.wordsShown()}")
+        val past = activity.wordsShown()
+        assertTrue(past.any { it.startsWith("pond") && it.endsWith("complete") }, "$past")
     }
 
     /** Lets [seconds] s go by for the boat, its disk and the screens. */
