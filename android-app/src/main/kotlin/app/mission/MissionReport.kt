@@ -115,7 +115,7 @@ data class LogReport(
 )
 
 /**
- * A mission that was, as a list shows it; `BoatService.logOf` has its file.
+ * A mission that was, as a list shows it; `BoatService.logOf` is its file.
  *
  * @property name of the log's file.
  * @property bytes it takes.

@@ -6,6 +6,7 @@ import android.net.Uri
 import android.os.Bundle
 import android.provider.DocumentsContract
 import stillwater.app.R
+import stillwater.app.service.BoatService
 import stillwater.app.setup.DraftDesk
 import stillwater.mission.CellsText
 import stillwater.mission.MissionDraft
@@ -31,19 +32,19 @@ internal class Documents(
 ) {
     private val context = context.applicationContext
 
-    /** The log that is to be shared; survives the process, for choosing a place may take long. */
-    private var shared: File? = null
+    /** The name of the log that is to be shared; survives the process, for choosing a place may take long. */
+    private var shared: String? = null
 
     /** Keeps what is under way in [state]. */
-    fun save(state: Bundle) = state.putString(SHARED, shared?.path)
+    fun save(state: Bundle) = state.putString(SHARED, shared)
 
     /** Takes up what [state] has under way. */
     fun restore(state: Bundle?) {
-        shared = state?.getString(SHARED)?.let(::File)
+        shared = state?.getString(SHARED)
     }
 
     /** Asks, through [host], where [log] is to be written as what [purpose] says. */
-    fun share(log: File, purpose: DocumentPurpose, host: ScreenHost) {
+    fun share(log: String, purpose: DocumentPurpose, host: ScreenHost) {
         shared = log
         val (type, extension) =
             when (purpose) {
@@ -51,7 +52,7 @@ internal class Documents(
                 DocumentPurpose.GEOJSON -> "application/geo+json" to "geojson"
                 else -> "text/plain" to "txt"
             }
-        val title = "${log.name.substringBefore('.')}.$extension"
+        val title = "${log.substringBefore('.')}.$extension"
         host.choose(
             Intent(Intent.ACTION_CREATE_DOCUMENT)
                 .addCategory(Intent.CATEGORY_OPENABLE)
@@ -100,7 +101,7 @@ internal class Documents(
     private fun ofShared(document: Uri, purpose: DocumentPurpose, write: (File, OutputStream) -> Unit) {
         val log = shared ?: return tell(context.getString(R.string.document_cancelled), purpose)
         shared = null
-        write(document, purpose) { write(log, it) }
+        write(document, purpose) { write(BoatService.logOf(context, log), it) }
     }
 
     private fun write(document: Uri, purpose: DocumentPurpose, write: (OutputStream) -> Unit) {

@@ -31,18 +31,20 @@ internal open class FieldColumn(context: Context, protected val name: String) : 
 /**
  * A text or a number to type.
  *
+ * @param id of what is typed into.
  * @param onText called with every change that a person makes.
  */
 internal class TextField(
     context: Context,
     name: String,
     isNumber: Boolean,
+    id: Int = View.generateViewId(),
     private val onText: (String) -> Unit,
 ) : FieldColumn(context, name) {
     private var isFilling = false
     val edit =
         EditText(context).apply {
-            id = View.generateViewId()
+            this.id = id
             inputType = if (isNumber) NUMBER else InputType.TYPE_CLASS_TEXT or InputType.TYPE_TEXT_FLAG_CAP_SENTENCES
             // A keyboard that took the whole screen would hide STOP.
             imeOptions = EditorInfo.IME_ACTION_DONE or EditorInfo.IME_FLAG_NO_EXTRACT_UI or

@@ -15,6 +15,8 @@ import android.os.Looper
 import android.provider.Settings
 import stillwater.app.R
 import stillwater.app.link.LinkChoice
+import stillwater.app.service.BoatBinder
+import stillwater.app.service.BoatCommands
 import stillwater.app.service.BoatService
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.Preflight
@@ -45,7 +47,7 @@ internal class MainActivity :
     private val screens = mutableMapOf<ScreenName, Screen>()
     private val trail = ArrayList<ScreenName>()
     private val main = Handler(Looper.getMainLooper())
-    override var boat: BoatService? = null
+    override var boat: BoatCommands? = null
         private set
     override var isRefusedForGood = false
         private set
@@ -54,7 +56,7 @@ internal class MainActivity :
     private val connection =
         object : ServiceConnection {
             override fun onServiceConnected(name: ComponentName?, binder: IBinder?) {
-                boat = (binder as? BoatService.Local)?.service
+                boat = (binder as? BoatBinder)?.boat
                 show()
             }
 
@@ -134,7 +136,7 @@ internal class MainActivity :
     }
 
     @Deprecated("The call that replaces it is androidx's.")
-    override fun onActivityResult(code: Int, result: Int, data: Intent?) {
+    public override fun onActivityResult(code: Int, result: Int, data: Intent?) {
         val purpose = DocumentPurpose.entries.getOrNull(code) ?: return
         documents.chosen(purpose, data?.data?.takeIf { result == RESULT_OK })
     }

@@ -8,9 +8,10 @@ import android.widget.Button
 import android.widget.LinearLayout
 import android.widget.ScrollView
 import stillwater.app.R
+import stillwater.app.mission.LogFolder
 import stillwater.app.mission.PastMission
+import stillwater.app.service.BoatService
 import stillwater.app.service.BoatSnapshot
-import java.io.File
 
 /** The missions that were: each can be shared, closed where it was cut off, and deleted after a question. */
 internal class PastScreen(
@@ -21,6 +22,7 @@ internal class PastScreen(
     private val said = context.liveLine().apply { id = R.id.shared_said }
     private val empty = context.line(context.getString(R.string.past_looking))
     private val list = context.column().apply { id = R.id.past_list }
+    private val files = context.applicationContext
     private var shown: List<PastMission>? = null
     private var shownOpen: String? = null
 
@@ -92,7 +94,7 @@ internal class PastScreen(
                 mission.isComplete -> R.string.past_complete
                 else -> R.string.past_incomplete
             }
-        val name = mission.name.substringBefore('.')
+        val name = mission.name.substringBefore('.').let { if (it.length > STAMP) it.drop(STAMP) else it }
         return context.getString(R.string.past_title, name, date, size, context.getString(state))
     }
 
@@ -100,7 +102,7 @@ internal class PastScreen(
         context.column().apply {
             below(context.line(context.getString(R.string.share)))
             below(
-                context.row(
+                context.rowIfWide(
                     sharing(mission, R.string.share_log, R.string.share_log_said, DocumentPurpose.LOG),
                     sharing(mission, R.string.share_csv, R.string.share_csv_said, DocumentPurpose.CSV),
                     sharing(mission, R.string.share_geojson, R.string.share_geojson_said, DocumentPurpose.GEOJSON),
@@ -124,7 +126,7 @@ internal class PastScreen(
 
     private fun sharing(mission: PastMission, words: Int, spoken: Int, purpose: DocumentPurpose): Button =
         context.largeButton(context.getString(words)) {
-            host.boat?.let { documents.share(it.logOf(mission.name), purpose, host) }
+            documents.share(mission.name, purpose, host)
         }.also { it.contentDescription = context.getString(spoken) }
 
     private fun ask(asks: Boolean) {
@@ -133,17 +135,15 @@ internal class PastScreen(
     }
 
     private fun close(mission: PastMission) {
-        val boat = host.boat ?: return
+        val complete = mission.name.removeSuffix(LogFolder.INCOMPLETE)
         onDisk(R.string.closed_log, R.string.not_closed_log) {
-            val log = boat.logOf(mission.name)
-            log.renameTo(File(log.path.removeSuffix(INCOMPLETE)))
+            BoatService.logOf(files, mission.name).renameTo(BoatService.logOf(files, complete))
         }
     }
 
     private fun delete(mission: PastMission) {
-        val boat = host.boat ?: return
         asksDeletion = false
-        onDisk(R.string.deleted, R.string.not_deleted) { boat.logOf(mission.name).delete() }
+        onDisk(R.string.deleted, R.string.not_deleted) { BoatService.logOf(files, mission.name).delete() }
     }
 
     private fun onDisk(done: Int, notDone: Int, work: () -> Boolean) =
@@ -153,6 +153,7 @@ internal class PastScreen(
         }
 
     private companion object {
-        const val INCOMPLETE = ".incomplete"
+        /** A log's name begins with when it was begun, 2026-07-14T09-31-12-. */
+        const val STAMP = 20
     }
 }

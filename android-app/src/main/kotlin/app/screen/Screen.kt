@@ -3,7 +3,7 @@ package stillwater.app.screen
 import android.content.Intent
 import android.view.View
 import stillwater.app.link.LinkChoice
-import stillwater.app.service.BoatService
+import stillwater.app.service.BoatCommands
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.setup.DraftDesk
 
@@ -22,7 +22,7 @@ internal interface Screen {
 /** What the window does for its screens. */
 internal interface ScreenHost {
     /** The service; null while Android has not yet handed it over. */
-    val boat: BoatService?
+    val boat: BoatCommands?
 
     /** The mission that is being filled in. */
     val desk: DraftDesk

@@ -50,15 +50,19 @@ internal class TraceView(context: Context) : View(context) {
         }
         val span = moments.last().seconds - moments.first().seconds
         val time = Axis(moments.last().seconds - maxOf(span, LEAST_SPAN), moments.last().seconds)
-        val values = Axis.round(moments.flatMap { listOf(it.reading, it.corrected) } + boundsInSight(moments), VALUE_TICKS)
+        val text = words.textSize
+        val bottom = height - text - 2 * GAP_DP * density
+        // Where there is little room the gradient is left to the words above.
+        val isLow = height < LEAST_LINES * text
+        val middle = if (isLow) bottom + text else text + (bottom - text) * UPPER_SHARE
+        val valueTicks = ((middle - 3 * text) / (ROOM_A_TICK * text)).toInt().coerceIn(1, VALUE_TICKS)
+        val values = Axis.round(moments.flatMap { listOf(it.reading, it.corrected) } + boundsInSight(moments), valueTicks)
         val slopes = Axis.round(moments.map { it.gradient } + listOf(0.0), SLOPE_TICKS)
         val ticks = (values.ticks() + slopes.ticks()).map { (_, words) -> words }
         val left = EDGE_DP * density + ticks.maxOf { words.measureText(it) }
-        val text = words.textSize
-        val bottom = height - text - 2 * GAP_DP * density
-        val middle = text + (bottom - text) * UPPER_SHARE
         val upper = Panel(left, 2 * text, width - GAP_DP * density, middle - text, time, values)
         drawValues(canvas, upper, moments)
+        if (isLow) return drawTimes(canvas, upper)
         val lower = Panel(left, middle + text, width - GAP_DP * density, bottom, time, slopes)
         drawFrame(canvas, lower, resources.getString(R.string.trace_gradient, perSecond()))
         drawLine(canvas, lower, moments, R.color.text) { it.gradient }
@@ -200,6 +204,10 @@ internal class TraceView(context: Context) : View(context) {
         const val LINE_DP = 2.5f
         const val HAIR_DP = 0.75f
         const val UPPER_SHARE = 0.66f
+
+        /** Lines of text that both curves together need. */
+        const val LEAST_LINES = 14
+        const val ROOM_A_TICK = 1.6f
 
         /** Shorter, a trace would move too fast to be read, s. */
         const val LEAST_SPAN = 30.0

@@ -57,7 +57,7 @@ internal abstract class WaterView(context: Context) : View(context) {
     protected abstract fun boat(): Position?
 
     /** A finger touched [position]; [reach] is how far off it may have been meant, m. */
-    protected abstract fun touched(position: Position, reach: Double)
+    internal abstract fun touched(position: Position, reach: Double)
 
     /** How the local frame lies on the view now; null before there is anything to see. */
     internal fun projection(): MapProjection? {

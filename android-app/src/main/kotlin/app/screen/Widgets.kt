@@ -93,6 +93,13 @@ internal fun Context.row(vararg views: View): LinearLayout =
         for (view in views) addView(view, LinearLayout.LayoutParams(0, ViewGroup.LayoutParams.MATCH_PARENT, 1f))
     }
 
+/** [views] beside each other, or below each other where their words would break: on a narrow phone with large type. */
+internal fun Context.rowIfWide(vararg views: View): LinearLayout {
+    val letters = resources.configuration.run { screenWidthDp / fontScale }
+    if (letters >= LEAST_FOR_ROWS) return row(*views)
+    return column().apply { views.forEach { below(it) } }
+}
+
 /** Adds [view] below what is there, as wide as it can be. */
 internal fun LinearLayout.below(view: View, weight: Float = 0f) {
     val height = if (weight > 0) 0 else ViewGroup.LayoutParams.WRAP_CONTENT
@@ -124,3 +131,6 @@ internal fun Context.duration(seconds: Double): String {
 
 private const val MINUTE = 60
 private const val HOUR = 3600
+
+/** Width for three buttons beside each other, dp at the usual type. */
+private const val LEAST_FOR_ROWS = 300

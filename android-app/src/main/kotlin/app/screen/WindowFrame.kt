@@ -2,6 +2,7 @@ package stillwater.app.screen
 
 import android.content.Context
 import android.content.res.Configuration
+import android.util.TypedValue
 import android.view.Gravity
 import android.view.View
 import android.view.ViewGroup
@@ -16,7 +17,11 @@ import stillwater.app.service.BoatSnapshot
  */
 internal class WindowFrame(private val context: Context, onMenu: () -> Unit, onStop: () -> Unit) {
     private val menu = context.largeButton("", onMenu).apply { id = R.id.menu }
-    private val state = context.liveLine().apply { id = R.id.state }
+    private val state =
+        context.liveLine().apply {
+            id = R.id.state
+            setTextSize(TypedValue.COMPLEX_UNIT_PX, resources.getDimension(R.dimen.state_text))
+        }
     private val screens = FrameLayout(context)
 
     val view: View =

@@ -7,6 +7,9 @@ package stillwater.app.service
  * choices.
  */
 interface BoatCommands {
+    /** What the screens show; any thread. */
+    val snapshot: BoatSnapshot
+
     /** Takes the mission in [json] in place of the one that is loaded, unless that one is under way. */
     fun load(json: String)
 

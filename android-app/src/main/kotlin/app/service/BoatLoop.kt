@@ -13,6 +13,7 @@ import stillwater.app.link.LinkState
 import stillwater.app.mission.MissionControl
 import stillwater.app.pose.PhonePose
 import stillwater.app.pose.Pose
+import stillwater.app.pose.PoseProblem
 import stillwater.mission.Wish
 import stillwater.model.Actuation
 import stillwater.wire.Command
@@ -55,6 +56,12 @@ internal class BoatLoop(
     /** Why the service may not run; any thread. */
     @Volatile var refusal: String? = null
 
+    /** Whether a screen is in sight: without a link too, an area can be drawn by walking along it. */
+    var isLookedAt = false
+
+    /** Whether [phone] listens though no link is held. */
+    private var listens = false
+
     /** What the screens show; any thread. */
     @Volatile var snapshot = BoatSnapshot()
         private set
@@ -88,6 +95,8 @@ internal class BoatLoop(
     /** Holds the link of [choice] in place of the one before. */
     fun hold(choice: LinkChoice, links: LinkMaker) {
         pose.stop()
+        phone.stop()
+        listens = false
         if (missions.isMoving) held.write(REST)
         when (choice) {
             is LinkChoice.Demo -> holdDemo()
@@ -179,12 +188,26 @@ internal class BoatLoop(
             watchdog.feed(held.takeIf { missions.isMoving })
             if (held.ears.messages != messages) heardAt = now
             messages = held.ears.messages
+        } else {
+            listen()
         }
         if (ticks++ % LOOK_TICKS == 0L || held.link == null) {
             missions.closeAgain()
             look(now)
         }
         if (ticks % FLUSH_TICKS == 0L) missions.flush()
+    }
+
+    /** Where the phone is, while someone looks; a permission that is given meanwhile counts from then on. */
+    private fun listen() {
+        if (isLookedAt && !listens) {
+            phone.start(handler)
+            listens = phone.problem != PoseProblem.NOT_PERMITTED
+            if (!listens) phone.stop()
+        } else if (!isLookedAt && listens) {
+            phone.stop()
+            listens = false
+        }
     }
 
     /** Whatever a board was told before this connection, by a process that died perhaps: it is over. */

@@ -6,7 +6,6 @@ import android.app.Service
 import android.content.Context
 import android.content.Intent
 import android.content.pm.ServiceInfo
-import android.os.Binder
 import android.os.Build
 import android.os.Handler
 import android.os.HandlerThread
@@ -44,8 +43,7 @@ open class BoatService :
 
     @Volatile private var wakeLock: PowerManager.WakeLock? = null
 
-    /** What the screens show; any thread. */
-    val snapshot: BoatSnapshot get() = loop.snapshot
+    override val snapshot: BoatSnapshot get() = loop.snapshot
 
     /** The thread of link, pose and mission. */
     internal val boatLooper: Looper get() = thread.looper
@@ -57,11 +55,21 @@ open class BoatService :
     internal val watchdogLooper: Looper get() = loop.watchdogLooper
 
     /** Gives the screens of this process the service itself. */
-    inner class Local : Binder() {
+    inner class Local : BoatBinder(this@BoatService) {
         val service: BoatService get() = this@BoatService
     }
 
-    override fun onBind(intent: Intent?): IBinder = Local()
+    override fun onBind(intent: Intent?): IBinder {
+        onBoat { isLookedAt = true }
+        return Local()
+    }
+
+    override fun onRebind(intent: Intent?) = onBoat { isLookedAt = true }
+
+    override fun onUnbind(intent: Intent?): Boolean {
+        onBoat { isLookedAt = false }
+        return true
+    }
 
     override fun onCreate() {
         super.onCreate()
@@ -125,9 +133,6 @@ open class BoatService :
                 null
             }
         }
-
-    /** The file of the past mission [name]; may not be there any more. */
-    fun logOf(name: String): File = logOf(this, name)
 
     private fun logFolder() = File(filesDir, LOGS)
 

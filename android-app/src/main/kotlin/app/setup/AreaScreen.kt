@@ -16,9 +16,9 @@ import stillwater.app.screen.below
 import stillwater.app.screen.column
 import stillwater.app.screen.heading
 import stillwater.app.screen.largeButton
-import stillwater.app.screen.line
 import stillwater.app.screen.liveLine
 import stillwater.app.screen.row
+import stillwater.app.screen.rowIfWide
 import stillwater.app.screen.say
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.DraftField
@@ -72,8 +72,8 @@ internal class AreaScreen(
                 setPadding(gap, 0, gap, gap)
                 below(summary)
                 below(problem)
-                below(context.row(drop, remove))
-                below(context.row(shore, keepOut, home))
+                below(context.rowIfWide(drop, remove))
+                below(context.rowIfWide(shore, keepOut, home))
                 below(
                     context.row(
                         zoomButton(R.string.zoom_out, R.string.zoom_out_said) { water.zoom(1 / ZOOM) },

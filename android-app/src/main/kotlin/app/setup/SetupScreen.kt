@@ -18,7 +18,6 @@ import stillwater.app.screen.below
 import stillwater.app.screen.column
 import stillwater.app.screen.heading
 import stillwater.app.screen.largeButton
-import stillwater.app.screen.line
 import stillwater.app.screen.liveLine
 import stillwater.app.screen.row
 import stillwater.app.screen.say
@@ -43,9 +42,9 @@ internal class SetupScreen(
 ) : Screen {
     private val desk get() = host.desk
     private val said = context.liveLine().apply { id = R.id.document_said }
-    private val name = TextField(context, context.getString(R.string.field_name), isNumber = false) { text ->
+    private val name = TextField(context, context.getString(R.string.field_name), isNumber = false, R.id.mission_name) { text ->
         desk.change { it.with(DraftField.NAME, text) }
-    }.apply { edit.id = R.id.mission_name }
+    }
     private val numbers = DraftField.NUMBERS.associateWith { field ->
         TextField(context, "", isNumber = true) { text -> desk.change { it.with(field, text) } }
     }

@@ -110,9 +110,9 @@ internal object Scenes {
     /** Missions that were. */
     val past =
         listOf(
-            PastMission("North pond 2026-07-14 0931.txt", 4_312_004, isComplete = true, epochMillis = 1_784_021_460_000),
-            PastMission("Mill bay 2026-07-13 1502.txt.incomplete", 912_331, false, 1_783_954_920_000),
-            PastMission("Mill bay 2026-07-12 0815.txt", 2_120_560, isComplete = true, epochMillis = 1_783_844_100_000),
+            PastMission("2026-07-14T07-02-31-North-pond.log", 4_312_004, isComplete = true, epochMillis = 1_784_021_460_000),
+            PastMission("2026-07-13T15-02-05-Mill-bay.log.incomplete", 912_331, false, 1_783_954_920_000),
+            PastMission("2026-07-12T08-15-40-Mill-bay.log", 2_120_560, isComplete = true, epochMillis = 1_783_844_100_000),
         )
 
     fun report(state: MissionState, wish: Wish = Wish.GO_ON, isRecovered: Boolean = false, isOver: Boolean = false) =
@@ -129,7 +129,7 @@ internal object Scenes {
             used = if (state == MissionState.Idle && !isRecovered) 0.0 else 662.0,
             trace = trace.takeLast(TRACE),
             counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 7, 3),
-            log = LogReport("North pond 2026-07-14 0931.txt.incomplete", 9_113, 9_110),
+            log = LogReport("2026-07-14T09-31-12-North-pond.log.incomplete", 9_113, 9_110),
             readAt = DoubleArray(grid.size) { if (map.readings(it) > 0) it * SECONDS_A_CELL.toDouble() else Double.NaN },
             now = ROWS_DONE * grid.columns * SECONDS_A_CELL.toDouble(),
         )

@@ -73,17 +73,31 @@ class ScreenshotTest {
     @Test
     fun menu() = compare("menu", screen(ScreenName.MENU, Scenes.surveying))
 
-    /** The smallest phone that is still sold, with the type that people who forget their glasses choose. */
+    // The smallest phone that is still sold, with the type of people who forget their glasses.
+
     @Test
-    @Config(sdk = [35], qualifiers = "w320dp-h533dp-port-notnight-xhdpi", fontScale = 1.3f)
-    fun smallPhoneWithLargeType() {
-        compare("small-map", mapScreen())
-        compare("small-start", screen(ScreenName.START, Scenes.recovered))
-        compare("small-mission", screen(ScreenName.MISSION, Scenes.standingBy))
-        compare("small-area", areaScreen())
-        compare("small-trace", screen(ScreenName.TRACE, Scenes.surveying))
-        compare("small-past", pastScreen())
-    }
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallMap() = compare("small-map", mapScreen())
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallStart() = compare("small-start", screen(ScreenName.START, Scenes.recovered))
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallMission() = compare("small-mission", screen(ScreenName.MISSION, Scenes.standingBy))
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallArea() = compare("small-area", areaScreen())
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallTrace() = compare("small-trace", screen(ScreenName.TRACE, Scenes.surveying))
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallPast() = compare("small-past", pastScreen())
 
     private fun screen(name: ScreenName, snapshot: BoatSnapshot): View {
         val window = Window()
@@ -163,6 +177,8 @@ class ScreenshotTest {
     private fun exactly(size: Int) = View.MeasureSpec.makeMeasureSpec(size, View.MeasureSpec.EXACTLY)
 
     private companion object {
+        const val SMALL = "w320dp-h533dp-port-notnight-xhdpi"
+        const val LARGE = 1.3f
         const val TAPPED = 70
         const val PERCENT = 100
 

@@ -6,19 +6,23 @@ import org.robolectric.Robolectric
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.Shadows.shadowOf
 import org.robolectric.android.controller.ActivityController
+import stillwater.app.service.BoatBinder
+import stillwater.app.service.BoatCommands
 import stillwater.app.service.BoatService
+import stillwater.app.service.BoatSnapshot
+import java.util.concurrent.Executor
 
 /** The app's window with a boat that notes what it is told; everything in the background is done at once. */
 internal class Window {
-    val boat: NotingBoat = Robolectric.buildService(NotingBoat::class.java).get()
+    val boat = NotingBoat()
     val controller: ActivityController<MainActivity>
 
     init {
-        Background.executor = java.util.concurrent.Executor { it.run() }
+        Background.executor = Executor { it.run() }
         val context = RuntimeEnvironment.getApplication()
         shadowOf(context).setComponentNameAndServiceForBindService(
             ComponentName(context, BoatService::class.java),
-            boat.onBind(android.content.Intent()),
+            BoatBinder(boat),
         )
         controller = Robolectric.buildActivity(MainActivity::class.java).setup()
         settle()
@@ -31,38 +35,28 @@ internal class Window {
 }
 
 /** Does nothing but note what it was told. */
-internal class NotingBoat : BoatService() {
+internal class NotingBoat : BoatCommands {
     val told = mutableListOf<String>()
 
-    override fun load(json: String) {
-        told += "load $json"
-    }
+    override var snapshot = BoatSnapshot()
 
-    override fun arm() {
-        told += "arm"
-    }
+    override fun load(json: String) = note("load $json")
 
-    override fun start() {
-        told += "start"
-    }
+    override fun arm() = note("arm")
 
-    override fun hold() {
-        told += "hold"
-    }
+    override fun start() = note("start")
 
-    override fun goHome() {
-        told += "home"
-    }
+    override fun hold() = note("hold")
 
-    override fun stop() {
-        told += "stop"
-    }
+    override fun goHome() = note("home")
 
-    override fun newMission() {
-        told += "new"
-    }
+    override fun stop() = note("stop")
 
-    override fun lookForPast() {
-        told += "look"
+    override fun newMission() = note("new")
+
+    override fun lookForPast() = note("look")
+
+    private fun note(words: String) {
+        told += words
     }
 }

@@ -1,0 +1,180 @@
+package stillwater.app.screen
+
+import android.app.Application
+import android.content.pm.PackageManager
+import android.content.res.Configuration
+import android.provider.Settings
+import android.view.View
+import android.widget.Button
+import android.widget.TextView
+import org.junit.Before
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import org.robolectric.annotation.Config
+import stillwater.app.R
+import stillwater.app.service.BoatService
+import stillwater.app.service.BoatSnapshot
+import stillwater.app.service.Preflight
+import stillwater.app.service.PreflightCheck
+import stillwater.app.service.PreflightItem
+import stillwater.app.service.PreflightReason
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+@RunWith(RobolectricTestRunner::class)
+@Config(sdk = [26, 29, 34, 35])
+class MainActivityTest {
+    private val context: Application = RuntimeEnvironment.getApplication()
+
+    @Before
+    fun refuseEverything() {
+        shadowOf(context).denyPermissions(*Preflight.neededPermissions().toTypedArray())
+    }
+
+    @Test
+    fun stopIsOnEveryScreenAndStops() {
+        val activity = Window().activity
+        for (name in ScreenName.entries) {
+            activity.open(name)
+            val stop = activity.view<View>(R.id.stop)
+            assertTrue(stop.isShown, "$name")
+            assertTrue(stop.isEnabled)
+            stop.performClick()
+            // Looking at the service is recorded like starting it, and comes before.
+            val sent = generateSequence { shadowOf(context).nextStartedService }.last()
+            assertEquals(BoatService.stopIntent(context).action, sent.action)
+            assertEquals(BoatService::class.java.name, sent.component?.className)
+        }
+    }
+
+    @Test
+    @Config(sdk = [26, 35])
+    fun theWayThroughTheScreensOutlivesATurnOfThePhoneAndBackLeadsAlongIt() {
+        val window = Window()
+        window.activity.go(ScreenName.MISSION)
+        window.activity.view<View>(R.id.draw_area).performClick()
+        window.activity.go(ScreenName.LINK)
+        window.controller.recreate()
+        val seen = ArrayList<String>()
+        repeat(4) {
+            seen += window.activity.view<TextView>(R.id.menu).text.toString().drop(2)
+            @Suppress("DEPRECATION")
+            window.activity.onBackPressed()
+        }
+        assertEquals(listOf("Link", "Area", "Mission", "Map"), seen)
+        assertTrue(window.activity.isFinishing, "back from the first screen leaves the app")
+    }
+
+    @Test
+    @Config(sdk = [35])
+    fun theMenuClosesAsItOpens() {
+        val activity = Window().activity
+        activity.go(ScreenName.TRACE)
+        activity.go(ScreenName.MENU)
+        activity.view<View>(R.id.menu).performClick()
+        assertTrue(activity.view<View>(R.id.trace).isShown)
+    }
+
+    @Test
+    fun aRefusalForGoodLeadsToTheSettings() {
+        val activity = Window().activity
+        val red = PreflightItem(PreflightCheck.PERMISSIONS, ready = false, PreflightReason.NOT_PERMITTED)
+        val snapshot = Scenes.loaded.copy(preflight = listOf(red))
+        activity.go(ScreenName.START)
+        activity.show(snapshot)
+        activity.button(context.getString(R.string.allow)).performClick()
+        val all = Preflight.neededPermissions()
+        assertEquals(all, shadowOf(activity).lastRequestedPermission.requestedPermissions.toList(), "all at once")
+        val asked = all.toTypedArray()
+        // Refused once: Android would still say why it asks, so the app asks again.
+        asked.forEach { shadowOf(context.packageManager).setShouldShowRequestPermissionRationale(it, true) }
+        activity.onRequestPermissionsResult(1, asked, IntArray(asked.size) { PackageManager.PERMISSION_DENIED })
+        activity.show(snapshot)
+        activity.button(context.getString(R.string.allow))
+        // Refused for good.
+        asked.forEach { shadowOf(context.packageManager).setShouldShowRequestPermissionRationale(it, false) }
+        activity.onRequestPermissionsResult(1, asked, IntArray(asked.size) { PackageManager.PERMISSION_DENIED })
+        activity.show(snapshot)
+        activity.button(context.getString(R.string.allow_in_settings)).performClick()
+        val opened = shadowOf(activity).nextStartedActivity
+        assertEquals(Settings.ACTION_APPLICATION_DETAILS_SETTINGS, opened.action)
+        assertEquals("package:stillwater.app", opened.data.toString())
+    }
+
+    @Test
+    @Config(sdk = [26, 35])
+    fun whatCanBePressedIsLargeAndHasAName() {
+        val activity = Window().activity
+        for (name in ScreenName.entries) {
+            activity.open(name)
+            for (snapshot in listOf(BoatSnapshot(), Scenes.recovered, Scenes.surveying, PAST)) {
+                activity.show(snapshot)
+                openAllThatFolds(activity)
+                checkPressable(activity, name)
+            }
+        }
+    }
+
+    /** Lists of choices and missions, one after the other; what is in them is looked at, too. */
+    private fun openAllThatFolds(activity: MainActivity) {
+        val folded = activity.shown().filterIsInstance<Button>().filter { "▾" in it.text || "CUT OFF" in it.text }
+        folded.forEach { it.performClick() }
+    }
+
+    private fun checkPressable(activity: MainActivity, name: ScreenName) {
+        val least = activity.resources.getDimensionPixelSize(R.dimen.button_height)
+        val pressed = activity.shown().filter { it.isClickable || it.hasOnClickListeners() || it is WaterView }
+        assertTrue(pressed.size >= 2, "$name")
+        for (view in pressed) {
+            val isLabelled = labelOf(activity, view) != null
+            val said = view.contentDescription ?: (view as? TextView)?.text
+            assertTrue(isLabelled || !said.isNullOrBlank(), "$name: $view says nothing")
+            assertTrue(view is WaterView || view.minimumHeight >= least, "$name: $said is too small")
+        }
+    }
+
+    private fun labelOf(activity: MainActivity, view: View) =
+        activity.shown().find { it.labelFor == view.id && view.id != View.NO_ID }
+
+    @Test
+    @Config(sdk = [26, 35])
+    fun whatChangesByItselfIsSaid() {
+        val activity = Window().activity
+        activity.show(Scenes.surveying)
+        val state = activity.view<TextView>(R.id.state)
+        assertEquals("Surveying\nBoat 3: connected", state.text.toString())
+        assertEquals(View.ACCESSIBILITY_LIVE_REGION_POLITE, state.accessibilityLiveRegion)
+        activity.show(Scenes.recovered)
+        assertEquals("Ready, disarmed\nBoat 3: LINK LOST, trying again", state.text.toString())
+        assertEquals(activity.getColor(R.color.bad), state.currentTextColor)
+        activity.go(ScreenName.START)
+        val readiness = activity.view<TextView>(R.id.readiness)
+        assertEquals(View.ACCESSIBILITY_LIVE_REGION_POLITE, readiness.accessibilityLiveRegion)
+    }
+
+    @Test
+    @Config(sdk = [29, 35], qualifiers = "+night")
+    fun atNightTheGroundIsBlack() {
+        val activity = Window().activity
+        val mode = activity.resources.configuration.uiMode and Configuration.UI_MODE_NIGHT_MASK
+        assertEquals(Configuration.UI_MODE_NIGHT_YES, mode)
+        assertEquals(0xFF000000.toInt(), activity.getColor(R.color.ground))
+        assertEquals(0xFFFFFFFF.toInt(), activity.view<TextView>(R.id.state).currentTextColor)
+    }
+
+    @Test
+    @Config(sdk = [35], qualifiers = "+de-rDE")
+    fun anotherLanguageOfThePhoneLeavesTheWordsEnglish() {
+        val activity = Window().activity
+        assertEquals("STOP", activity.view<Button>(R.id.stop).text)
+        assertFalse(activity.wordsShown().isEmpty())
+    }
+
+    private companion object {
+        val PAST = Scenes.standingBy.copy(past = Scenes.past)
+    }
+}
