@@ -11,15 +11,18 @@ import java.time.format.DateTimeFormatter
 /**
  * The folder of the missions' logs. Touches the disk: for the disk's thread.
  *
- * @param folder made where it is not there.
+ * @param place where it is, asked for at the first use, as that touches the disk, too; made where it is not there.
  * @param opener opens files.
  * @param room that is left on the disk, bytes.
  */
 internal class LogFolder(
-    private val folder: File,
+    place: () -> File,
     private val opener: LogOpener = LogOpener(::FileOutput),
-    private val room: () -> Long = { folder.usableSpace },
+    room: (() -> Long)? = null,
 ) {
+    private val folder by lazy(place)
+    private val room = room ?: { folder.usableSpace }
+
     /** A log for the mission called [name] that begins at [epochMillis]; nothing is on the disk before its first flush. */
     fun begin(name: String, epochMillis: Long): LogFile {
         val stamp = STAMP.format(Instant.ofEpochMilli(epochMillis))

@@ -16,6 +16,7 @@ import stillwater.app.pose.Pose
 import stillwater.app.pose.PoseProblem
 import stillwater.mission.Wish
 import stillwater.model.Actuation
+import stillwater.wire.BoardState
 import stillwater.wire.Command
 import stillwater.wire.PlatypusEncoder
 
@@ -217,12 +218,13 @@ internal class BoatLoop(
         disarmed = connects
     }
 
-    /** No mission listens. A question a second keeps a link alive that is cut when idle. */
+    /** No mission listens. A question a second keeps a link alive that is cut when idle; no board is to be armed. */
     private fun overhear(now: Double) {
         held.listen()
         if (held.link?.health?.state != LinkState.CONNECTED || now - askedAt < QUESTION_SECONDS) return
         askedAt = now
         held.write(PlatypusEncoder.encode(Command.AskState))
+        if (held.ears.report.state == BoardState.ACTIVE) standStill()
     }
 
     private fun standStill() {

@@ -80,7 +80,7 @@ open class BoatService :
         notification.makeChannel()
         val missions =
             MissionControl(
-                LogFolder(logFolder(), logs),
+                LogFolder({ logOf(this, "") }, logs),
                 HandlerDisk(Handler(diskThread.looper), handler),
                 KeptMission(this),
                 System::currentTimeMillis,
@@ -133,11 +133,6 @@ open class BoatService :
                 null
             }
         }
-
-    /** The file of the past mission [name]; may not be there any more. */
-    fun logOf(name: String): File = logOf(this, name)
-
-    private fun logFolder() = File(filesDir, LOGS)
 
     private fun onBoat(work: BoatLoop.() -> Unit) {
         handler.post { loop.work() }

@@ -92,7 +92,7 @@ class LogFileTest {
 
     @Test
     fun theFolderKnowsTheNewestThatIsIncompleteAndListsAll() {
-        val folder = LogFolder(temporary.root, room = room)
+        val folder = LogFolder({ temporary.root }, room = room)
         val log = folder.begin("Lac d'Argent / 2", epochMillis = 1_700_000_000_000)
         log.line("no mission")
         log.flush()

@@ -181,6 +181,13 @@ class MissionServiceTest {
     }
 
     @Test
+    fun aBoardThatIsArmedWithoutAMissionIsDisarmed() {
+        desk.boat.phone.write("{\"e\":{\"cmd\":\"arm\"}}\n".toByteArray())
+        assertTrue(desk.until(10.0) { it.board.state?.word == "active" }, "somebody else armed it")
+        assertTrue(desk.until(5.0) { it.board.state?.word == "standby" })
+    }
+
+    @Test
     fun aPhoneThatSleptIsNoticed() {
         survey()
         assertEquals(Gaps(), desk.snapshot.gaps)
