@@ -39,6 +39,18 @@ public enum class Danger {
     /** The battery was low for too long. */
     BATTERY_LOW,
 
+    /** What is measured can no longer be written down. */
+    LOG_LOST,
+
+    /** A person wants the boat to wait, motors at rest. */
+    OPERATOR_WAIT,
+
+    /** A person wants the boat to stay where it is, under power. */
+    OPERATOR_HOLD,
+
+    /** A person wants the boat to come home. */
+    OPERATOR_RETURN,
+
     /** The mission is over. */
     MISSION_END,
 }
@@ -72,6 +84,9 @@ public data class SafetySettings(
     val answers: Map<Danger, Failsafe> = mapOf(
         Danger.BATTERY_LOW to Failsafe.RETURN_HOME,
         Danger.FENCE to Failsafe.RETURN_HOME,
+        Danger.LOG_LOST to Failsafe.RETURN_HOME,
+        Danger.OPERATOR_HOLD to Failsafe.HOLD,
+        Danger.OPERATOR_RETURN to Failsafe.RETURN_HOME,
         Danger.MISSION_END to Failsafe.RETURN_HOME,
     ),
 ) {
@@ -135,6 +150,12 @@ public class Situation {
 
     /** Whether a person wants the boat to stop. */
     public var operatorStop: Boolean = false
+
+    /** What else a person wants: one of the operator's dangers but the stop; null where nothing. */
+    public var operatorWish: Danger? = null
+
+    /** Whether the log can't be written. */
+    public var logLost: Boolean = false
 
     /** Whether the mission has nothing left to do. */
     public var missionEnded: Boolean = false
@@ -225,6 +246,8 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         situation.jumps > settings.mostJumps -> Danger.FIX_JUMPING
         fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
         batteryLow -> Danger.BATTERY_LOW
+        situation.logLost -> Danger.LOG_LOST
+        situation.operatorWish != null -> situation.operatorWish
         situation.missionEnded -> Danger.MISSION_END
         else -> null
     }

@@ -1,5 +1,6 @@
 package stillwater.mission
 
+import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.Fence
 import stillwater.control.Mixing
@@ -34,6 +35,7 @@ import stillwater.wire.Message
  * @param mixing how a drive becomes thrust.
  * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null to
  *   begin anew.
+ * @param taken takes the readings that go into the map, after they did. Retained.
  * @throws IllegalArgumentException if [recovered] is of another mission.
  */
 public class Mission(
@@ -42,6 +44,7 @@ public class Mission(
     private val log: MissionLog,
     mixing: Mixing = Mixing.DIFFERENTIAL,
     private val recovered: RecoveredMission? = null,
+    private val taken: ReadingSink = ReadingSink { },
 ) {
     init {
         require(recovered == null || recovered.spec == spec) {
@@ -55,8 +58,10 @@ public class Mission(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
         object : SurveyListener {
-            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) =
+            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) {
                 log.reading(now, message, verdict, taken, held)
+                taken.forEach(this@Mission.taken::take)
+            }
 
             override fun passed(time: BoatTime, place: Position) = log.pass(now, time, place)
         },
@@ -69,10 +74,14 @@ public class Mission(
     private var now = BoatTime(Double.NaN)
     private var armedAt = Double.NEGATIVE_INFINITY
     private var stopWanted = false
+    private var logLost = false
 
     /** What the mission is about. */
     public var state: MissionState = MissionState.Idle
         private set
+
+    /** What a person wants of it once it is armed. */
+    public var wish: Wish = Wish.GO_ON
 
     /** What was last let through to the motors. */
     public var drive: Drive = Drive.NONE
@@ -117,6 +126,11 @@ public class Mission(
         stopWanted = true
     }
 
+    /** The log can't be written any more: the mission ends as its policy for the end says. */
+    public fun logLost() {
+        logLost = true
+    }
+
     /** The phone's fix of [place] at [time]. */
     public fun fix(time: BoatTime, place: LatLon): Unit = pose.fix(time, place)
 
@@ -158,6 +172,8 @@ public class Mission(
         situation.linkAge = port.silence(now)
         situation.volts = port.volts
         situation.operatorStop = stopWanted
+        situation.operatorWish = wish.danger
+        situation.logLost = logLost
         situation.missionEnded = navigator.isOver
         return gate.assess(situation)
     }
@@ -197,8 +213,12 @@ public class Mission(
         port.order(Command.Arm)
     }
 
-    private fun isUnderWay(state: MissionState) =
-        state == MissionState.Surveying || state is MissionState.Holding || state is MissionState.Returning
+    /** A boat that waits to be sent off has not begun to use its budget. */
+    private fun isUnderWay(state: MissionState) = when (state) {
+        MissionState.Surveying, is MissionState.Returning -> true
+        is MissionState.Holding -> state.danger != Danger.OPERATOR_WAIT
+        else -> false
+    }
 
     private companion object {
         const val LONGEST_ARMING = 20.0

@@ -21,11 +21,15 @@ internal object MissionPhases {
         if (state == MissionState.Idle || state is MissionState.Stopped) return state
         if (danger == Danger.OPERATOR_STOP) return MissionState.Stopped(StopReason.OPERATOR)
         return when (state) {
-            is MissionState.Preflight -> if (danger == null) MissionState.Arming else MissionState.Preflight(danger)
+            is MissionState.Preflight -> preflight(danger)
             MissionState.Arming -> if (input.board == BoardState.ACTIVE) underWay(input) else state
             else -> if (input.board == BoardState.STANDBY) disarmed(input) else underWay(input)
         }
     }
+
+    /** What a person wants of an armed boat does not keep it from arming. */
+    private fun preflight(danger: Danger?) =
+        if (danger == null || danger in WISHES) MissionState.Arming else MissionState.Preflight(danger)
 
     private fun disarmed(input: PhaseInput) =
         if (input.rearms) MissionState.Arming else MissionState.Stopped(StopReason.DISARMED)
@@ -50,7 +54,10 @@ internal object MissionPhases {
         Danger.MISSION_END -> StopReason.COMPLETED
         Danger.BATTERY_LOW -> StopReason.BATTERY
         Danger.FENCE -> StopReason.FENCE
-        Danger.OPERATOR_STOP -> StopReason.OPERATOR
-        Danger.LINK_LOST, Danger.FIX_STALE, Danger.FIX_JUMPING -> null
+        Danger.LOG_LOST -> StopReason.LOG_LOST
+        Danger.OPERATOR_STOP, Danger.OPERATOR_RETURN -> StopReason.OPERATOR
+        Danger.LINK_LOST, Danger.FIX_STALE, Danger.FIX_JUMPING, Danger.OPERATOR_WAIT, Danger.OPERATOR_HOLD -> null
     }
+
+    private val WISHES = Wish.entries.mapNotNull { it.danger }
 }

@@ -2,7 +2,6 @@ package stillwater.mission
 
 import kotlinx.serialization.SerialName
 import kotlinx.serialization.Serializable
-import kotlinx.serialization.SerializationException
 import kotlinx.serialization.json.Json
 import stillwater.control.Danger
 import stillwater.control.Failsafe
@@ -21,7 +20,8 @@ public data class PlaceSpec(@SerialName("x_m") val x: Double, @SerialName("y_m")
         require(x.isFinite() && y.isFinite()) { "x_m, y_m ($x, $y) must be finite" }
     }
 
-    internal val position: Position get() = Position(x, y)
+    /** The same in the local frame. */
+    public val position: Position get() = Position(x, y)
 }
 
 /** Where the mission's frame has its zero, degrees, WGS-84. */
@@ -94,28 +94,32 @@ public data class GridSpec(
     public fun grid(): Grid = Grid(southWest.position, columns, rows, cell)
 }
 
-/** What a probe on a board's port measures. */
+/**
+ * What a probe on a board's port measures.
+ *
+ * @property unit as it is written behind a value; empty where it has none.
+ */
 @Serializable
-public enum class Quantity {
+public enum class Quantity(public val unit: String) {
     /** Dissolved oxygen, mg/L. */
     @SerialName("dissolved-oxygen")
-    DISSOLVED_OXYGEN,
+    DISSOLVED_OXYGEN("mg/L"),
 
     /** Acidity, dimensionless. */
     @SerialName("acidity")
-    ACIDITY,
+    ACIDITY(""),
 
     /** Electrical conductivity, µS/cm. */
     @SerialName("conductivity")
-    CONDUCTIVITY,
+    CONDUCTIVITY("µS/cm"),
 
     /** Water temperature, °C. */
     @SerialName("temperature")
-    TEMPERATURE,
+    TEMPERATURE("°C"),
 
     /** Depth of the water below the transducer, m. */
     @SerialName("depth")
-    DEPTH,
+    DEPTH("m"),
 }
 
 /**
@@ -178,6 +182,15 @@ public data class ProbeSpec(
 
         /** The pose history reaches a minute back. */
         private const val LONGEST_LATENCY = 30.0
+
+        /**
+         * Reads the JSON form.
+         *
+         * @throws IllegalArgumentException as [MissionSpec.fromJson] does.
+         */
+        public fun fromJson(json: String): ProbeSpec = oneLine("not a probe") {
+            Json.decodeFromString(serializer(), json)
+        }
     }
 }
 
@@ -238,7 +251,7 @@ public enum class FailsafeSpec(internal val failsafe: Failsafe) {
  * @property battery when the battery is low.
  * @property lowestVolts below which it is, V; 0 where none is measured.
  * @property fence when the boat is beyond the shore line.
- * @property end when the mission has nothing left to do.
+ * @property end when the mission has nothing left to do, or can no longer be written down.
  * @property rearms whether a board that disarmed itself, as after a long cut, is armed again without a person.
  */
 @Serializable
@@ -259,6 +272,9 @@ public data class FailsafePolicy(
             Danger.BATTERY_LOW to battery.failsafe,
             Danger.FENCE to fence.failsafe,
             Danger.MISSION_END to end.failsafe,
+            Danger.LOG_LOST to end.failsafe,
+            Danger.OPERATOR_HOLD to Failsafe.HOLD,
+            Danger.OPERATOR_RETURN to Failsafe.RETURN_HOME,
         ),
     )
 }
@@ -332,12 +348,16 @@ public data class MissionSpec(
          * @throws IllegalArgumentException if [json] is not of that form or a number is out of its range; the message is one
          *   line that says where and what was expected.
          */
-        public fun fromJson(json: String): MissionSpec = try {
+        public fun fromJson(json: String): MissionSpec = oneLine("not a mission") {
             FORMAT.decodeFromString(serializer(), json)
-        } catch (e: SerializationException) {
-            throw IllegalArgumentException("not a mission: ${e.message.orEmpty().lineSequence().first()}", e)
-        } catch (e: IllegalArgumentException) {
-            throw IllegalArgumentException("not a mission: ${e.message.orEmpty().lineSequence().first()}", e)
         }
     }
+}
+
+/** What [read] gives; what it throws, in one line that begins with [what]. */
+private fun <T> oneLine(what: String, read: () -> T): T = try {
+    read()
+} catch (e: IllegalArgumentException) {
+    // A SerializationException is one too.
+    throw IllegalArgumentException("$what: ${e.message.orEmpty().lineSequence().first()}", e)
 }

@@ -53,6 +53,9 @@ public enum class StopReason {
     /** The battery was low. */
     BATTERY,
 
+    /** The log could not be written. */
+    LOG_LOST,
+
     /** The boat was beyond the fence, and the policy is to stop. */
     FENCE,
 

@@ -58,6 +58,10 @@ class SafetyGateTest {
         val seeing = mapOf<Danger, Situation.() -> Unit>(
             Danger.OPERATOR_STOP to { operatorStop = true },
             Danger.FENCE to { x = -1.0 },
+            Danger.LOG_LOST to { logLost = true },
+            Danger.OPERATOR_WAIT to { operatorWish = Danger.OPERATOR_WAIT },
+            Danger.OPERATOR_HOLD to { operatorWish = Danger.OPERATOR_HOLD },
+            Danger.OPERATOR_RETURN to { operatorWish = Danger.OPERATOR_RETURN },
             Danger.MISSION_END to { missionEnded = true },
         )
         for ((danger, change) in seeing) {

@@ -7,9 +7,11 @@ import stillwater.model.BoatTime
 import stillwater.model.Position
 import stillwater.virtual.LinkSpec
 import stillwater.wire.BoardState
+import kotlin.math.hypot
 import kotlin.math.roundToInt
 import kotlin.random.Random
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertIs
 import kotlin.test.assertTrue
 
@@ -99,6 +101,44 @@ class ClosedLoopTest {
             assertTrue(desk.until(5.0) { desk.mission.board.state == BoardState.STANDBY }, "disarmed")
             desk.mission.start()
             assertIs<MissionState.Stopped>(desk.step())
+        }
+    }
+
+    @Test
+    fun aPersonHasItWaitGoHoldAndComeHome() {
+        val desk = Desk(Desk.small(), 335)
+        desk.mission.wish = Wish.WAIT
+        desk.mission.start()
+        assertTrue(desk.until(20.0) { it == MissionState.Holding(Danger.OPERATOR_WAIT) })
+        assertFalse(desk.until(10.0) { !desk.boat.board.actuation.isAtRest }, "armed, its motors rest")
+        assertEquals(0.0, desk.mission.used, "waiting to be sent off costs none of the budget")
+        desk.mission.wish = Wish.GO_ON
+        assertEquals(MissionState.Surveying, desk.step())
+        desk.until(60.0) { false }
+        desk.mission.wish = Wish.HOLD
+        assertEquals(MissionState.Holding(Danger.OPERATOR_HOLD), desk.step())
+        val (x, y) = desk.boat.dynamics.x to desk.boat.dynamics.y
+        desk.until(60.0) { false }
+        // The fix's 1.5 m, twice the arrival radius and the way it had on.
+        assertTrue(hypot(desk.boat.dynamics.x - x, desk.boat.dynamics.y - y) < 8.0, "it stays")
+        desk.mission.wish = Wish.RETURN
+        assertEquals(MissionState.Returning(Danger.OPERATOR_RETURN), desk.step())
+        assertTrue(desk.until(200.0) { it == MissionState.Stopped(StopReason.OPERATOR) })
+        assertTrue(hypot(desk.boat.dynamics.x - 5, desk.boat.dynamics.y - 5) < 8.0, "home")
+    }
+
+    @Test
+    fun aLogThatIsLostEndsItAsThePolicySays() {
+        for ((end, expected) in mapOf(
+            FailsafeSpec.RETURN_HOME to MissionState.Returning(Danger.LOG_LOST),
+            FailsafeSpec.HOLD to MissionState.Holding(Danger.LOG_LOST),
+            FailsafeSpec.STOP to MissionState.Stopped(StopReason.LOG_LOST),
+        )) {
+            val desk = Desk(Desk.small().copy(failsafe = FailsafePolicy(end = end)), 336)
+            desk.begin()
+            desk.until(40.0) { false }
+            desk.mission.logLost()
+            assertEquals(expected, desk.step())
         }
     }
 

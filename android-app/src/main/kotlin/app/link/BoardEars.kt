@@ -32,32 +32,33 @@ data class BoardReport(
     val depth: Double? = null,
 )
 
-/** Listens to a board: core cuts the bytes into lines and the lines into messages. Confined to one thread. */
+/** Listens to what a board sends: core cuts the bytes into lines and the lines into messages. Confined to one thread. */
 internal class BoardEars {
     private val codec = PlatypusCodec(::hear)
     private val framer = LineFramer(codec)
-    private val buffer = ByteArray(BUFFER)
     private var heard = BoardReport()
+
+    /** Messages understood so far. */
+    var messages = 0L
+        private set
 
     /** What was said so far. */
     val report: BoardReport
         get() = heard.copy(lines = framer.lines, malformed = codec.malformed.total + framer.oversized)
 
-    /** Takes all that has arrived. */
-    fun listen(link: ByteLink) {
-        while (true) {
-            val length = link.read(buffer)
-            if (length == ByteLink.LOST) {
-                // What follows is not the rest of the line that was cut, nor need it be the same board.
-                framer.reset()
-                heard = BoardReport(refusals = heard.refusals)
-            }
-            if (length <= 0) return
-            framer.accept(buffer, 0, length)
+    /** Takes the first [length] of [bytes], which have arrived; or, where that is [ByteLink.LOST], that the link is lost. */
+    fun take(bytes: ByteArray, length: Int) {
+        if (length == ByteLink.LOST) {
+            // What follows is not the rest of the line that was cut, nor need it be the same board.
+            framer.reset()
+            heard = BoardReport(refusals = heard.refusals)
+        } else {
+            framer.accept(bytes, 0, length)
         }
     }
 
     private fun hear(message: Message) {
+        messages++
         heard =
             when (message) {
                 is Message.State -> heard.copy(state = message.state)
@@ -71,9 +72,5 @@ internal class BoardEars {
                 is Message.Refused -> heard.copy(refusals = heard.refusals + 1)
                 else -> heard
             }
-    }
-
-    private companion object {
-        const val BUFFER = 4096
     }
 }

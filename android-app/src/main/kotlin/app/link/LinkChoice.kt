@@ -7,11 +7,17 @@ import stillwater.app.R
 
 /** Which way to the board the person chose. */
 sealed interface LinkChoice {
+    /** A way to a real board. */
+    sealed interface Board : LinkChoice
+
     /** A paired device. */
-    data class Bluetooth(val address: String, val name: String) : LinkChoice
+    data class Bluetooth(val address: String, val name: String) : Board
 
     /** Whatever serial adapter is plugged in. */
-    data object Usb : LinkChoice
+    data object Usb : Board
+
+    /** No board: core's virtual boat on virtual water. */
+    data object Demo : LinkChoice
 
     companion object {
         private const val KIND = "link"
@@ -19,11 +25,13 @@ sealed interface LinkChoice {
         private const val NAME = "name"
         private const val BLUETOOTH = "bluetooth"
         private const val USB = "usb"
+        private const val DEMO = "demo"
 
         /** Puts [choice] into [intent]. */
         fun put(intent: Intent, choice: LinkChoice): Intent =
             when (choice) {
                 is Usb -> intent.putExtra(KIND, USB)
+                is Demo -> intent.putExtra(KIND, DEMO)
                 is Bluetooth ->
                     intent.putExtra(KIND, BLUETOOTH).putExtra(ADDRESS, choice.address).putExtra(NAME, choice.name)
             }
@@ -37,6 +45,7 @@ sealed interface LinkChoice {
             when (choice) {
                 null -> Unit
                 is Usb -> edit.putString(KIND, USB)
+                is Demo -> edit.putString(KIND, DEMO)
                 is Bluetooth ->
                     edit.putString(KIND, BLUETOOTH).putString(ADDRESS, choice.address).putString(NAME, choice.name)
             }
@@ -50,16 +59,17 @@ sealed interface LinkChoice {
         private fun of(text: (String) -> String?): LinkChoice? =
             when (text(KIND)) {
                 USB -> Usb
+                DEMO -> Demo
                 BLUETOOTH -> text(ADDRESS)?.let { Bluetooth(it, text(NAME) ?: it) }
                 else -> null
             }
     }
 }
 
-/** Makes the link that a choice stands for; a test's makes a fake. */
+/** Makes the link to a board that a choice stands for; a test's makes a fake. */
 fun interface LinkMaker {
     /** A link, not opened. */
-    fun make(context: Context, choice: LinkChoice): BoardLink
+    fun make(context: Context, choice: LinkChoice.Board): BoardLink
 
     companion object {
         /** Real links. */

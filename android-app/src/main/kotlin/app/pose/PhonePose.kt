@@ -12,6 +12,7 @@ import android.location.LocationListener
 import android.location.LocationManager
 import android.os.Bundle
 import android.os.Handler
+import android.os.SystemClock
 import stillwater.model.LatLon
 
 /**
@@ -21,6 +22,7 @@ import stillwater.model.LatLon
  * @property speed over ground, m/s; null where not given.
  * @property courseDeg over ground, compass degrees; null where not given.
  * @property elapsedNanos when it was, ns since the phone started; the receiver's own stamp, not when we were told.
+ * @property isJump whether it lies farther from the one before than a boat goes.
  */
 data class PhoneFix(
     val place: LatLon,
@@ -28,83 +30,108 @@ data class PhoneFix(
     val speed: Float?,
     val courseDeg: Float?,
     val elapsedNanos: Long,
+    val isJump: Boolean = false,
 )
 
 /**
  * Where the phone is and which way it points: the platform's GPS at its best rate, and its rotation sensor, which joins
- * compass and gyro, for the heading at low speed.
+ * compass and gyro, for the heading at low speed. The phone's top points to the boat's bow.
  *
- * Listeners run on the handler's thread; [fix], [headingDeg] and [problem] may be read from any.
+ * Listeners run on the handler's thread; what they found may be read from any.
  */
-internal class PhonePose(context: Context) {
+internal class PhonePose(context: Context) : Pose {
     private val locations: LocationManager? = context.getSystemService(LocationManager::class.java)
     private val sensors: SensorManager? = context.getSystemService(SensorManager::class.java)
 
-    /** The newest fix, null before the first. */
-    @Volatile var fix: PhoneFix? = null
+    @Volatile override var fix: PhoneFix? = null
         private set
 
-    /** Which way the phone's top points, degrees from true north, clockwise; null where no sensor says. */
-    @Volatile var headingDeg: Float? = null
+    @Volatile override var heading: PhoneHeading? = null
         private set
 
-    /** Why there can be no fix, null where nothing is in the way. */
-    @Volatile var problem: Problem? = null
+    @Volatile override var problem: PoseProblem? = null
         private set
 
-    @Volatile private var declinationDeg = 0f
+    @Volatile override var fixes = 0L
+        private set
 
-    /** What is in the way of a fix. */
-    enum class Problem { NO_RECEIVER, NOT_PERMITTED, SWITCHED_OFF }
+    @Volatile override var jumps = 0L
+        private set
 
-    /** Begins to listen, on [handler]'s thread. */
+    private var trusted: Location? = null
+    private var doubted: Location? = null
+    private var declinationDeg = 0.0
+    private var yawRate = Double.NaN
+
     @SuppressLint("MissingPermission") // a refusal is the SecurityException below
-    fun start(handler: Handler) {
+    override fun start(handler: Handler) {
         val locations = this.locations
         if (locations == null || LocationManager.GPS_PROVIDER !in locations.allProviders) {
-            problem = Problem.NO_RECEIVER
+            problem = PoseProblem.NO_RECEIVER
         } else {
             try {
                 locations.requestLocationUpdates(LocationManager.GPS_PROVIDER, 0L, 0f, places, handler.looper)
                 val on = locations.isProviderEnabled(LocationManager.GPS_PROVIDER)
-                problem = if (on) null else Problem.SWITCHED_OFF
+                problem = if (on) null else PoseProblem.SWITCHED_OFF
             } catch (_: SecurityException) {
-                problem = Problem.NOT_PERMITTED
+                problem = PoseProblem.NOT_PERMITTED
             }
         }
-        sensors?.getDefaultSensor(Sensor.TYPE_ROTATION_VECTOR)?.let {
-            sensors.registerListener(turns, it, SensorManager.SENSOR_DELAY_GAME, handler)
+        for (type in listOf(Sensor.TYPE_GYROSCOPE, Sensor.TYPE_ROTATION_VECTOR)) {
+            val sensor = sensors?.getDefaultSensor(type) ?: continue
+            sensors.registerListener(turns, sensor, SensorManager.SENSOR_DELAY_GAME, handler)
         }
     }
 
-    /** Listens no more. */
-    fun stop() {
+    override fun stop() {
         locations?.removeUpdates(places)
         sensors?.unregisterListener(turns)
+    }
+
+    private fun take(location: Location) {
+        if (location.latitude !in LatLon.LATITUDES_DEG || location.longitude !in LatLon.LONGITUDES_DEG) return
+        val height = if (location.hasAltitude()) location.altitude.toFloat() else 0f
+        declinationDeg =
+            GeomagneticField(location.latitude.toFloat(), location.longitude.toFloat(), height, location.time)
+                .declination
+                .toDouble()
+        val jumped = isJump(location)
+        fixes++
+        if (jumped) jumps++
+        fix =
+            PhoneFix(
+                LatLon(location.latitude, location.longitude),
+                location.accuracy.takeIf { location.hasAccuracy() },
+                location.speed.takeIf { location.hasSpeed() },
+                location.bearing.takeIf { location.hasBearing() },
+                location.elapsedRealtimeNanos,
+                jumped,
+            )
+    }
+
+    /** Two that lie apart from those before, but near each other, are where the phone is now. */
+    private fun isJump(location: Location): Boolean {
+        val jumped = trusted?.let { isFar(it, location) } == true
+        if (!jumped || doubted?.let { !isFar(it, location) } == true) {
+            trusted = location
+            doubted = null
+        } else {
+            doubted = location
+        }
+        return jumped
+    }
+
+    /** What the receiver itself takes for possible counts as its error, three times over. */
+    private fun isFar(before: Location, location: Location): Boolean {
+        val seconds = (location.elapsedRealtimeNanos - before.elapsedRealtimeNanos) * SECONDS_PER_NANO
+        val errors = ERRORS * (location.accuracy + before.accuracy)
+        return location.distanceTo(before) > errors + FASTEST_BOAT * maxOf(0.0, seconds)
     }
 
     /** All four functions: before Android 11 the platform's interface has none of them itself. */
     private val places =
         object : LocationListener {
-            override fun onLocationChanged(location: Location) {
-                if (location.latitude !in LatLon.LATITUDES_DEG || location.longitude !in LatLon.LONGITUDES_DEG) return
-                val height = if (location.hasAltitude()) location.altitude.toFloat() else 0f
-                declinationDeg =
-                    GeomagneticField(
-                        location.latitude.toFloat(),
-                        location.longitude.toFloat(),
-                        height,
-                        location.time,
-                    ).declination
-                fix =
-                    PhoneFix(
-                        LatLon(location.latitude, location.longitude),
-                        location.accuracy.takeIf { location.hasAccuracy() },
-                        location.speed.takeIf { location.hasSpeed() },
-                        location.bearing.takeIf { location.hasBearing() },
-                        location.elapsedRealtimeNanos,
-                    )
-            }
+            override fun onLocationChanged(location: Location) = take(location)
 
             @Deprecated("The platform calls it up to Android 9.")
             override fun onStatusChanged(provider: String?, status: Int, extras: Bundle?) = Unit
@@ -114,7 +141,7 @@ internal class PhonePose(context: Context) {
             }
 
             override fun onProviderDisabled(provider: String) {
-                problem = Problem.SWITCHED_OFF
+                problem = PoseProblem.SWITCHED_OFF
             }
         }
 
@@ -122,18 +149,34 @@ internal class PhonePose(context: Context) {
         object : SensorEventListener {
             private val rotation = FloatArray(ROTATION_SIZE)
             private val angles = FloatArray(ANGLES)
+            private var knowsRotation = false
 
             override fun onSensorChanged(event: SensorEvent) {
+                if (event.sensor?.type == Sensor.TYPE_GYROSCOPE) {
+                    // About the upright axis, however the phone is strapped down: the rotation's last row points up.
+                    if (knowsRotation) yawRate = (0..2).sumOf { (rotation[UP + it] * event.values[it]).toDouble() }
+                    return
+                }
                 SensorManager.getRotationMatrixFromVector(rotation, event.values)
+                knowsRotation = true
                 SensorManager.getOrientation(rotation, angles)
-                headingDeg = Math.toDegrees(angles[0].toDouble()).toFloat() + declinationDeg
+                val compassDeg = Math.toDegrees(angles[0].toDouble()) + declinationDeg
+                heading = PhoneHeading.ofCompass(compassDeg, yawRate, SystemClock.elapsedRealtimeNanos())
             }
 
             override fun onAccuracyChanged(sensor: Sensor?, accuracy: Int) = Unit
         }
 
-    private companion object {
-        const val ROTATION_SIZE = 9
-        const val ANGLES = 3
+    companion object {
+        /** Wider than a lawnmower's lane on a pond, a fix is no use. m. */
+        const val WIDEST_FIX = 10f
+
+        /** m/s; with a current, and a car's to the shore is none of it. */
+        private const val FASTEST_BOAT = 5.0
+        private const val ERRORS = 3f
+        private const val ROTATION_SIZE = 9
+        private const val ANGLES = 3
+        private const val UP = 6
+        private const val SECONDS_PER_NANO = 1e-9
     }
 }

@@ -33,7 +33,7 @@ internal class ColourLegend(private val view: View) {
 
     private companion object {
         const val STEPS = 33
-        const val EDGE_DP = 28f
+        const val EDGE_DP = 16f
         const val LENGTH_DP = 170f
         const val HEIGHT_DP = 14f
         const val GAP_DP = 4f

@@ -10,27 +10,31 @@ import stillwater.model.Position
  * @property track where the boat has been, oldest first.
  * @property plan where it means to go, next first.
  * @property fence corners of the area it may not leave; empty where there is none.
+ * @property keepOuts outlines within that are kept out of.
  * @property home where it returns to.
  * @property boat where it is.
  * @property headingDeg where it points, compass degrees; null where unknown.
- * @property unit of the value, for the words; empty where unknown.
+ * @property unit of the value, for the words; empty where it has none.
+ * @property ageOf seconds since the last reading of a cell; null where there was none.
  */
-class MapScene(
+internal class MapScene(
     val map: FieldMap? = null,
     val track: List<Position> = emptyList(),
     val plan: List<Position> = emptyList(),
     val fence: List<Position> = emptyList(),
+    val keepOuts: List<List<Position>> = emptyList(),
     val home: Position? = null,
     val boat: Position? = null,
     val headingDeg: Float? = null,
     val unit: String = "",
+    val ageOf: (Int) -> Double? = { null },
 ) {
     /** All that has to fit onto the screen. */
-    internal fun extent(): List<Position> {
+    val extent: List<Position> by lazy(LazyThreadSafetyMode.NONE) {
         val corners =
             map?.grid?.let { grid ->
                 listOf(0, grid.columns - 1, grid.size - grid.columns, grid.size - 1).flatMap(grid::corners)
             }
-        return corners.orEmpty() + track + fence + listOfNotNull(home, boat)
+        corners.orEmpty() + track + fence + listOfNotNull(home, boat)
     }
 }

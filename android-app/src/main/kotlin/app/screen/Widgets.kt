@@ -3,12 +3,14 @@ package stillwater.app.screen
 import android.content.Context
 import android.content.res.ColorStateList
 import android.graphics.Typeface
+import android.os.Build
 import android.util.TypedValue
 import android.view.View
 import android.view.ViewGroup
 import android.widget.Button
 import android.widget.LinearLayout
 import android.widget.TextView
+import stillwater.app.AboveMinSdk
 import stillwater.app.R
 
 /** A line of text in the app's large type. */
@@ -19,12 +21,25 @@ internal fun Context.line(text: CharSequence, colour: Int = R.color.text): TextV
         setTextSize(TypedValue.COMPLEX_UNIT_PX, resources.getDimension(R.dimen.text))
     }
 
+/** A line that talk-back says whenever it changes. */
+internal fun Context.liveLine(text: CharSequence = ""): TextView =
+    line(text).apply {
+        accessibilityLiveRegion = View.ACCESSIBILITY_LIVE_REGION_POLITE
+        show(text.isNotEmpty())
+    }
+
 /** A line that begins a part of a screen; talk-back can jump to it where the platform knows headings. */
 internal fun Context.heading(text: CharSequence): TextView =
     line(text).apply {
         typeface = Typeface.DEFAULT_BOLD
         setPadding(0, resources.getDimensionPixelSize(R.dimen.gap), 0, 0)
+        if (Build.VERSION.SDK_INT >= Build.VERSION_CODES.P) asHeading(this)
     }
+
+@AboveMinSdk
+private fun asHeading(view: View) {
+    view.isAccessibilityHeading = true
+}
 
 /** A button large enough for a wet glove. */
 internal fun Context.largeButton(text: CharSequence, action: () -> Unit): Button =
@@ -33,8 +48,26 @@ internal fun Context.largeButton(text: CharSequence, action: () -> Unit): Button
         isAllCaps = false
         minimumHeight = resources.getDimensionPixelSize(R.dimen.button_height)
         setTextSize(TypedValue.COMPLEX_UNIT_PX, resources.getDimension(R.dimen.text))
-        setTextColor(context.getColor(R.color.text))
-        backgroundTintList = ColorStateList.valueOf(context.getColor(R.color.button))
+        backgroundTintList =
+            ColorStateList(
+                arrayOf(intArrayOf(android.R.attr.state_selected), intArrayOf()),
+                intArrayOf(context.getColor(R.color.text), context.getColor(R.color.button)),
+            )
+        // What cannot be pressed now stays readable, and is seen by its grey.
+        setTextColor(
+            ColorStateList(
+                arrayOf(
+                    intArrayOf(-android.R.attr.state_enabled),
+                    intArrayOf(android.R.attr.state_selected),
+                    intArrayOf(),
+                ),
+                intArrayOf(
+                    context.getColor(R.color.disabled_text),
+                    context.getColor(R.color.ground),
+                    context.getColor(R.color.text),
+                ),
+            ),
+        )
         setOnClickListener { action() }
     }
 
@@ -50,8 +83,54 @@ internal fun Context.stopButton(action: () -> Unit): Button =
         backgroundTintList = ColorStateList.valueOf(context.getColor(R.color.stop))
     }
 
+/** An empty column. */
+internal fun Context.column(): LinearLayout = LinearLayout(this).apply { orientation = LinearLayout.VERTICAL }
+
+/** [views] beside each other, equally wide and equally high. */
+internal fun Context.row(vararg views: View): LinearLayout =
+    LinearLayout(this).apply {
+        isBaselineAligned = false
+        for (view in views) addView(view, LinearLayout.LayoutParams(0, ViewGroup.LayoutParams.MATCH_PARENT, 1f))
+    }
+
+/** [views] beside each other, or below each other where their words would break: on a narrow phone with large type. */
+internal fun Context.rowIfWide(vararg views: View): LinearLayout {
+    val letters = resources.configuration.run { screenWidthDp / fontScale }
+    if (letters >= LEAST_FOR_ROWS) return row(*views)
+    return column().apply { views.forEach { below(it) } }
+}
+
 /** Adds [view] below what is there, as wide as it can be. */
 internal fun LinearLayout.below(view: View, weight: Float = 0f) {
     val height = if (weight > 0) 0 else ViewGroup.LayoutParams.WRAP_CONTENT
     addView(view, LinearLayout.LayoutParams(ViewGroup.LayoutParams.MATCH_PARENT, height, weight))
 }
+
+/** Shows [words], or nothing at all where there are none; a line that says what it said before is left alone. */
+internal fun TextView.say(words: CharSequence?) {
+    // In sight first: talk-back does not say what changes out of sight.
+    show(!words.isNullOrEmpty())
+    if (text.toString() != words?.toString().orEmpty()) text = words
+}
+
+/** Makes it seen, or takes no room. */
+internal fun View.show(isShown: Boolean) {
+    val wanted = if (isShown) View.VISIBLE else View.GONE
+    if (visibility != wanted) visibility = wanted
+}
+
+/** A time of [seconds] in the two largest units that matter. */
+internal fun Context.duration(seconds: Double): String {
+    val whole = if (seconds.isFinite()) seconds.toLong() else 0
+    return when {
+        whole < MINUTE -> getString(R.string.seconds, whole)
+        whole < HOUR -> getString(R.string.minutes_seconds, whole / MINUTE, whole % MINUTE)
+        else -> getString(R.string.hours_minutes, whole / HOUR, whole % HOUR / MINUTE)
+    }
+}
+
+private const val MINUTE = 60
+private const val HOUR = 3600
+
+/** Width for three buttons beside each other, dp at the usual type. */
+private const val LEAST_FOR_ROWS = 300

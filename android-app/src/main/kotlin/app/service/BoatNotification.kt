@@ -8,7 +8,9 @@ import android.content.Context
 import android.content.Intent
 import stillwater.app.R
 import stillwater.app.screen.MainActivity
+import stillwater.app.screen.missionWords
 import stillwater.app.screen.words
+import stillwater.mission.MissionState
 
 /** What stands in the notification shade while the service runs: the state, and a way to stop. */
 internal class BoatNotification(private val context: Context) {
@@ -28,23 +30,28 @@ internal class BoatNotification(private val context: Context) {
             }
         val stop =
             PendingIntent.getService(context, 1, BoatService.stopIntent(context), PendingIntent.FLAG_IMMUTABLE)
-        val title =
-            when (snapshot.activity) {
-                BoatActivity.RECOVERED -> R.string.activity_recovered
-                else -> R.string.activity_standing_by
-            }
         val link = context.getString(snapshot.link.state.words())
         val text = context.getString(R.string.notification_link, snapshot.linkName.orEmpty(), link)
+        val trouble = snapshot.mission?.log?.problem?.let { context.getString(R.string.notification_log, it) }
         return Notification
             .Builder(context, CHANNEL)
             .setSmallIcon(R.drawable.ic_boat)
-            .setContentTitle(context.getString(title))
-            .setContentText(text)
+            .setContentTitle(title(snapshot))
+            .setContentText(listOfNotNull(text, trouble).joinToString(". "))
             .setContentIntent(open)
             .setOngoing(true)
             .setOnlyAlertOnce(true)
             .addAction(Notification.Action.Builder(null, context.getString(R.string.stop), stop).build())
             .build()
+    }
+
+    private fun title(snapshot: BoatSnapshot): String {
+        val state = snapshot.mission?.state ?: MissionState.Idle
+        return when {
+            state != MissionState.Idle -> context.missionWords(state)
+            snapshot.activity == BoatActivity.RECOVERED -> context.getString(R.string.activity_recovered)
+            else -> context.getString(R.string.activity_standing_by)
+        }
     }
 
     companion object {

@@ -6,75 +6,87 @@ import android.app.Service
 import android.content.Context
 import android.content.Intent
 import android.content.pm.ServiceInfo
-import android.os.Binder
 import android.os.Build
 import android.os.Handler
 import android.os.HandlerThread
 import android.os.IBinder
 import android.os.Looper
 import android.os.PowerManager
-import android.os.SystemClock
 import android.util.Log
 import stillwater.app.AboveMinSdk
-import stillwater.app.link.BoardEars
-import stillwater.app.link.BoardLink
 import stillwater.app.link.LinkChoice
-import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkMaker
-import stillwater.app.pose.PhonePose
-import stillwater.model.Actuation
-import stillwater.wire.Command
-import stillwater.wire.PlatypusEncoder
+import stillwater.app.mission.Disk
+import stillwater.app.mission.FileOutput
+import stillwater.app.mission.Keeper
+import stillwater.app.mission.LogFolder
+import stillwater.app.mission.LogOpener
+import stillwater.app.mission.MissionControl
+import stillwater.mission.Wish
+import java.io.File
 
 /**
- * Holds the link and the phone's position while the app is out of sight: in the foreground, with the processor awake.
+ * Keeps boat and mission going while the app is out of sight: in the foreground, with the processor awake.
  *
- * Started by the screen with a link; ended by the stop action alone. When Android ends the process, it starts the
- * service again without an intent: the link that was held is taken up again, and nothing moves. Everything that may
- * wait runs on a thread of the service's own; the main thread starts and asks.
+ * Started by the screen with a link; ended by the stop action. When Android ends the process, it starts the service again
+ * without an intent: the link that was held is taken up again, the mission is read back from its log, and nothing moves.
+ * Everything that may wait runs on threads of the service's own; the main thread starts and asks.
  */
-open class BoatService : Service() {
+open class BoatService :
+    Service(),
+    BoatCommands {
     private lateinit var thread: HandlerThread
     private lateinit var handler: Handler
-    private lateinit var pose: PhonePose
-    private lateinit var preflight: Preflight
+    private lateinit var diskThread: HandlerThread
+    private lateinit var loop: BoatLoop
     private lateinit var notification: BoatNotification
 
     @Volatile private var wakeLock: PowerManager.WakeLock? = null
-    private var link: BoardLink? = null
-    private var ears = BoardEars()
 
-    /** How many connections of [link] have begun with a board that was told to stand still. */
-    private var disarmed = 0L
+    override val snapshot: BoatSnapshot get() = loop.snapshot
 
-    @Volatile private var shown = BoatSnapshot()
-
-    @Volatile private var activity = BoatActivity.IDLE
-
-    @Volatile private var refusal: String? = null
-
-    /** What the screens show; any thread. */
-    val snapshot: BoatSnapshot get() = shown
-
-    /** The thread that does everything which may wait. */
+    /** The thread of link, pose and mission. */
     internal val boatLooper: Looper get() = thread.looper
 
+    /** The thread of files. */
+    internal val diskLooper: Looper get() = diskThread.looper
+
+    /** The thread that looks after the boat's. */
+    internal val watchdogLooper: Looper get() = loop.watchdogLooper
+
     /** Gives the screens of this process the service itself. */
-    inner class Local : Binder() {
+    inner class Local : BoatBinder(this@BoatService) {
         val service: BoatService get() = this@BoatService
     }
 
-    override fun onBind(intent: Intent?): IBinder = Local()
+    override fun onBind(intent: Intent?): IBinder {
+        onBoat { isLookedAt = true }
+        return Local()
+    }
+
+    override fun onRebind(intent: Intent?) = onBoat { isLookedAt = true }
+
+    override fun onUnbind(intent: Intent?): Boolean {
+        onBoat { isLookedAt = false }
+        return true
+    }
 
     override fun onCreate() {
         super.onCreate()
         thread = HandlerThread("boat").apply { start() }
         handler = Handler(thread.looper)
-        pose = PhonePose(this)
-        preflight = Preflight(this)
+        diskThread = HandlerThread("disk").apply { start() }
         notification = BoatNotification(this)
         notification.makeChannel()
-        handler.post(refresh)
+        val missions =
+            MissionControl(
+                LogFolder({ logOf(this, "") }, logs),
+                HandlerDisk(Handler(diskThread.looper), handler),
+                KeptMission(this),
+                System::currentTimeMillis,
+            )
+        loop = BoatLoop(this, handler, missions, ::notifyOfChange)
+        handler.post { loop.start() }
     }
 
     override fun onStartCommand(intent: Intent?, flags: Int, startId: Int): Int {
@@ -83,22 +95,47 @@ open class BoatService : Service() {
             return START_NOT_STICKY
         }
         // Android ends an app that does not say so within seconds, whatever comes after.
-        activity = if (intent == null) BoatActivity.RECOVERED else BoatActivity.STANDING_BY
-        if (!enterForeground(BoatSnapshot(activity))) return START_NOT_STICKY
-        refusal = null
+        loop.activity = if (intent == null) BoatActivity.RECOVERED else BoatActivity.STANDING_BY
+        if (!enterForeground(BoatSnapshot(loop.activity))) return START_NOT_STICKY
+        loop.refusal = null
         handler.post { begin(intent?.let(LinkChoice::of)) }
         return START_STICKY
     }
 
     override fun onDestroy() {
         handler.post {
-            handler.removeCallbacks(refresh)
-            link?.close()
-            pose.stop()
+            loop.leave()
+            diskThread.quitSafely()
             thread.quitSafely()
         }
         wakeLock?.takeIf { it.isHeld }?.release()
         super.onDestroy()
+    }
+
+    override fun load(json: String) = onBoat { load(json) }
+
+    override fun arm() = onBoat { begin(Wish.WAIT) }
+
+    override fun start() = onBoat { begin(Wish.GO_ON) }
+
+    override fun hold() = onBoat { command { tell(Wish.HOLD) } }
+
+    override fun goHome() = onBoat { command { tell(Wish.RETURN) } }
+
+    override fun stop() = onBoat { stop() }
+
+    override fun newMission() = onBoat { command { clear() } }
+
+    override fun lookForPast() =
+        onBoat {
+            command {
+                lookForPast()
+                null
+            }
+        }
+
+    private fun onBoat(work: BoatLoop.() -> Unit) {
+        handler.post { loop.work() }
     }
 
     private fun enterForeground(first: BoatSnapshot): Boolean =
@@ -131,8 +168,8 @@ open class BoatService : Service() {
 
     private fun refused(error: Exception): Boolean {
         Log.w("Stillwater", "not in the foreground: $error")
-        activity = BoatActivity.REFUSED
-        refusal = error.message ?: error.javaClass.simpleName
+        loop.activity = BoatActivity.REFUSED
+        loop.refusal = error.message ?: error.javaClass.simpleName
         stopSelf()
         return false
     }
@@ -149,13 +186,7 @@ open class BoatService : Service() {
         }
         LinkChoice.keep(kept, choice)
         keepAwake()
-        link?.close()
-        ears = BoardEars()
-        disarmed = 0
-        link = links.make(this, choice).also { it.open() }
-        pose.stop()
-        pose.start(handler)
-        look()
+        loop.hold(choice, links)
     }
 
     private fun keepAwake() {
@@ -165,62 +196,28 @@ open class BoatService : Service() {
         wakeLock = power.newWakeLock(PowerManager.PARTIAL_WAKE_LOCK, "stillwater:boat").apply { acquire() }
     }
 
-    private fun look() {
-        link?.let(ears::listen)
-        val health = link?.health ?: LinkHealth()
-        // Whatever a board was told before this connection, by a process that died perhaps: it is over.
-        if (health.connects != disarmed) link?.let(::standStill)
-        disarmed = health.connects
-        val fix = pose.fix
-        val age = fix?.let { (SystemClock.elapsedRealtimeNanos() - it.elapsedNanos) * SECONDS_PER_NANO }
-        val before = shown
-        shown =
-            BoatSnapshot(
-                activity = activity,
-                linkName = link?.name,
-                link = health,
-                board = ears.report,
-                refusal = refusal,
-                fix = fix,
-                fixAgeSeconds = age,
-                headingDeg = pose.headingDeg,
-                preflight = preflight.look(health, age, fix?.accuracyMetres),
-            )
-        if (link != null && (before.link.state != health.state || before.linkName != shown.linkName)) {
-            getSystemService(NotificationManager::class.java)?.notify(BoatNotification.ID, notification.of(shown))
-        }
+    /** On the boat thread. */
+    private fun notifyOfChange() {
+        getSystemService(NotificationManager::class.java)?.notify(BoatNotification.ID, notification.of(snapshot))
     }
 
-    private val refresh: Runnable =
-        object : Runnable {
-            override fun run() {
-                look()
-                handler.postDelayed(this, REFRESH_MILLIS)
-            }
-        }
-
-    /** Motors off, then disarmed; the link closes once both had the time to go out. */
+    /**
+     * Motors off, then disarmed. A mission that was under way goes on being told so over the link, which stays; without
+     * one the link closes once both had the time to go out, and the service ends.
+     */
     private fun stopBoat() {
         handler.post {
-            activity = BoatActivity.IDLE
+            if (loop.stop()) return@post
+            loop.activity = BoatActivity.IDLE
             LinkChoice.keep(getSharedPreferences(KEPT, Context.MODE_PRIVATE), null)
-            link?.let(::standStill)
             handler.postDelayed(letGo, LAST_WORDS_MILLIS)
         }
-    }
-
-    private fun standStill(link: BoardLink) {
-        link.write(PlatypusEncoder.encode(Command.Move(Actuation.Differential(0.0, 0.0))))
-        link.write(PlatypusEncoder.encode(Command.Disarm))
     }
 
     /** On the boat thread. A start that comes before it is not undone: it takes this away. */
     private val letGo: Runnable =
         Runnable {
-            link?.close()
-            link = null
-            pose.stop()
-            look()
+            loop.letGo()
             wakeLock?.takeIf { it.isHeld }?.release()
             wakeLock = null
             stopForeground(STOP_FOREGROUND_REMOVE)
@@ -230,20 +227,51 @@ open class BoatService : Service() {
     companion object {
         private const val STOP = "stillwater.app.STOP"
         private const val KEPT = "held-link"
-        private const val REFRESH_MILLIS = 500L
+        private const val LOGS = "missions"
 
         /** Longer than two lines take at 115200 baud by far, and than a board waits for the next command. */
         private const val LAST_WORDS_MILLIS = 300L
-        private const val SECONDS_PER_NANO = 1e-9
 
         /** How links are made. */
         @Volatile internal var links: LinkMaker = LinkMaker.REAL
+
+        /** How logs are opened. */
+        @Volatile internal var logs: LogOpener = LogOpener(::FileOutput)
+
+        /** The file of the past mission [name]; may not be there any more. Touches the disk. */
+        fun logOf(context: Context, name: String): File = File(File(context.filesDir, LOGS), name)
 
         /** Starts the service with [choice], or hands a running one that link instead. */
         fun startIntent(context: Context, choice: LinkChoice): Intent =
             LinkChoice.put(Intent(context, BoatService::class.java), choice)
 
-        /** Ends what the service does. */
+        /** Ends the mission that is under way; without one, what the service does. */
         fun stopIntent(context: Context): Intent = Intent(context, BoatService::class.java).setAction(STOP)
+    }
+}
+
+/** Files are worked on where [disk] is, and what comes of it goes to [boat]. */
+private class HandlerDisk(private val disk: Handler, private val boat: Handler) : Disk {
+    override fun run(work: () -> Unit) {
+        disk.post(work)
+    }
+
+    override fun answer(work: () -> Unit) {
+        boat.post(work)
+    }
+}
+
+/** On the boat thread; on the disk before anything moves, for what comes next may be the process's death. */
+private class KeptMission(private val context: Context) : Keeper {
+    private val kept get() = context.getSharedPreferences("kept-mission", Context.MODE_PRIVATE)
+
+    override var mission: String?
+        get() = kept.getString(JSON, null)
+        set(value) {
+            kept.edit().putString(JSON, value).commit()
+        }
+
+    private companion object {
+        const val JSON = "json"
     }
 }

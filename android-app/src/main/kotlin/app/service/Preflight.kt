@@ -8,42 +8,168 @@ import android.os.Build
 import android.os.PowerManager
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
+import stillwater.app.pose.PhonePose
+import stillwater.app.pose.PoseProblem
 
-/** One line of the checklist before a start; all have to be [ready]. */
-data class PreflightItem(val check: PreflightCheck, val ready: Boolean)
+/**
+ * One line of the checklist before a start; all have to be [ready].
+ *
+ * @property reason what is not in order; null where [ready].
+ */
+data class PreflightItem(
+    val check: PreflightCheck,
+    val ready: Boolean,
+    val reason: PreflightReason? = null,
+)
+
+/** Why a line of the checklist is red. */
+enum class PreflightReason {
+    /** A permission is not given. */
+    NOT_PERMITTED,
+
+    /** No link was chosen. */
+    NO_LINK,
+
+    /** The link is not connected yet, or was lost. */
+    NOT_CONNECTED,
+
+    /** The board has not been heard of lately. */
+    BOARD_SILENT,
+
+    /** The phone has no receiver. */
+    NO_RECEIVER,
+
+    /** The receiver is switched off in the phone's settings. */
+    RECEIVER_OFF,
+
+    /** No fix yet. */
+    NO_FIX,
+
+    /** The last fix is too old. */
+    FIX_OLD,
+
+    /** The fix is too uncertain. */
+    FIX_WIDE,
+
+    /** No compass, or it does not speak. */
+    NO_HEADING,
+
+    /** The board has not said how much charge there is. */
+    UNKNOWN_CHARGE,
+
+    /** Too little charge. */
+    LOW_CHARGE,
+
+    /** Too little room for the log. */
+    LITTLE_ROOM,
+
+    /** Android may end the app to save the battery. */
+    NOT_EXEMPT,
+}
 
 /** What is looked at before a start. */
 enum class PreflightCheck {
     PERMISSIONS,
     LINK,
     FIX,
+    BOAT_BATTERY,
     PHONE_BATTERY,
     STORAGE,
     BATTERY_SAVER,
 }
 
+/**
+ * What is known of boat and pose when the phone is looked at.
+ *
+ * @property hasLink whether a link was chosen.
+ * @property boardSilence time since the board was understood, s; infinite before.
+ * @property volts of the boat's battery, V; null before the board said so.
+ * @property lowestVolts that the mission goes on with, V; 0 where none are measured or no mission is loaded.
+ * @property pose what stands in the way of a fix; null where nothing does.
+ * @property fixAgeSeconds of the newest fix, s; null without.
+ * @property accuracyMetres of the newest fix, m; null without.
+ * @property hasHeading whether the compass speaks.
+ * @property isVirtual whether boat and pose are the demo's.
+ */
+internal class BoatAtRest(
+    val hasLink: Boolean = false,
+    val link: LinkHealth = LinkHealth(),
+    val boardSilence: Double = Double.POSITIVE_INFINITY,
+    val volts: Double? = null,
+    val lowestVolts: Double = 0.0,
+    val pose: PoseProblem? = null,
+    val fixAgeSeconds: Double? = null,
+    val accuracyMetres: Float? = null,
+    val hasHeading: Boolean = false,
+    val isVirtual: Boolean = false,
+)
+
 /** Looks at the phone. Touches the disk: not for the main thread. */
 internal class Preflight(private val context: Context) {
-    /** All checks, in their order. [fixAgeSeconds] and [accuracyMetres] are those of the newest fix, null without. */
-    fun look(link: LinkHealth, fixAgeSeconds: Double?, accuracyMetres: Float?): List<PreflightItem> =
+    /** Charge of the phone, percent; null where it does not say. */
+    val phoneBatteryPercent: Int?
+        get() =
+            context
+                .getSystemService(BatteryManager::class.java)
+                ?.getIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY)
+                ?.takeIf { it in 0..FULL_PERCENT }
+
+    /** Room for a log, bytes. */
+    val storage: Long get() = context.filesDir.usableSpace
+
+    /** All checks, in their order. */
+    fun look(boat: BoatAtRest): List<PreflightItem> =
         PreflightCheck.entries.map { check ->
-            val ready =
+            val reason =
                 when (check) {
-                    PreflightCheck.PERMISSIONS -> missingPermissions(context).isEmpty()
-                    PreflightCheck.LINK -> link.state == LinkState.CONNECTED
-                    PreflightCheck.FIX ->
-                        fixAgeSeconds != null && fixAgeSeconds <= OLDEST_FIX &&
-                            accuracyMetres != null && accuracyMetres <= WORST_ACCURACY
-                    PreflightCheck.PHONE_BATTERY -> batteryPercent() >= LEAST_BATTERY_PERCENT
-                    PreflightCheck.STORAGE -> context.filesDir.usableSpace >= LEAST_STORAGE
-                    PreflightCheck.BATTERY_SAVER -> isExempt()
+                    PreflightCheck.PERMISSIONS ->
+                        PreflightReason.NOT_PERMITTED.takeIf { missingPermissions(context).isNotEmpty() && !boat.isVirtual }
+                    PreflightCheck.LINK -> link(boat)
+                    PreflightCheck.FIX -> fix(boat)
+                    PreflightCheck.BOAT_BATTERY -> boatBattery(boat)
+                    PreflightCheck.PHONE_BATTERY -> phoneBattery()
+                    PreflightCheck.STORAGE -> PreflightReason.LITTLE_ROOM.takeIf { storage < LEAST_STORAGE }
+                    PreflightCheck.BATTERY_SAVER -> PreflightReason.NOT_EXEMPT.takeIf { !isExempt() && !boat.isVirtual }
                 }
-            PreflightItem(check, ready)
+            PreflightItem(check, reason == null, reason)
         }
 
-    private fun batteryPercent(): Int =
-        context.getSystemService(BatteryManager::class.java)?.getIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY)
-            ?: 0
+    private fun link(boat: BoatAtRest): PreflightReason? =
+        when {
+            !boat.hasLink -> PreflightReason.NO_LINK
+            boat.link.state != LinkState.CONNECTED -> PreflightReason.NOT_CONNECTED
+            boat.boardSilence > LONGEST_SILENCE -> PreflightReason.BOARD_SILENT
+            else -> null
+        }
+
+    private fun fix(boat: BoatAtRest): PreflightReason? {
+        val age = boat.fixAgeSeconds
+        val accuracy = boat.accuracyMetres
+        return when {
+            boat.pose == PoseProblem.NO_RECEIVER -> PreflightReason.NO_RECEIVER
+            boat.pose == PoseProblem.NOT_PERMITTED -> PreflightReason.NOT_PERMITTED
+            boat.pose == PoseProblem.SWITCHED_OFF -> PreflightReason.RECEIVER_OFF
+            age == null -> PreflightReason.NO_FIX
+            age > OLDEST_FIX -> PreflightReason.FIX_OLD
+            accuracy == null || accuracy > PhonePose.WIDEST_FIX -> PreflightReason.FIX_WIDE
+            !boat.hasHeading -> PreflightReason.NO_HEADING
+            else -> null
+        }
+    }
+
+    private fun boatBattery(boat: BoatAtRest): PreflightReason? {
+        val volts = boat.volts
+        return when {
+            volts == null -> PreflightReason.UNKNOWN_CHARGE
+            volts < boat.lowestVolts -> PreflightReason.LOW_CHARGE
+            else -> null
+        }
+    }
+
+    private fun phoneBattery(): PreflightReason? {
+        val percent = phoneBatteryPercent ?: return PreflightReason.UNKNOWN_CHARGE
+        return PreflightReason.LOW_CHARGE.takeIf { percent < LEAST_BATTERY_PERCENT }
+    }
 
     private fun isExempt(): Boolean =
         context.getSystemService(PowerManager::class.java)?.isIgnoringBatteryOptimizations(context.packageName) == true
@@ -52,8 +178,9 @@ internal class Preflight(private val context: Context) {
         /** A receiver gives one fix a second; three missed ones are a gap. s. */
         private const val OLDEST_FIX = 3.0
 
-        /** Wider than a lawnmower's lane on a pond, a fix is no use. m. */
-        private const val WORST_ACCURACY = 10f
+        /** A board speaks ten times a second, s. */
+        private const val LONGEST_SILENCE = 2.0
+        private const val FULL_PERCENT = 100
 
         /** Two hours with the screen on, by the rule of thumb of 15 % an hour. */
         private const val LEAST_BATTERY_PERCENT = 30

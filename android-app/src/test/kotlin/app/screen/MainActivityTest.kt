@@ -5,21 +5,24 @@ import android.content.pm.PackageManager
 import android.content.res.Configuration
 import android.provider.Settings
 import android.view.View
-import android.view.ViewGroup
 import android.widget.Button
 import android.widget.TextView
 import org.junit.Before
 import org.junit.Test
 import org.junit.runner.RunWith
-import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.Shadows.shadowOf
 import org.robolectric.annotation.Config
 import stillwater.app.R
 import stillwater.app.service.BoatService
+import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.Preflight
+import stillwater.app.service.PreflightCheck
+import stillwater.app.service.PreflightItem
+import stillwater.app.service.PreflightReason
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
@@ -34,11 +37,11 @@ class MainActivityTest {
 
     @Test
     fun stopIsOnEveryScreenAndStops() {
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
-        for (tab in listOf(R.id.tab_map, R.id.tab_link)) {
-            activity.view<View>(tab).performClick()
+        val activity = Window().activity
+        for (name in ScreenName.entries) {
+            activity.open(name)
             val stop = activity.view<View>(R.id.stop)
-            assertTrue(stop.isShown)
+            assertTrue(stop.isShown, "$name")
             assertTrue(stop.isEnabled)
             stop.performClick()
             // Looking at the service is recorded like starting it, and comes before.
@@ -49,60 +52,114 @@ class MainActivityTest {
     }
 
     @Test
-    fun aTurnOfThePhoneKeepsTheScreen() {
-        val controller = Robolectric.buildActivity(MainActivity::class.java).setup()
-        controller.get().view<View>(R.id.tab_link).performClick()
-        controller.recreate()
-        assertTrue(controller.get().view<View>(R.id.state).isShown)
+    @Config(sdk = [26, 35])
+    fun theWayThroughTheScreensOutlivesATurnOfThePhoneAndBackLeadsAlongIt() {
+        val window = Window()
+        window.activity.go(ScreenName.MISSION)
+        window.activity.view<View>(R.id.draw_area).performClick()
+        window.activity.go(ScreenName.LINK)
+        window.controller.recreate()
+        val seen = ArrayList<String>()
+        repeat(4) {
+            seen += window.activity.view<TextView>(R.id.menu).text.toString().drop(2)
+            @Suppress("DEPRECATION")
+            window.activity.onBackPressed()
+        }
+        assertEquals(listOf("Link", "Area", "Mission", "Map"), seen)
+        assertTrue(window.activity.isFinishing, "back from the first screen leaves the app")
     }
 
     @Test
-    fun permissionsAreAskedForTogether() {
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
-        activity.view<View>(R.id.tab_link).performClick()
-        activity.view<View>(R.id.allow).performClick()
-        val asked = shadowOf(activity).lastRequestedPermission.requestedPermissions
-        assertEquals(Preflight.neededPermissions(), asked.toList())
+    @Config(sdk = [35])
+    fun theMenuClosesAsItOpens() {
+        val activity = Window().activity
+        activity.go(ScreenName.TRACE)
+        activity.go(ScreenName.MENU)
+        activity.view<View>(R.id.menu).performClick()
+        assertTrue(activity.view<View>(R.id.trace).isShown)
     }
 
     @Test
     fun aRefusalForGoodLeadsToTheSettings() {
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
-        activity.view<View>(R.id.tab_link).performClick()
-        val asked = Preflight.neededPermissions().toTypedArray()
+        val activity = Window().activity
+        val red = PreflightItem(PreflightCheck.PERMISSIONS, ready = false, PreflightReason.NOT_PERMITTED)
+        val snapshot = Scenes.loaded.copy(preflight = listOf(red))
+        activity.go(ScreenName.START)
+        activity.show(snapshot)
+        activity.button(context.getString(R.string.allow)).performClick()
+        val all = Preflight.neededPermissions()
+        assertEquals(all, shadowOf(activity).lastRequestedPermission.requestedPermissions.toList(), "all at once")
+        val asked = all.toTypedArray()
         // Refused once: Android would still say why it asks, so the app asks again.
         asked.forEach { shadowOf(context.packageManager).setShouldShowRequestPermissionRationale(it, true) }
         activity.onRequestPermissionsResult(1, asked, IntArray(asked.size) { PackageManager.PERMISSION_DENIED })
-        val allow = activity.view<Button>(R.id.allow)
-        assertEquals(context.getString(R.string.allow), allow.text)
+        activity.show(snapshot)
+        activity.button(context.getString(R.string.allow))
         // Refused for good.
         asked.forEach { shadowOf(context.packageManager).setShouldShowRequestPermissionRationale(it, false) }
         activity.onRequestPermissionsResult(1, asked, IntArray(asked.size) { PackageManager.PERMISSION_DENIED })
-        assertEquals(context.getString(R.string.allow_in_settings), allow.text)
-        allow.performClick()
+        activity.show(snapshot)
+        activity.button(context.getString(R.string.allow_in_settings)).performClick()
         val opened = shadowOf(activity).nextStartedActivity
         assertEquals(Settings.ACTION_APPLICATION_DETAILS_SETTINGS, opened.action)
         assertEquals("package:stillwater.app", opened.data.toString())
     }
 
     @Test
+    @Config(sdk = [26, 35])
     fun whatCanBePressedIsLargeAndHasAName() {
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
-        val pressed = views(activity.window.decorView).filterIsInstance<Button>().toList()
-        assertTrue(pressed.size >= 4, "buttons ${pressed.map { it.text }}")
-        val least = activity.resources.getDimensionPixelSize(R.dimen.button_height)
-        for (button in pressed) {
-            assertTrue(button.minimumHeight >= least, "${button.text}")
-            assertTrue((button.contentDescription ?: button.text).isNotEmpty())
+        val activity = Window().activity
+        for (name in ScreenName.entries) {
+            activity.open(name)
+            for (snapshot in listOf(BoatSnapshot(), Scenes.recovered, Scenes.surveying, PAST)) {
+                activity.show(snapshot)
+                openAllThatFolds(activity)
+                checkPressable(activity, name)
+            }
         }
-        val map = activity.view<View>(R.id.map)
-        assertTrue(map.contentDescription.isNotEmpty())
+    }
+
+    /** Lists of choices and missions, one after the other; what is in them is looked at, too. */
+    private fun openAllThatFolds(activity: MainActivity) {
+        val folded = activity.shown().filterIsInstance<Button>().filter { "▾" in it.text || "CUT OFF" in it.text }
+        folded.forEach { it.performClick() }
+    }
+
+    private fun checkPressable(activity: MainActivity, name: ScreenName) {
+        val least = activity.resources.getDimensionPixelSize(R.dimen.button_height)
+        val pressed = activity.shown().filter { it.isClickable || it.hasOnClickListeners() || it is WaterView }
+        assertTrue(pressed.size >= 2, "$name")
+        for (view in pressed) {
+            val isLabelled = labelOf(activity, view) != null
+            val said = view.contentDescription ?: (view as? TextView)?.text
+            assertTrue(isLabelled || !said.isNullOrBlank(), "$name: $view says nothing")
+            assertTrue(view is WaterView || view.minimumHeight >= least, "$name: $said is too small")
+        }
+    }
+
+    private fun labelOf(activity: MainActivity, view: View) =
+        activity.shown().find { it.labelFor == view.id && view.id != View.NO_ID }
+
+    @Test
+    @Config(sdk = [26, 35])
+    fun whatChangesByItselfIsSaid() {
+        val activity = Window().activity
+        activity.show(Scenes.surveying)
+        val state = activity.view<TextView>(R.id.state)
+        assertEquals("Surveying\nBoat 3: connected", state.text.toString())
+        assertEquals(View.ACCESSIBILITY_LIVE_REGION_POLITE, state.accessibilityLiveRegion)
+        activity.show(Scenes.recovered)
+        assertEquals("Ready, disarmed\nBoat 3: LINK LOST, trying again", state.text.toString())
+        assertEquals(activity.getColor(R.color.bad), state.currentTextColor)
+        activity.go(ScreenName.START)
+        val readiness = activity.view<TextView>(R.id.readiness)
+        assertEquals(View.ACCESSIBILITY_LIVE_REGION_POLITE, readiness.accessibilityLiveRegion)
     }
 
     @Test
-    @Config(qualifiers = "+night")
+    @Config(sdk = [29, 35], qualifiers = "+night")
     fun atNightTheGroundIsBlack() {
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
+        val activity = Window().activity
         val mode = activity.resources.configuration.uiMode and Configuration.UI_MODE_NIGHT_MASK
         assertEquals(Configuration.UI_MODE_NIGHT_YES, mode)
         assertEquals(0xFF000000.toInt(), activity.getColor(R.color.ground))
@@ -110,15 +167,14 @@ class MainActivityTest {
     }
 
     @Test
-    @Config(qualifiers = "+de-rDE")
+    @Config(sdk = [35], qualifiers = "+de-rDE")
     fun anotherLanguageOfThePhoneLeavesTheWordsEnglish() {
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
+        val activity = Window().activity
         assertEquals("STOP", activity.view<Button>(R.id.stop).text)
+        assertFalse(activity.wordsShown().isEmpty())
     }
 
-    private fun views(root: View): Sequence<View> =
-        sequence {
-            yield(root)
-            if (root is ViewGroup) for (index in 0 until root.childCount) yieldAll(views(root.getChildAt(index)))
-        }
+    private companion object {
+        val PAST = Scenes.standingBy.copy(past = Scenes.past)
+    }
 }

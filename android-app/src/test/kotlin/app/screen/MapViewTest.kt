@@ -1,5 +1,7 @@
 package stillwater.app.screen
 
+import android.os.Parcelable
+import android.util.SparseArray
 import android.view.MotionEvent
 import android.view.View
 import org.junit.Test
@@ -9,37 +11,30 @@ import org.robolectric.RuntimeEnvironment
 import org.robolectric.annotation.Config
 import stillwater.model.Position
 import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
 @Config(sdk = [26, 35])
 class MapViewTest {
-    private val map =
-        MapView(RuntimeEnvironment.getApplication()).apply {
-            measure(exactly(400), exactly(600))
-            layout(0, 0, 400, 600)
-        }
+    private val map = mapView()
 
     @Test
-    fun whatIsTappedIsSaid() {
+    fun whatIsTouchedIsSaid() {
         val scene = Scenes.halfSurveyed()
         map.scene = scene
         val said = mutableListOf<String>()
         map.onCell = said::add
-        val projection = MapProjection(scene.extent(), 400f, 600f, 28f)
         val field = scene.map!!
-        val measured = field.grid.center(25)
-        map.touch(projection.x(measured), projection.y(measured))
-        val expected =
-            "%.3f mg/L, between %.3f and %.3f; 10 readings".format(field.value(25), field.lower(25), field.upper(25))
-        assertEquals(listOf(expected), said)
+        val (x, y) = assertNotNull(map.projection()).run { x(field.grid.center(25)) to y(field.grid.center(25)) }
+        map.finger(MotionEvent.ACTION_DOWN, x, y, 0)
+        map.finger(MotionEvent.ACTION_UP, x, y, 50)
+        val bounds = "%.3f mg/L, between %.3f and %.3f".format(field.value(25), field.lower(25), field.upper(25))
+        assertEquals(listOf("$bounds; 10 readings; 2 min 5 s ago"), said)
         val unmeasured = field.grid.center(field.grid.size - 1)
-        assertEquals(
-            "Not measured; between 4.000 and 12.000 mg/L",
-            map.tap(projection.x(unmeasured), projection.y(unmeasured)),
-        )
-        assertNull(map.tap(1f, 1f), "no cell there")
+        assertEquals("Not measured; between 4.000 and 12.000 mg/L", map.tap(unmeasured))
+        assertNull(map.tap(Position(-500.0, 0.0)), "no cell there")
     }
 
     @Test
@@ -50,8 +45,59 @@ class MapViewTest {
     }
 
     @Test
+    fun aFingerMovesItAndWhatIsUnderTheMiddleStaysThereWhenZoomed() {
+        map.scene = Scenes.halfSurveyed()
+        val before = assertNotNull(map.projection())
+        map.finger(MotionEvent.ACTION_DOWN, 200f, 300f, 0)
+        for (step in 1..10) map.finger(MotionEvent.ACTION_MOVE, 200f + 10 * step, 300f, step * 20L)
+        map.finger(MotionEvent.ACTION_UP, 300f, 300f, 220)
+        val moved = assertNotNull(map.projection())
+        assertTrue(moved.centre.x < before.centre.x - 0.8 * 100 / before.scale, "to the right is to the west")
+        assertEquals(before.centre.y, moved.centre.y, 1e-9)
+        map.zoom(2f)
+        val zoomed = assertNotNull(map.projection())
+        assertEquals(2 * before.scale, zoomed.scale, before.scale * 1e-6f)
+        assertEquals(moved.centre.x, zoomed.centre.x, 1e-9)
+        map.showAll()
+        assertEquals(before.centre, assertNotNull(map.projection()).centre)
+    }
+
+    @Test
+    fun itFollowsTheBoatUntilAFingerMovesIt() {
+        map.scene = Scenes.halfSurveyed()
+        map.zoom(4f)
+        map.isFollowing = true
+        assertEquals(map.scene.boat, assertNotNull(map.projection()).centre)
+        map.scene = MapScene(map = map.scene.map, boat = Position(12.0, 34.0))
+        assertEquals(Position(12.0, 34.0), assertNotNull(map.projection()).centre)
+        var moved = 0
+        map.onMoved = { moved++ }
+        map.finger(MotionEvent.ACTION_DOWN, 200f, 300f, 0)
+        map.finger(MotionEvent.ACTION_MOVE, 300f, 300f, 50)
+        assertTrue(!map.isFollowing && moved > 0)
+    }
+
+    @Test
+    fun whatIsInSightOutlivesATurnOfThePhone() {
+        map.scene = Scenes.halfSurveyed()
+        map.zoom(3f)
+        val before = assertNotNull(map.projection())
+        val state = SparseArray<Parcelable>()
+        map.id = View.generateViewId()
+        map.saveHierarchyState(state)
+        val other = mapView().apply {
+            id = map.id
+            restoreHierarchyState(state)
+            scene = Scenes.halfSurveyed()
+        }
+        val after = assertNotNull(other.projection())
+        assertEquals(before.centre, after.centre)
+        assertEquals(before.scale, after.scale, before.scale * 1e-6f)
+    }
+
+    @Test
     fun northIsUpAndBothAxesHaveOneScale() {
-        val projection = MapProjection(listOf(Position(0.0, 0.0), Position(100.0, 50.0)), 400f, 600f, 20f)
+        val projection = MapProjection.fitting(listOf(Position(0.0, 0.0), Position(100.0, 50.0)), 400f, 600f, 20f)
         val middle = Position(50.0, 25.0)
         assertEquals(200f, projection.x(middle), 1e-3f) // px; single precision of numbers below 1000
         assertEquals(300f, projection.y(middle), 1e-3f)
@@ -64,15 +110,23 @@ class MapViewTest {
 
     @Test
     fun aBoatThatHasNotMovedIsInSight() {
-        val projection = MapProjection(listOf(Position(7.0, 7.0)), 400f, 600f, 20f)
+        val projection = MapProjection.fitting(listOf(Position(7.0, 7.0)), 400f, 600f, 20f)
         assertTrue(projection.scale.isFinite() && projection.scale > 0)
+        // A view that is smaller than its margins, as while a keyboard comes up.
+        assertTrue(MapProjection.fitting(listOf(Position(7.0, 7.0)), 30f, 10f, 20f).scale > 0)
     }
 
-    private fun MapView.touch(x: Float, y: Float) {
-        val up = MotionEvent.obtain(0, 0, MotionEvent.ACTION_UP, x, y, 0)
-        dispatchTouchEvent(up)
-        up.recycle()
+    private fun MapView.finger(action: Int, x: Float, y: Float, millis: Long) {
+        val event = MotionEvent.obtain(0, millis, action, x, y, 0)
+        dispatchTouchEvent(event)
+        event.recycle()
     }
+
+    private fun mapView() =
+        MapView(RuntimeEnvironment.getApplication()).apply {
+            measure(exactly(400), exactly(600))
+            layout(0, 0, 400, 600)
+        }
 
     private fun exactly(size: Int) = View.MeasureSpec.makeMeasureSpec(size, View.MeasureSpec.EXACTLY)
 }

@@ -5,25 +5,19 @@ import android.graphics.BitmapFactory
 import android.graphics.Canvas
 import android.graphics.Color
 import android.view.View
+import android.widget.Button
 import org.junit.Assert.assertTrue
+import org.junit.Before
 import org.junit.Test
 import org.junit.runner.RunWith
-import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.annotation.Config
 import org.robolectric.annotation.GraphicsMode
 import stillwater.app.R
-import stillwater.app.link.BoardReport
-import stillwater.app.link.LinkHealth
-import stillwater.app.link.LinkState
-import stillwater.app.pose.PhoneFix
-import stillwater.app.service.BoatActivity
 import stillwater.app.service.BoatSnapshot
-import stillwater.app.service.PreflightCheck
-import stillwater.app.service.PreflightItem
-import stillwater.model.LatLon
-import stillwater.wire.BoardState
+import stillwater.mission.MissionDraft
 import java.io.File
+import java.util.TimeZone
 import kotlin.math.abs
 
 /**
@@ -34,6 +28,10 @@ import kotlin.math.abs
 @GraphicsMode(GraphicsMode.Mode.NATIVE)
 @Config(sdk = [35], qualifiers = "w411dp-h731dp-port-notnight-xhdpi")
 class ScreenshotTest {
+    /** Dates are the reader's own; in the pictures they are Greenwich's. */
+    @Before
+    fun atGreenwich() = TimeZone.setDefault(TimeZone.getTimeZone("UTC"))
+
     @Test
     fun map() = compare("map", mapScreen())
 
@@ -42,39 +40,103 @@ class ScreenshotTest {
     fun mapAtNight() = compare("map-night", mapScreen())
 
     @Test
-    fun emptyMap() = compare("map-empty", activity().window.decorView)
+    @Config(qualifiers = "w731dp-h411dp-land")
+    fun mapLying() = compare("map-lying", mapScreen())
 
     @Test
-    fun link() = compare("link", linkScreen(running))
+    fun emptyMap() = compare("map-empty", screen(ScreenName.MAP, BoatSnapshot()))
+
+    @Test
+    fun trace() = compare("trace", screen(ScreenName.TRACE, Scenes.surveying))
 
     @Test
     @Config(qualifiers = "+night")
-    fun lostLinkAtNight() = compare("link-lost-night", linkScreen(lost))
+    fun traceAtNight() = compare("trace-night", screen(ScreenName.TRACE, Scenes.surveying))
 
-    private fun activity() = Robolectric.buildActivity(MainActivity::class.java).setup().get()
+    @Test
+    fun start() = compare("start", screen(ScreenName.START, Scenes.loaded))
+
+    @Test
+    @Config(qualifiers = "+night")
+    fun startAfterAnInterruption() = compare("start-recovered-night", screen(ScreenName.START, Scenes.recovered))
+
+    @Test
+    fun mission() = compare("mission", screen(ScreenName.MISSION, Scenes.standingBy))
+
+    @Test
+    fun area() = compare("area", areaScreen())
+
+    @Test
+    fun link() = compare("link", screen(ScreenName.LINK, Scenes.surveying))
+
+    @Test
+    @Config(qualifiers = "+night")
+    fun lostLinkAtNight() = compare("link-lost-night", screen(ScreenName.LINK, Scenes.recovered))
+
+    @Test
+    fun past() = compare("past", pastScreen())
+
+    @Test
+    fun menu() = compare("menu", screen(ScreenName.MENU, Scenes.surveying))
+
+    // The smallest phone that is still sold, with the type of people who forget their glasses.
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallMap() = compare("small-map", mapScreen())
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallStart() = compare("small-start", screen(ScreenName.START, Scenes.recovered))
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallMission() = compare("small-mission", screen(ScreenName.MISSION, Scenes.standingBy))
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallArea() = compare("small-area", areaScreen())
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallTrace() = compare("small-trace", screen(ScreenName.TRACE, Scenes.surveying))
+
+    @Test
+    @Config(qualifiers = SMALL, fontScale = LARGE)
+    fun smallPast() = compare("small-past", pastScreen())
+
+    private fun screen(name: ScreenName, snapshot: BoatSnapshot): View {
+        val window = Window()
+        if (name != ScreenName.MAP) window.activity.go(name)
+        window.settle()
+        window.activity.show(snapshot)
+        return window.activity.window.decorView
+    }
 
     private fun mapScreen(): View {
-        val activity = activity()
-        val map = activity.view<MapView>(R.id.map)
-        val scene = Scenes.halfSurveyed()
-        map.scene = scene
-        val projection =
-            MapProjection(scene.extent(), map.width.toFloat(), map.height.toFloat(), 28 * density(activity))
-        val cell = checkNotNull(scene.map).grid.center(TAPPED)
-        map.tap(projection.x(cell), projection.y(cell))
-        return activity.window.decorView
+        val view = screen(ScreenName.MAP, Scenes.surveying)
+        checkNotNull(view.findViewById<MapView>(R.id.map)).tap(Scenes.spec.grid.grid().center(TAPPED))
+        return view
     }
 
-    private fun linkScreen(snapshot: BoatSnapshot): View {
-        val activity = activity()
-        activity.view<View>(R.id.tab_link).performClick()
-        var screen: View = activity.view(R.id.state)
-        while (screen !is LinkScreen) screen = screen.parent as View
-        screen.show(snapshot, refusedForGood = false)
-        return activity.window.decorView
+    private fun areaScreen(): View {
+        val window = Window()
+        window.activity.desk.change { MissionDraft.of(Scenes.spec) }
+        window.activity.go(ScreenName.MISSION)
+        window.activity.view<View>(R.id.draw_area).performClick()
+        window.settle()
+        window.activity.show(Scenes.standingBy)
+        return window.activity.window.decorView
     }
 
-    private fun density(activity: MainActivity) = activity.resources.displayMetrics.density
+    private fun pastScreen(): View {
+        val snapshot = Scenes.standingBy.copy(past = Scenes.past)
+        val window = Window()
+        window.activity.go(ScreenName.PAST)
+        window.activity.show(snapshot)
+        window.activity.shown().filterIsInstance<Button>().first { "CUT OFF" in it.text }.performClick()
+        return window.activity.window.decorView
+    }
 
     private fun compare(name: String, view: View) {
         val size = view.context.resources.displayMetrics
@@ -121,6 +183,8 @@ class ScreenshotTest {
     private fun exactly(size: Int) = View.MeasureSpec.makeMeasureSpec(size, View.MeasureSpec.EXACTLY)
 
     private companion object {
+        const val SMALL = "w320dp-h533dp-port-notnight-xhdpi"
+        const val LARGE = 1.3f
         const val TAPPED = 70
         const val PERCENT = 100
 
@@ -129,27 +193,5 @@ class ScreenshotTest {
 
         /** A letter of the large type is about as much of the picture: a changed word is found. */
         const val MOST_DIFFERING = 5e-4
-
-        val running =
-            BoatSnapshot(
-                activity = BoatActivity.STANDING_BY,
-                linkName = "Boat 3",
-                link =
-                LinkHealth(LinkState.CONNECTED, 2, 1, 3, 48_213, 10_480, 0, 4, 87, "read failed, socket might closed"),
-                board = BoardReport(5_210, 3, 0, BoardState.STANDBY, 15.26, oxygen = 8.71, celsius = 19.4),
-                fix = PhoneFix(LatLon(45.33, -73.15), 3.2f, 0.9f, 12f, 0),
-                fixAgeSeconds = 0.4,
-                headingDeg = 12f,
-                preflight = PreflightCheck.entries.map { PreflightItem(it, it != PreflightCheck.BATTERY_SAVER) },
-            )
-        val lost =
-            running.copy(
-                activity = BoatActivity.RECOVERED,
-                board = BoardReport(),
-                link = running.link.copy(state = LinkState.WAITING, drops = 2, quietMillis = null),
-                fixAgeSeconds = 41.0,
-                preflight =
-                PreflightCheck.entries.map { PreflightItem(it, it !in setOf(PreflightCheck.LINK, PreflightCheck.FIX)) },
-            )
     }
 }

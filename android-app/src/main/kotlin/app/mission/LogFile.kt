@@ -1,0 +1,111 @@
+package stillwater.app.mission
+
+import stillwater.mission.LogSink
+import java.io.ByteArrayOutputStream
+import java.io.File
+import java.io.IOException
+
+/**
+ * The log of one mission: [line] takes lines on the boat's thread and never waits, [flush] brings them to the disk on the
+ * disk's. What the disk does not take is kept, up to [MOST_BYTES], and tried again at every flush.
+ *
+ * @param file that is written; its name ends with [LogFolder.INCOMPLETE] until [close].
+ * @param opener opens it.
+ * @param room that is left on the disk, bytes.
+ */
+internal class LogFile(
+    private val file: File,
+    private val opener: LogOpener,
+    private val room: () -> Long,
+) : LogSink {
+    private class Chunk(val bytes: ByteArray, val lines: Long)
+
+    private val lock = Any()
+    private var incoming = ByteArrayOutputStream()
+    private var incomingLines = 0L
+    private var told = LogReport(file.name)
+
+    // The disk's thread has these to itself.
+    private val waiting = ArrayDeque<Chunk>()
+    private var output: LogOutput? = null
+
+    /** What became of the lines. Any thread. */
+    val report: LogReport get() = synchronized(lock) { told }
+
+    /** Whether the log could not be written at some time. Any thread. */
+    @Volatile var failed = false
+        private set
+
+    override fun line(line: String) {
+        synchronized(lock) {
+            incoming.write(line.encodeToByteArray())
+            incoming.write('\n'.code)
+            incomingLines++
+            told = told.copy(lines = told.lines + 1)
+        }
+    }
+
+    /** Brings what has come to the disk. */
+    fun flush() {
+        take()
+        try {
+            while (true) {
+                val next = waiting.firstOrNull() ?: break
+                val open = output ?: opener.open(file).also { output = it }
+                open.append(next.bytes)
+                waiting.removeFirst()
+                synchronized(lock) { told = told.copy(written = told.written + next.lines) }
+            }
+            val left = room()
+            trouble(if (left < LEAST_ROOM) "$left bytes are left" else null)
+        } catch (error: IOException) {
+            trouble(error.message ?: error.javaClass.simpleName)
+        }
+    }
+
+    /** Flushes, and gives the file its name as a complete one. Answers whether all lines are in it. */
+    fun close(): Boolean {
+        flush()
+        if (waiting.isNotEmpty()) return false
+        release()
+        val complete = File(file.path.removeSuffix(LogFolder.INCOMPLETE))
+        val isRenamed = !file.exists() || file.renameTo(complete)
+        synchronized(lock) { told = told.copy(name = if (isRenamed) complete.name else file.name, isClosed = isRenamed) }
+        return isRenamed
+    }
+
+    /** Lets go of the file and leaves it incomplete. */
+    fun release() {
+        output?.close()
+        output = null
+    }
+
+    private fun take() {
+        val (bytes, lines) =
+            synchronized(lock) {
+                val taken = incoming to incomingLines
+                incoming = ByteArrayOutputStream()
+                incomingLines = 0
+                taken
+            }
+        if (lines == 0L) return
+        if (waiting.sumOf { it.bytes.size.toLong() } + bytes.size() > MOST_BYTES) {
+            synchronized(lock) { told = told.copy(lost = told.lost + lines) }
+        } else {
+            waiting.addLast(Chunk(bytes.toByteArray(), lines))
+        }
+    }
+
+    private fun trouble(words: String?) {
+        if (words != null) failed = true
+        synchronized(lock) { told = told.copy(problem = words) }
+    }
+
+    companion object {
+        /** Some minutes of a mission, so that its way home is not lost when room is made. */
+        const val MOST_BYTES = 4L shl 20
+
+        /** A mission comes home on what is left. */
+        const val LEAST_ROOM = 10L shl 20
+    }
+}

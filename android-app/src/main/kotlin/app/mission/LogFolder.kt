@@ -1,0 +1,76 @@
+package stillwater.app.mission
+
+import stillwater.mission.MissionRecovery
+import stillwater.mission.RecoveredMission
+import java.io.File
+import java.io.IOException
+import java.time.Instant
+import java.time.ZoneOffset
+import java.time.format.DateTimeFormatter
+
+/**
+ * The folder of the missions' logs. Touches the disk: for the disk's thread.
+ *
+ * @param place where it is, asked for at the first use, as that touches the disk, too; made where it is not there.
+ * @param opener opens files.
+ * @param room that is left on the disk, bytes.
+ */
+internal class LogFolder(
+    place: () -> File,
+    private val opener: LogOpener = LogOpener(::FileOutput),
+    room: (() -> Long)? = null,
+) {
+    private val folder by lazy(place)
+    private val room = room ?: { folder.usableSpace }
+
+    /** A log for the mission called [name] that begins at [epochMillis]; nothing is on the disk before its first flush. */
+    fun begin(name: String, epochMillis: Long): LogFile {
+        val stamp = STAMP.format(Instant.ofEpochMilli(epochMillis))
+        val plain = name.map { if (it.isLetterOrDigit()) it else '-' }.joinToString("").take(LONGEST_NAME)
+        return LogFile(File(folder, "$stamp-$plain$LOG$INCOMPLETE"), ::open, room)
+    }
+
+    /** The log [name], to go on with. */
+    fun goOn(name: String): LogFile = LogFile(File(folder, name), ::open, room)
+
+    /** What the newest incomplete log tells, with its name; null where there is none. Older ones are left as they are. */
+    fun recover(): Pair<String, RecoveredMission>? =
+        files().filter { it.name.endsWith(INCOMPLETE) }.sortedByDescending { it.name }.firstNotNullOfOrNull { file ->
+            read(file)?.let { file.name to it }
+        }
+
+    /** Gives the incomplete log [name] the name of a complete one: nobody goes on with it. */
+    fun complete(name: String) {
+        File(folder, name).renameTo(File(folder, name.removeSuffix(INCOMPLETE)))
+    }
+
+    /** All logs, newest first. */
+    fun past(): List<PastMission> =
+        files().sortedByDescending { it.name }.map {
+            PastMission(it.name, it.length(), !it.name.endsWith(INCOMPLETE), it.lastModified())
+        }
+
+    private fun read(file: File): RecoveredMission? =
+        try {
+            file.bufferedReader().useLines { lines -> MissionRecovery().apply { lines.forEach(::line) }.recovered() }
+        } catch (_: IOException) {
+            null
+        }
+
+    private fun open(file: File): LogOutput {
+        if (!folder.isDirectory && !folder.mkdirs()) throw IOException("$folder can't be made")
+        return opener.open(file)
+    }
+
+    private fun files() =
+        folder.listFiles().orEmpty().filter { it.name.endsWith(LOG) || it.name.endsWith(LOG + INCOMPLETE) }
+
+    companion object {
+        const val LOG = ".log"
+
+        /** What a log's name ends with until its mission is over. */
+        const val INCOMPLETE = ".incomplete"
+        private const val LONGEST_NAME = 40
+        private val STAMP = DateTimeFormatter.ofPattern("yyyy-MM-dd'T'HH-mm-ss").withZone(ZoneOffset.UTC)
+    }
+}

@@ -1,0 +1,252 @@
+package stillwater.app.mission
+
+import stillwater.app.pose.Pose
+import stillwater.app.service.Answer
+import stillwater.app.service.FixCounts
+import stillwater.mission.MissionSpec
+import stillwater.mission.MissionState
+import stillwater.mission.RecoveredMission
+import stillwater.mission.Wish
+import stillwater.wire.ByteLink
+
+/** Runs what may wait for the disk on a thread of its own, and what comes of it on the boat's. */
+internal interface Disk {
+    /** Runs [work] on the disk's thread, one after the other. */
+    fun run(work: () -> Unit)
+
+    /** Runs [work] on the boat's thread. */
+    fun answer(work: () -> Unit)
+}
+
+/** Keeps a text beyond the process. */
+internal interface Keeper {
+    /** What was kept; null where nothing was. */
+    var mission: String?
+}
+
+/**
+ * Which mission is loaded, and what became of it: loaded, under way, over. Every command answers why it was not followed,
+ * or null. Confined to the boat's thread.
+ *
+ * @param folder of the logs. Retained.
+ * @param disk where files are worked on. Retained.
+ * @param keeper keeps the mission that is loaded beyond the process. Retained.
+ * @param epochMillis the wall clock, Unix time, ms.
+ */
+internal class MissionControl(
+    private val folder: LogFolder,
+    private val disk: Disk,
+    private val keeper: Keeper,
+    private val epochMillis: () -> Long,
+) {
+    /** The mission that is loaded; null where none is. */
+    var spec: MissionSpec? = null
+        private set
+
+    /** Missions on the disk, newest first; null before they were looked for. */
+    var past: List<PastMission>? = null
+        private set
+
+    private var recovered: Pair<String, RecoveredMission>? = null
+    private var run: MissionRun? = null
+    private var last: MissionReport? = null
+    private var flushing = false
+    private var unclosed: Pair<LogFile, MissionReport>? = null
+
+    /** Whether a mission was started and is not over: stepped, and its board maybe armed. */
+    val isUnderWay: Boolean get() = run != null
+
+    /** Whether the motors were last told to do something. */
+    val isMoving: Boolean get() = run?.isMoving == true
+
+    /** Takes the mission in [json] in place of the one that is loaded. */
+    fun load(json: String): Answer? {
+        if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
+        val read =
+            try {
+                MissionSpec.fromJson(json)
+            } catch (error: IllegalArgumentException) {
+                return Answer(Answer.Reason.NOT_A_MISSION, error.message)
+            }
+        forget()
+        spec = read
+        keeper.mission = json
+        last = null
+        return null
+    }
+
+    /** Has what a process left behind: an incomplete log's mission, else the one that was loaded. [then] comes after. */
+    fun recover(then: () -> Unit) {
+        disk.run {
+            val found = folder.recover()
+            disk.answer {
+                if (spec == null) takeUp(found)
+                then()
+            }
+        }
+    }
+
+    private fun takeUp(found: Pair<String, RecoveredMission>?) {
+        if (found != null) {
+            recovered = found
+            spec = found.second.spec
+            last = null
+            return
+        }
+        spec = keeper.mission?.let {
+            try {
+                MissionSpec.fromJson(it)
+            } catch (_: IllegalArgumentException) {
+                // Kept by another version of the app: the person loads it again and is told what is wrong.
+                null
+            }
+        }
+    }
+
+    /** Starts the mission over [link], with [wish], where [isReady]; tells one that was started of [wish]. */
+    fun begin(link: ByteLink?, isReady: Boolean, wish: Wish): Answer? {
+        val spec = this.spec ?: return Answer(Answer.Reason.NO_MISSION)
+        run?.let {
+            it.wish = wish
+            return null
+        }
+        if (last?.isOver == true) return Answer(Answer.Reason.OVER)
+        if (link == null || !isReady) return Answer(Answer.Reason.NOT_READY)
+        val now = epochMillis()
+        val log = recovered?.let { folder.goOn(it.first) } ?: folder.begin(spec.name, now)
+        run = MissionRun(spec, link, log, recovered?.second, now).also {
+            it.wish = wish
+            it.start()
+        }
+        recovered = null
+        return null
+    }
+
+    /** Tells a mission that was started what a person wants. */
+    fun tell(wish: Wish): Answer? {
+        val run = this.run ?: return Answer(Answer.Reason.NOT_UNDER_WAY)
+        run.wish = wish
+        return null
+    }
+
+    /** Ends the mission; it is over once the board has been told. */
+    fun stop() {
+        run?.stop()
+    }
+
+    /** Forgets the mission that is loaded. */
+    fun clear(): Answer? {
+        if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
+        forget()
+        spec = null
+        last = null
+        keeper.mission = null
+        return null
+    }
+
+    /** Does what is due at [seconds] on the phone's clock. */
+    fun step(seconds: Double, pose: Pose) {
+        val run = this.run ?: return
+        run.step(seconds, pose)
+        if (run.isOver) end()
+    }
+
+    /** Brings the log to the disk. */
+    fun flush() {
+        val log = run?.log ?: return
+        if (flushing) return
+        flushing = true
+        disk.run {
+            log.flush()
+            disk.answer { flushing = false }
+        }
+    }
+
+    /** Ends the mission now, whether the board has been told or not, and closes its log. */
+    fun end() {
+        val run = this.run ?: return
+        val report = run.report(isOver = true)
+        last = report
+        this.run = null
+        keeper.mission = null
+        close(run.log, report)
+    }
+
+    /** The process goes: what is there goes to the disk, and the log stays incomplete. */
+    fun leave() {
+        val log = run?.log ?: return
+        run = null
+        disk.run {
+            log.flush()
+            log.release()
+        }
+    }
+
+    /** Looks for past missions. */
+    fun lookForPast() {
+        disk.run {
+            val found = folder.past()
+            disk.answer { past = found }
+        }
+    }
+
+    /** As of now; null where no mission is loaded. */
+    fun report(): MissionReport? {
+        val spec = this.spec ?: return null
+        run?.let { return it.report(isOver = false) }
+        return last ?: waiting(spec).also { last = it }
+    }
+
+    /** What became of the fixes that [pose] had. */
+    fun fixes(pose: Pose): FixCounts =
+        FixCounts(pose.fixes, pose.jumps, run?.wideFixes ?: 0, run?.refusedFixes ?: 0)
+
+    private fun waiting(spec: MissionSpec): MissionReport {
+        val found = recovered?.second
+        val map = (found?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe)).map
+        return MissionReport(
+            spec,
+            MissionState.Idle,
+            Wish.GO_ON,
+            isRecovered = found != null,
+            isOver = false,
+            map.copy(),
+            position = null,
+            emptyList(),
+            emptyList(),
+            found?.used ?: 0.0,
+            emptyList(),
+            ReadingCounts(received = found?.readings ?: 0, taken = found?.readings ?: 0),
+            recovered?.let { LogReport(it.first) },
+            DoubleArray(map.grid.size) { Double.NaN },
+            now = 0.0,
+        )
+    }
+
+    /** Closes the log of a mission that nobody will go on with. */
+    private fun forget() {
+        val name = recovered?.first ?: return
+        recovered = null
+        disk.run { folder.complete(name) }
+    }
+
+    /** Again and again, where the disk takes nothing: what was measured is not given up while there is hope. */
+    private fun close(log: LogFile, report: MissionReport) {
+        disk.run {
+            val isClosed = log.close()
+            disk.answer {
+                val shown = report.withLog(log.report)
+                if (last === report) last = shown
+                if (!isClosed) unclosed = log to shown
+                lookForPast()
+            }
+        }
+    }
+
+    /** Tries to close a log that could not be. */
+    fun closeAgain() {
+        val (log, report) = unclosed ?: return
+        unclosed = null
+        close(log, report)
+    }
+}

@@ -1,0 +1,138 @@
+package stillwater.app.mission
+
+import stillwater.app.pose.PhonePose
+import stillwater.app.pose.Pose
+import stillwater.mission.LogStart
+import stillwater.mission.Mission
+import stillwater.mission.MissionLog
+import stillwater.mission.MissionSpec
+import stillwater.mission.MissionState
+import stillwater.mission.RecoveredMission
+import stillwater.mission.Wish
+import stillwater.model.BoatTime
+import stillwater.model.Reading
+import stillwater.wire.BoardState
+import stillwater.wire.ByteLink
+import java.time.Instant
+
+/**
+ * A mission from its arming to its end: the one place where the phone's clock, pose, link and file meet core's mission.
+ * Confined to the boat's thread.
+ *
+ * @param link to the board. Retained.
+ * @param log where it is written. Retained.
+ * @param recovered what to go on with; null to begin anew.
+ */
+internal class MissionRun(
+    private val spec: MissionSpec,
+    link: ByteLink,
+    val log: LogFile,
+    private val recovered: RecoveredMission?,
+    epochMillis: Long,
+) {
+    private val start = LogStart(epochMillis, Instant.ofEpochMilli(epochMillis).toString())
+    private val mission =
+        Mission(spec, link, MissionLog(log, start, spec), recovered = recovered, taken = ::took)
+    private val trace = Trace()
+    private val track = Track()
+    private val readAt = DoubleArray(spec.grid.grid().size) { Double.NaN }
+    private var fixNanos = Long.MIN_VALUE
+    private var headingNanos = Long.MIN_VALUE
+    private var now = 0.0
+    private var stoppedAt = Double.NaN
+
+    /** Fixes too uncertain to be handed on. */
+    var wideFixes = 0L
+        private set
+
+    /** Fixes that the mission refused. */
+    val refusedFixes: Long get() = mission.refusedFixes
+
+    val state: MissionState get() = mission.state
+
+    /** Whether the motors were last told to do something. */
+    val isMoving: Boolean get() = !mission.board.sent.isAtRest
+
+    /** Whether it has ended, and the board has said so or had the time to. */
+    val isOver: Boolean
+        get() = stoppedAt.isFinite() &&
+            (mission.board.state == BoardState.STANDBY || now - stoppedAt > LONGEST_DISARMING)
+
+    /** What a person wants. */
+    var wish: Wish by mission::wish
+
+    /** Begins. */
+    fun start() = mission.start()
+
+    /** Ends. */
+    fun stop() = mission.stop()
+
+    /** Does all that is due at [seconds] on the phone's clock, with the newest of [pose]. */
+    fun step(seconds: Double, pose: Pose) {
+        now = seconds
+        pose.fix?.takeIf { it.elapsedNanos > fixNanos }?.let { fix ->
+            fixNanos = fix.elapsedNanos
+            val accuracy = fix.accuracyMetres
+            if (accuracy != null && accuracy <= PhonePose.WIDEST_FIX) {
+                mission.fix(BoatTime(fix.elapsedNanos * SECONDS_PER_NANO), fix.place)
+            } else {
+                wideFixes++
+            }
+        }
+        pose.heading?.takeIf { it.elapsedNanos > headingNanos }?.let {
+            headingNanos = it.elapsedNanos
+            mission.compass(BoatTime(it.elapsedNanos * SECONDS_PER_NANO), it.radians, it.yawRate)
+        }
+        if (log.failed) mission.logLost()
+        val state = mission.step(BoatTime(seconds))
+        mission.position?.let(track::add)
+        if (state is MissionState.Stopped && stoppedAt.isNaN()) stoppedAt = seconds
+    }
+
+    /** As of now; [isOver] where the log is closed. */
+    fun report(isOver: Boolean): MissionReport =
+        MissionReport(
+            spec,
+            mission.state,
+            mission.wish,
+            recovered != null,
+            isOver,
+            mission.map.copy(),
+            mission.position,
+            track.places(),
+            mission.waypoints(),
+            mission.used,
+            trace.points(),
+            counts(),
+            log.report,
+            readAt.copyOf(),
+            now,
+        )
+
+    private fun counts(): ReadingCounts {
+        val gate = mission.readings
+        val waiting = if (gate.held == null) 0L else 1L
+        return ReadingCounts(
+            gate.passed + gate.leftOut + waiting,
+            gate.passed,
+            waiting,
+            gate.outOfRange,
+            gate.lone,
+            gate.withoutValueOrPlace,
+            mission.board.unreadable,
+        )
+    }
+
+    private fun took(reading: Reading) {
+        val map = mission.map
+        trace.take(reading, map)
+        map.grid.cellAt(reading.position).takeIf { it >= 0 }?.let { readAt[it] = now }
+    }
+
+    private companion object {
+        const val SECONDS_PER_NANO = 1e-9
+
+        /** A board that is told to disarm every second has been told often enough, s. */
+        const val LONGEST_DISARMING = 5.0
+    }
+}

@@ -1,0 +1,119 @@
+package stillwater.app.screen
+
+import android.content.Context
+import stillwater.app.R
+import stillwater.app.link.LinkState
+import stillwater.app.service.Answer
+import stillwater.app.service.BoatActivity
+import stillwater.app.service.BoatSnapshot
+import stillwater.app.service.PreflightCheck
+import stillwater.app.service.PreflightReason
+import stillwater.app.setup.words
+import stillwater.mission.MissionState
+import stillwater.mission.StopReason
+
+/** What the boat does and how the link is: two short lines for the top of every screen. */
+internal fun Context.stateWords(snapshot: BoatSnapshot): String {
+    val mission = snapshot.mission
+    val first =
+        if (mission == null || snapshot.activity == BoatActivity.REFUSED) {
+            listOfNotNull(getString(snapshot.activity.words()), snapshot.refusal).joinToString(": ")
+        } else {
+            missionWords(mission.state)
+        }
+    val link =
+        snapshot.linkName?.let { getString(R.string.notification_link, it, getString(snapshot.link.state.words())) }
+    return listOfNotNull(first, link).joinToString("\n")
+}
+
+/** Whether a person should look at once. */
+internal fun isBad(snapshot: BoatSnapshot): Boolean =
+    snapshot.link.state == LinkState.WAITING || snapshot.activity == BoatActivity.REFUSED
+
+/** What a mission is about, with the reason where there is one. */
+internal fun Context.missionWords(state: MissionState): String =
+    when (state) {
+        MissionState.Idle -> getString(R.string.mission_idle)
+        is MissionState.Preflight ->
+            state.missing?.let { getString(R.string.mission_waiting, getString(it.words())) }
+                ?: getString(R.string.mission_preflight)
+        MissionState.Arming -> getString(R.string.mission_arming)
+        MissionState.Surveying -> getString(R.string.mission_surveying)
+        is MissionState.Holding -> getString(R.string.mission_holding, getString(state.danger.words()))
+        is MissionState.Returning -> getString(R.string.mission_returning, getString(state.danger.words()))
+        is MissionState.Stopped -> getString(R.string.mission_stopped, getString(state.reason.words()))
+    }
+
+private fun StopReason.words(): Int =
+    when (this) {
+        StopReason.COMPLETED -> R.string.stopped_completed
+        StopReason.OPERATOR -> R.string.stopped_operator
+        StopReason.BATTERY -> R.string.danger_battery
+        StopReason.LOG_LOST -> R.string.danger_log
+        StopReason.FENCE -> R.string.danger_fence
+        StopReason.DISARMED -> R.string.stopped_disarmed
+    }
+
+/** What the service does, in words. */
+internal fun BoatActivity.words(): Int =
+    when (this) {
+        BoatActivity.IDLE -> R.string.activity_idle
+        BoatActivity.STANDING_BY -> R.string.activity_standing_by
+        BoatActivity.RECOVERED -> R.string.activity_recovered
+        BoatActivity.REFUSED -> R.string.activity_refused
+    }
+
+/** The link's state in words. */
+internal fun LinkState.words(): Int =
+    when (this) {
+        LinkState.CONNECTED -> R.string.link_connected
+        LinkState.CONNECTING -> R.string.link_connecting
+        LinkState.WAITING -> R.string.link_waiting
+        LinkState.CLOSED -> R.string.link_closed
+    }
+
+/** Why a command was not followed. */
+internal fun Context.answerWords(answer: Answer): String {
+    val words =
+        when (answer.reason) {
+            Answer.Reason.NO_MISSION -> R.string.answer_no_mission
+            Answer.Reason.NOT_A_MISSION -> R.string.answer_not_a_mission
+            Answer.Reason.NOT_READY -> R.string.answer_not_ready
+            Answer.Reason.UNDER_WAY -> R.string.answer_under_way
+            Answer.Reason.NOT_UNDER_WAY -> R.string.answer_not_under_way
+            Answer.Reason.OVER -> R.string.answer_over
+            Answer.Reason.NO_LOG -> R.string.answer_no_log
+        }
+    return listOfNotNull(getString(words), answer.words).joinToString(": ")
+}
+
+/** What a line of the checklist looks at. */
+internal fun PreflightCheck.words(): Int =
+    when (this) {
+        PreflightCheck.PERMISSIONS -> R.string.check_permissions
+        PreflightCheck.LINK -> R.string.check_link
+        PreflightCheck.FIX -> R.string.check_fix
+        PreflightCheck.BOAT_BATTERY -> R.string.check_boat_battery
+        PreflightCheck.PHONE_BATTERY -> R.string.check_phone_battery
+        PreflightCheck.STORAGE -> R.string.check_storage
+        PreflightCheck.BATTERY_SAVER -> R.string.check_battery_saver
+    }
+
+/** Why a line of the checklist is red. */
+internal fun PreflightReason.words(): Int =
+    when (this) {
+        PreflightReason.NOT_PERMITTED -> R.string.reason_not_permitted
+        PreflightReason.NO_LINK -> R.string.reason_no_link
+        PreflightReason.NOT_CONNECTED -> R.string.reason_not_connected
+        PreflightReason.BOARD_SILENT -> R.string.reason_board_silent
+        PreflightReason.NO_RECEIVER -> R.string.reason_no_receiver
+        PreflightReason.RECEIVER_OFF -> R.string.reason_receiver_off
+        PreflightReason.NO_FIX -> R.string.reason_no_fix
+        PreflightReason.FIX_OLD -> R.string.reason_fix_old
+        PreflightReason.FIX_WIDE -> R.string.reason_fix_wide
+        PreflightReason.NO_HEADING -> R.string.reason_no_heading
+        PreflightReason.UNKNOWN_CHARGE -> R.string.reason_unknown_charge
+        PreflightReason.LOW_CHARGE -> R.string.reason_low_charge
+        PreflightReason.LITTLE_ROOM -> R.string.reason_little_room
+        PreflightReason.NOT_EXEMPT -> R.string.reason_not_exempt
+    }

@@ -1,0 +1,106 @@
+package stillwater.app.mission
+
+import org.junit.Rule
+import org.junit.Test
+import org.junit.rules.TemporaryFolder
+import java.io.File
+import java.io.IOException
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class LogFileTest {
+    @get:Rule
+    val temporary = TemporaryFolder()
+    private val file get() = File(temporary.root, "a.log.incomplete")
+    private val room = { Long.MAX_VALUE }
+
+    @Test
+    fun linesAreOnTheDiskAfterAFlushAndTheNameTellsTheEnd() {
+        val log = LogFile(file, LogOpener(::FileOutput), room)
+        log.line("one")
+        log.line("zwei, äöü")
+        assertFalse(file.exists(), "a line never waits for the disk")
+        log.flush()
+        assertEquals("one\nzwei, äöü\n", file.readText())
+        assertTrue(log.close())
+        assertEquals(LogReport("a.log", lines = 2, written = 2, isClosed = true), log.report)
+        assertEquals(listOf("a.log"), temporary.root.list().orEmpty().toList())
+    }
+
+    @Test
+    fun aLineThatWasCutIsNotJoinedWithTheNext() {
+        file.writeText("one\ntw")
+        val log = LogFile(file, LogOpener(::FileOutput), room)
+        log.line("three")
+        log.flush()
+        log.release()
+        assertEquals("one\ntw\nthree\n", file.readText())
+    }
+
+    @Test
+    fun whatTheDiskDoesNotTakeIsKeptTriedAgainAndAtLastCountedAsLost() {
+        var isFull = true
+        val taken = mutableListOf<String>()
+        val output =
+            object : LogOutput {
+                override fun append(bytes: ByteArray) {
+                    if (isFull) throw IOException("full")
+                    taken += String(bytes)
+                }
+
+                override fun close() = Unit
+            }
+        val log = LogFile(file, { output }, room)
+        log.line("first")
+        log.flush()
+        assertTrue(log.failed)
+        assertEquals("full", log.report.problem)
+        val megabyte = "x".repeat(1 shl 20)
+        repeat(6) {
+            log.line(megabyte)
+            log.flush()
+        }
+        assertFalse(log.close(), "lines are missing")
+        isFull = false
+        assertTrue(log.close())
+        assertEquals("first\n", taken.first())
+        val report = log.report
+        assertEquals(7L, report.lines)
+        assertEquals(report.lines, report.written + report.lost)
+        assertTrue(report.lost in 2..3, "$report")
+        assertTrue(log.failed, "it is not forgotten that it failed")
+    }
+
+    @Test
+    fun littleRoomIsTroubleBeforeTheDiskIsFull() {
+        val log = LogFile(file, LogOpener(::FileOutput)) { 1_000_000 }
+        log.line("one")
+        log.flush()
+        assertTrue(log.failed)
+        assertEquals(1L, log.report.written)
+    }
+
+    /** The kernel's own full disk, where there is one. */
+    @Test
+    fun aDiskThatIsReallyFullLeavesNothingHalfWritten() {
+        val full = File("/dev/full")
+        org.junit.Assume.assumeTrue("no $full here", full.exists())
+        assertFailsWith<IOException> { FileOutput(full).append("line\n".toByteArray()) }
+    }
+
+    @Test
+    fun theFolderKnowsTheNewestThatIsIncompleteAndListsAll() {
+        val folder = LogFolder({ temporary.root }, room = room)
+        val log = folder.begin("Lac d'Argent / 2", epochMillis = 1_700_000_000_000)
+        log.line("no mission")
+        log.flush()
+        log.release()
+        val name = "2023-11-14T22-13-20-Lac-d-Argent---2.log.incomplete"
+        assertEquals(listOf(name), folder.past().map { it.name })
+        assertEquals(null, folder.recover(), "it has no mission in it")
+        folder.complete(name)
+        assertEquals(listOf(true), folder.past().map { it.isComplete })
+    }
+}

@@ -1,0 +1,218 @@
+package stillwater.app.screen
+
+import android.app.Activity
+import android.app.Application
+import android.content.Intent
+import android.net.Uri
+import android.view.View
+import android.widget.Button
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.jsonArray
+import kotlinx.serialization.json.jsonObject
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import stillwater.app.R
+import stillwater.app.mission.PastMission
+import stillwater.app.service.BoatService
+import stillwater.mission.LogStart
+import stillwater.mission.MissionDraft
+import stillwater.mission.MissionLog
+import stillwater.mission.MissionSpec
+import stillwater.mission.ReadingVerdict
+import stillwater.model.BoatTime
+import stillwater.model.Position
+import stillwater.model.Reading
+import stillwater.wire.Message
+import java.io.ByteArrayOutputStream
+import java.io.File
+import java.io.IOException
+import java.io.OutputStream
+import java.util.concurrent.Executor
+import kotlin.test.assertContentEquals
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+@RunWith(RobolectricTestRunner::class)
+class DocumentsTest {
+    private val context: Application = RuntimeEnvironment.getApplication()
+    private val document = Uri.parse("content://cards/7")
+    private val out = ByteArrayOutputStream()
+    private val log = writeLog()
+    private val window = Window()
+    private val activity get() = window.activity
+
+    /** Two readings of one cell; the end is cut off, as by an empty battery. */
+    private fun writeLog(): File {
+        val lines = ArrayList<String>()
+        val writer = MissionLog(lines::add, LogStart(1_784_000_000_000, "2026-07-14 03:33:20"), Scenes.spec)
+        for (second in 1..2) {
+            val now = BoatTime(second.toDouble())
+            val reading = Reading(now, Position(7.0, 8.0), 8.0 + second)
+            writer.reading(now, Message.Oxygen(1, reading.value), ReadingVerdict.PASSED, listOf(reading), null)
+        }
+        return BoatService.logOf(context, NAME).apply {
+            parentFile?.mkdirs()
+            writeText(lines.joinToString("\n", postfix = "\n2100\tI\t{\"mission\":{\"t_s\""))
+        }
+    }
+
+    private fun openPast() {
+        activity.go(ScreenName.PAST)
+        val past = listOf(PastMission(NAME, log.length(), isComplete = false, epochMillis = 1_784_000_000_000))
+        window.boat.snapshot = Scenes.standingBy.copy(past = past)
+        activity.show(window.boat.snapshot)
+        activity.shown().filterIsInstance<Button>().single { "CUT OFF" in it.text }.performClick()
+    }
+
+    /** Presses [words] and answers Android's question with [answer]; null is a change of mind. */
+    private fun choose(words: String, answer: Uri?): Intent {
+        activity.button(words).performClick()
+        val asked = shadowOf(activity).nextStartedActivityForResult.intent
+        val result = if (answer == null) Activity.RESULT_CANCELED else Activity.RESULT_OK
+        shadowOf(activity).receiveResult(asked, result, answer?.let { Intent().setData(it) })
+        window.settle()
+        return asked
+    }
+
+    private fun take(stream: OutputStream = out) =
+        shadowOf(context.contentResolver).registerOutputStream(document, stream)
+
+    @Test
+    fun theLogIsSharedByteForByte() {
+        take()
+        openPast()
+        val asked = choose("Log", document)
+        assertEquals(Intent.ACTION_CREATE_DOCUMENT, asked.action)
+        assertEquals("2026-07-13T15-02-05-Mill-bay.txt", asked.getStringExtra(Intent.EXTRA_TITLE))
+        assertContentEquals(log.readBytes(), out.toByteArray())
+        assertTrue("Written" in activity.wordsShown())
+    }
+
+    @Test
+    fun theMapIsSharedAsTablesAndShapesEvenOfALogThatWasCutOff() {
+        take()
+        openPast()
+        choose("CSV", document)
+        val table = out.toString().trimEnd().lines().map { it.split(',') }
+        assertEquals(Scenes.spec.grid.grid().size + 1, table.size)
+        assertEquals(1, table.drop(1).count { it[table[0].indexOf("readings")] == "2" })
+        out.reset()
+        assertEquals("application/geo+json", choose("GeoJSON", document).type)
+        val features = Json.parseToJsonElement(out.toString()).jsonObject.getValue("features").jsonArray
+        assertEquals(1, features.size)
+    }
+
+    @Test
+    fun aChangeOfMindWritesNothing() {
+        take()
+        openPast()
+        choose("GeoJSON", null)
+        assertEquals(0, out.size())
+        assertTrue("Nothing was chosen" in activity.wordsShown())
+    }
+
+    @Test
+    fun aPlaceThatTakesNothingIsSaidSo() {
+        val full =
+            object : OutputStream() {
+                override fun write(b: Int): Unit = throw IOException("ENOSPC")
+            }
+        take(full)
+        openPast()
+        choose("CSV", document)
+        assertTrue("Not written: ENOSPC" in activity.wordsShown(), "${activity.wordsShown()}")
+    }
+
+    @Test
+    fun whatIsChosenIsWrittenEvenWhenTheProcessDiedMeanwhile() {
+        take()
+        openPast()
+        activity.button("Log").performClick()
+        val asked = shadowOf(activity).nextStartedActivityForResult.intent
+        window.controller.recreate()
+        activity.go(ScreenName.PAST)
+        @Suppress("DEPRECATION")
+        activity.onActivityResult(DocumentPurpose.LOG.ordinal, Activity.RESULT_OK, Intent(asked).setData(document))
+        window.settle()
+        assertContentEquals(log.readBytes(), out.toByteArray())
+    }
+
+    @Test
+    fun deletionAsksAndWhatWasCutOffCanBeClosed() {
+        openPast()
+        activity.view<View>(R.id.delete).performClick()
+        assertTrue("Delete the log and all that was measured?" in activity.wordsShown())
+        activity.button("Keep it").performClick()
+        assertTrue(log.isFile)
+        activity.button("Close it as it is").performClick()
+        window.settle()
+        val closed = BoatService.logOf(context, NAME.removeSuffix(".incomplete"))
+        assertTrue(closed.isFile && !log.isFile)
+        closed.renameTo(log)
+        activity.view<View>(R.id.delete).performClick()
+        activity.view<View>(R.id.delete_yes).performClick()
+        window.settle()
+        assertFalse(log.exists())
+        assertTrue("Deleted" in activity.wordsShown())
+        assertEquals("look", window.boat.told.last())
+    }
+
+    @Test
+    fun nothingTouchesADocumentOrALogOnTheMainThread() {
+        val waiting = ArrayDeque<Runnable>()
+        take()
+        openPast()
+        Background.executor = Executor { waiting += it }
+        choose("CSV", document)
+        activity.view<View>(R.id.delete).performClick()
+        activity.view<View>(R.id.delete_yes).performClick()
+        window.settle()
+        assertEquals(0, out.size())
+        assertTrue(log.isFile)
+        while (waiting.isNotEmpty()) waiting.removeFirst().run()
+        assertTrue(out.size() > 0 && !log.exists())
+    }
+
+    @Test
+    fun whatIsBeingWrittenCanNeitherBeClosedNorDeleted() {
+        activity.go(ScreenName.PAST)
+        val open = checkNotNull(Scenes.report.log).name
+        activity.show(Scenes.surveying.copy(past = listOf(PastMission(open, 9, false, 0))))
+        activity.shown().filterIsInstance<Button>().single { "in use" in it.text }.performClick()
+        val words = activity.wordsShown()
+        assertTrue("Log" in words)
+        assertTrue("Delete" !in words && "Close it as it is" !in words, "$words")
+    }
+
+    @Test
+    fun aMissionIsReadAndWrittenAndWhatIsNoneIsRefusedInOneLine() {
+        activity.go(ScreenName.MISSION)
+        give(Scenes.spec.toJson())
+        choose("Load a file", document)
+        assertEquals(Scenes.spec, activity.desk.check?.spec)
+        take()
+        choose("Save a file", document)
+        assertEquals(Scenes.spec, MissionSpec.fromJson(out.toString()))
+        val before: MissionDraft = activity.desk.draft
+        give("{\"name\":\"x\"")
+        choose("Load a file", document)
+        assertTrue(activity.wordsShown().any { it.startsWith("Not read: not a mission: ") && '\n' !in it })
+        assertEquals(before, activity.desk.draft)
+        give("""{"quantity":"temperature","lowest":4,"highest":30}""")
+        choose("Load a probe or sensor file", document)
+        assertEquals(30.0, activity.desk.check?.spec?.probe?.highest)
+        choose("Load a file", null)
+        assertTrue("Nothing was chosen" in activity.wordsShown())
+    }
+
+    private fun give(text: String) =
+        shadowOf(context.contentResolver).registerInputStream(document, text.byteInputStream())
+
+    private companion object {
+        const val NAME = "2026-07-13T15-02-05-Mill-bay.log.incomplete"
+    }
+}

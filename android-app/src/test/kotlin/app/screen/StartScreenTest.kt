@@ -1,0 +1,104 @@
+package stillwater.app.screen
+
+import android.content.Intent
+import android.provider.Settings
+import android.view.View
+import android.widget.Button
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.Shadows.shadowOf
+import stillwater.app.R
+import stillwater.app.service.Answer
+import stillwater.app.service.BoatSnapshot
+import stillwater.control.Danger
+import stillwater.mission.MissionState
+import stillwater.mission.StopReason
+import stillwater.mission.Wish
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+@RunWith(RobolectricTestRunner::class)
+class StartScreenTest {
+    private val window = Window().also { it.activity.go(ScreenName.START) }
+    private val activity = window.activity
+
+    @Test
+    fun whatMayBePressedFollowsFromTheState() {
+        val red = Scenes.loaded.preflight.mapIndexed { index, item -> item.copy(ready = index > 0) }
+        val cases =
+            listOf(
+                BoatSnapshot() to "",
+                Scenes.loaded to "arm start",
+                Scenes.loaded.copy(preflight = red) to "",
+                Scenes.loaded.copy(preflight = emptyList()) to "",
+                under(MissionState.Preflight(null), Wish.WAIT) to "start hold home",
+                under(MissionState.Arming, Wish.GO_ON) to "hold home",
+                under(MissionState.Surveying, Wish.GO_ON) to "hold home",
+                under(MissionState.Holding(Danger.OPERATOR_HOLD), Wish.HOLD) to "start home",
+                under(MissionState.Holding(Danger.LINK_LOST), Wish.GO_ON) to "hold home",
+                under(MissionState.Returning(Danger.OPERATOR_RETURN), Wish.RETURN) to "start hold",
+                under(MissionState.Stopped(StopReason.OPERATOR), Wish.GO_ON, isOver = true) to "",
+            )
+        for ((snapshot, expected) in cases) {
+            activity.show(snapshot)
+            val may = buttons.filterKeys { activity.view<Button>(it).run { isShown && isEnabled } }.values
+            assertEquals(expected, may.joinToString(" "), "${snapshot.mission?.state}")
+            assertTrue(activity.view<View>(R.id.stop).run { isShown && isEnabled })
+        }
+    }
+
+    @Test
+    fun eachButtonTellsTheBoat() {
+        activity.show(Scenes.loaded)
+        window.boat.told.clear()
+        activity.view<View>(R.id.arm).performClick()
+        activity.view<View>(R.id.start).performClick()
+        activity.show(Scenes.surveying)
+        activity.view<View>(R.id.hold).performClick()
+        activity.view<View>(R.id.go_home).performClick()
+        assertEquals(listOf("arm", "start", "hold", "home"), window.boat.told)
+    }
+
+    @Test
+    fun anOverMissionMakesRoomForAnother() {
+        activity.show(under(MissionState.Stopped(StopReason.COMPLETED), Wish.GO_ON, isOver = true))
+        activity.view<View>(R.id.another).performClick()
+        assertEquals("new", window.boat.told.last())
+        assertTrue(activity.view<View>(R.id.setup).isShown)
+    }
+
+    @Test
+    fun aRedLineSaysWhyAndWhatMendsItIsBesideIt() {
+        activity.show(Scenes.recovered)
+        assertTrue("3 things are not in order" in activity.wordsShown())
+        assertTrue("✗ Link to the board: not connected" in activity.wordsShown(), "${activity.wordsShown()}")
+        activity.button("Let it run while the screen is off").performClick()
+        val asked = shadowOf(activity).nextStartedActivity
+        assertEquals(Settings.ACTION_REQUEST_IGNORE_BATTERY_OPTIMIZATIONS, asked.action)
+        activity.button("Choose the link").performClick()
+        assertTrue("Connect to" in activity.wordsShown())
+    }
+
+    @Test
+    fun aSettingThatThePhoneDoesNotHaveIsSaidSo() {
+        shadowOf(activity.application).checkActivities(true)
+        activity.leave(Intent("no.such.screen"))
+        assertTrue("This phone has no such screen" in activity.wordsShown())
+    }
+
+    @Test
+    fun aCommandThatWasNotFollowedIsAnswered() {
+        activity.show(Scenes.loaded.copy(answer = Answer(Answer.Reason.NO_LOG, "ENOSPC")))
+        assertTrue("The log cannot be written: ENOSPC" in activity.wordsShown())
+        activity.show(Scenes.loaded)
+        assertTrue(activity.wordsShown().none { "ENOSPC" in it })
+    }
+
+    private fun under(state: MissionState, wish: Wish, isOver: Boolean = false) =
+        Scenes.standingBy.copy(mission = Scenes.report(state, wish, isOver = isOver))
+
+    private companion object {
+        val buttons = mapOf(R.id.arm to "arm", R.id.start to "start", R.id.hold to "hold", R.id.go_home to "home")
+    }
+}

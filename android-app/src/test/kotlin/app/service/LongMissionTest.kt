@@ -1,0 +1,113 @@
+package stillwater.app.service
+
+import android.app.Application
+import android.os.BatteryManager
+import org.junit.After
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.Robolectric
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import org.robolectric.android.controller.ServiceController
+import org.robolectric.annotation.Config
+import stillwater.app.link.LinkChoice
+import stillwater.app.mission.FileOutput
+import stillwater.app.mission.LogOpener
+import stillwater.app.mission.LogOutput
+import stillwater.mission.MissionRecovery
+import stillwater.mission.MissionState
+import stillwater.mission.StopReason
+import java.io.FileOutputStream
+import java.time.Duration
+import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
+
+/** Two hours on the demo's water, in virtual time: nothing grows, nothing is lost. */
+@RunWith(RobolectricTestRunner::class)
+@Config(sdk = [35])
+class LongMissionTest {
+    private val context: Application = RuntimeEnvironment.getApplication()
+    private lateinit var controller: ServiceController<BoatService>
+    private val service get() = controller.get()
+
+    @After
+    fun end() {
+        controller.destroy()
+        BoatService.logs = LogOpener(::FileOutput)
+    }
+
+    @Test
+    fun twoHoursLeaveTheHeapFlatAndTheLogComplete() {
+        shadowOf(context.getSystemService(BatteryManager::class.java)!!)
+            .setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, 80)
+        // Seven thousand waits for a real disk are another test's.
+        BoatService.logs =
+            LogOpener { file ->
+                val stream = FileOutputStream(file, true)
+                object : LogOutput {
+                    override fun append(bytes: ByteArray) = stream.write(bytes)
+
+                    override fun close() = stream.close()
+                }
+            }
+        controller = Robolectric.buildService(BoatService::class.java).create()
+        service.onStartCommand(BoatService.startIntent(context, LinkChoice.Demo), 0, 1)
+        service.load(ServiceDesk.POND.replace("\"seconds\":200", "\"seconds\":7150"))
+        pass(5)
+        assertTrue(service.snapshot.isDemo && service.snapshot.preflight.all { it.ready }, "${service.snapshot.preflight}")
+        service.start()
+        // What the first minutes load, and what Android's own start leaves, is gone or settled by then.
+        pass(3000)
+        val early = heap()
+        pass(3000)
+        assertEquals(MissionState.Surveying, service.snapshot.mission?.state)
+        val late = heap()
+        // The estimator's cells and the lists for the screens are of fixed size; the log alone grew by 7 MB meanwhile.
+        assertTrue(late - early < MOST_GROWTH, "$early bytes after 50 min, $late after 100")
+
+        pass(1300)
+        val report = assertNotNull(service.snapshot.mission)
+        assertEquals(MissionState.Stopped(StopReason.COMPLETED), report.state)
+        assertTrue(report.isOver)
+        val counts = report.counts
+        assertTrue(counts.taken > 7000, "$counts")
+        assertEquals(counts.received, counts.taken, "the demo's probe says nothing that is doubted: $counts")
+        assertEquals(0L, counts.unreadable)
+        assertEquals(Gaps(), service.snapshot.gaps)
+
+        val log = assertNotNull(report.log)
+        assertTrue(log.isClosed && log.lost == 0L && log.written == log.lines && log.lines > 71_000, "$log")
+        val recovery = MissionRecovery()
+        var lines = 0L
+        BoatService.logOf(context, log.name).forEachLine {
+            recovery.line(it)
+            lines++
+        }
+        assertEquals(log.lines, lines)
+        val read = assertNotNull(recovery.recovered())
+        assertEquals(counts.taken, read.readings)
+        assertEquals(0L, read.unreadable)
+        assertEquals("stopped", read.lastState)
+    }
+
+    /** Lets [seconds] s pass, files keeping up. */
+    private fun pass(seconds: Int) {
+        repeat(seconds / CHUNK) {
+            shadowOf(service.boatLooper).idleFor(Duration.ofSeconds(CHUNK.toLong()))
+            shadowOf(service.diskLooper).idle()
+        }
+    }
+
+    /** What is in use once what is not has been thrown away. */
+    private fun heap(): Long {
+        repeat(3) { System.gc() }
+        return Runtime.getRuntime().run { totalMemory() - freeMemory() }
+    }
+
+    private companion object {
+        const val CHUNK = 5
+        const val MOST_GROWTH = 2_000_000L
+    }
+}

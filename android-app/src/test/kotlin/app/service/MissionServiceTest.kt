@@ -1,0 +1,327 @@
+package stillwater.app.service
+
+import android.app.Application
+import android.app.NotificationManager
+import android.os.Looper
+import org.junit.After
+import org.junit.Before
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import org.robolectric.annotation.Config
+import org.robolectric.shadows.ShadowSystemClock
+import stillwater.app.link.BoardLink
+import stillwater.app.link.LinkChoice
+import stillwater.app.link.LinkMaker
+import stillwater.app.mission.FileOutput
+import stillwater.app.mission.LogFolder
+import stillwater.app.mission.LogOpener
+import stillwater.app.mission.LogOutput
+import stillwater.control.Danger
+import stillwater.mission.MissionRecovery
+import stillwater.mission.MissionState
+import stillwater.mission.RecoveredMission
+import stillwater.mission.StopReason
+import stillwater.model.LatLon
+import java.io.File
+import java.io.IOException
+import java.time.Duration
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
+
+/** What a person and bad luck do to a mission; the phone's side of it. */
+@RunWith(RobolectricTestRunner::class)
+@Config(sdk = [34])
+class MissionServiceTest {
+    private val context: Application = RuntimeEnvironment.getApplication()
+    private val wire = DirectWire()
+    private val desk = ServiceDesk(wire)
+
+    @Before
+    fun loaded() {
+        desk.start()
+        desk.ask { load(ServiceDesk.POND) }
+        assertTrue(desk.until(10.0) { shot -> shot.preflight.all { it.ready } }, "${desk.snapshot.preflight}")
+    }
+
+    @After
+    fun end() = desk.end()
+
+    @Test
+    fun aPersonHoldsItSendsItOnAndCallsItHome() {
+        survey()
+        desk.ask { hold() }
+        assertTrue(desk.until(1.0) { it.mission?.state == MissionState.Holding(Danger.OPERATOR_HOLD) })
+        desk.ask { start() }
+        assertTrue(desk.until(1.0) { it.mission?.state == MissionState.Surveying })
+        desk.ask { load(ServiceDesk.POND) }
+        assertEquals(Answer(Answer.Reason.UNDER_WAY), desk.snapshot.answer)
+        desk.ask { newMission() }
+        assertEquals(Answer(Answer.Reason.UNDER_WAY), desk.snapshot.answer)
+        desk.pass(20.0)
+        desk.ask { goHome() }
+        assertTrue(desk.until(1.0) { it.mission?.state == MissionState.Returning(Danger.OPERATOR_RETURN) })
+        assertNull(desk.snapshot.answer)
+        assertTrue(desk.until(120.0) { it.mission?.state == MissionState.Stopped(StopReason.OPERATOR) })
+        desk.ask { start() }
+        assertTrue(desk.until(10.0) { it.mission?.isOver == true })
+        desk.ask { start() }
+        assertEquals(Answer(Answer.Reason.OVER), desk.snapshot.answer)
+        desk.ask { newMission() }
+        assertNull(desk.snapshot.mission)
+        desk.ask { hold() }
+        assertEquals(Answer(Answer.Reason.NOT_UNDER_WAY), desk.snapshot.answer)
+        desk.ask { start() }
+        assertEquals(Answer(Answer.Reason.NO_MISSION), desk.snapshot.answer)
+    }
+
+    @Test
+    fun whatIsNoMissionIsToldAndTheOneBeforeStays() {
+        desk.ask { load("""{"name":"pond"}""") }
+        val answer = assertNotNull(desk.snapshot.answer)
+        assertEquals(Answer.Reason.NOT_A_MISSION, answer.reason)
+        assertTrue("origin" in answer.words.orEmpty(), answer.words)
+        assertEquals("pond", desk.report.spec.name)
+    }
+
+    @Test
+    fun theStopActionEndsAMissionFirstAndTheServiceOnlyAfterwards() {
+        survey()
+        desk.ask { onStartCommand(BoatService.stopIntent(context), 0, 2) }
+        assertEquals(MissionState.Stopped(StopReason.OPERATOR), stateSoon())
+        assertTrue(desk.boat.board.actuation.isAtRest)
+        assertTrue(desk.until(10.0) { it.mission?.isOver == true })
+        assertFalse(shadowOf(desk.service).isStoppedBySelf, "the link stays, for the board to be told again")
+        desk.ask { onStartCommand(BoatService.stopIntent(context), 0, 3) }
+        desk.pass(0.5)
+        assertTrue(shadowOf(desk.service).isStoppedBySelf)
+        assertTrue(logs().single().name.endsWith(LogFolder.LOG))
+    }
+
+    @Test
+    fun aFullDiskSendsItHomeAndLosesNothingThatWasWritten() {
+        desk.end()
+        val disk = SmallDisk()
+        BoatService.logs = LogOpener { file -> disk.over(FileOutput(file)) }
+        desk.start()
+        desk.ask { load(ServiceDesk.POND) }
+        desk.until(10.0) { shot -> shot.preflight.all { it.ready } }
+        survey()
+        desk.pass(30.0)
+        disk.isFull = true
+        val before = logs().single().readText()
+        assertTrue(desk.until(3.0) { it.mission?.state == MissionState.Returning(Danger.LOG_LOST) }, "${desk.state}")
+        desk.pass(0.5)
+        assertEquals("No space left on device", desk.report.log?.problem)
+        assertEquals("Boat 3: connected. LOG NOT WRITTEN: No space left on device", notificationText())
+        assertTrue(desk.until(120.0) { it.mission?.state == MissionState.Stopped(StopReason.LOG_LOST) })
+        desk.pass(6.0)
+        assertEquals(before, logs().single().readText(), "what was written is as it was")
+        assertTrue(assertNotNull(desk.report.log).let { !it.isClosed && it.written < it.lines })
+        // Somebody makes room: all of it is written after all.
+        disk.isFull = false
+        desk.pass(2.0)
+        val log = assertNotNull(desk.report.log)
+        assertTrue(log.isClosed && log.lost == 0L && log.written == log.lines, "$log")
+        assertEquals(desk.report.counts.taken, read(logs().single()).readings)
+    }
+
+    @Test
+    fun aProcessThatDiedComesBackDisarmedWithItsMapAndItsLog() {
+        survey()
+        desk.pass(40.0)
+        val file = logs().single()
+        assertTrue(file.name.endsWith(LogFolder.INCOMPLETE))
+        // As it was on the disk when the process was killed: nobody closed anything, and a line is cut.
+        val left = file.readText().dropLast(20)
+        desk.end()
+        file.writeText(left)
+        val told = desk.told.length
+        desk.start(intent = null)
+        desk.pass(5.0)
+        assertEquals(BoatActivity.RECOVERED, desk.snapshot.activity)
+        assertEquals(MissionState.Idle, desk.state)
+        assertTrue(desk.report.isRecovered)
+        val logged = read(file)
+        assertTrue(logged.readings > 30)
+        sameMap(logged)
+        assertTrue(DISARM in desk.told.substring(told), "disarmed")
+        assertFalse("arm\"" in desk.told.substring(told).replace(DISARM, ""), "and not armed")
+        assertTrue(desk.boat.board.actuation.isAtRest)
+
+        desk.ask { start() }
+        assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying })
+        desk.pass(20.0)
+        assertEquals(listOf(file.name), logs().map { it.name }, "the same log goes on")
+        desk.ask { stop() }
+        assertTrue(desk.until(10.0) { it.mission?.isOver == true })
+        desk.pass(1.0)
+        val whole = read(logs().single())
+        assertEquals(1L, whole.unreadable, "the line that was cut")
+        sameMap(whole)
+    }
+
+    @Test
+    fun aBoatThreadThatHangsHasItsMotorsRested() {
+        survey()
+        assertTrue(desk.until(10.0) { !desk.boat.board.actuation.isAtRest })
+        wire.fromPhone()
+        val boat = shadowOf(desk.service.boatLooper)
+        boat.pause()
+        shadowOf(desk.service.watchdogLooper).idleFor(Duration.ofMillis(300))
+        assertEquals("", String(wire.fromPhone()), "not at once")
+        shadowOf(desk.service.watchdogLooper).idleFor(Duration.ofMillis(200))
+        assertTrue(String(wire.fromPhone()).startsWith("{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}"))
+        boat.unPause()
+    }
+
+    @Test
+    fun aBoardThatIsArmedWithoutAMissionIsDisarmed() {
+        desk.boat.phone.write("{\"e\":{\"cmd\":\"arm\"}}\n".toByteArray())
+        assertTrue(desk.until(10.0) { it.board.state?.word == "active" }, "somebody else armed it")
+        assertTrue(desk.until(5.0) { it.board.state?.word == "standby" })
+    }
+
+    @Test
+    fun aPhoneThatSleptIsNoticed() {
+        survey()
+        assertEquals(Gaps(), desk.snapshot.gaps)
+        ShadowSystemClock.simulateDeepSleep(Duration.ofSeconds(20))
+        desk.step()
+        desk.pass(0.5)
+        assertEquals(1L, desk.snapshot.gaps.count)
+        assertEquals(20.1, desk.snapshot.gaps.longestSeconds, 0.05)
+        assertTrue(desk.state is MissionState.Holding || desk.state == MissionState.Surveying, "${desk.state}")
+    }
+
+    @Test
+    fun fixesThatAreWideOrJumpAreCountedAndOnlyTheWideOnesKeptBack() {
+        survey()
+        val spec = desk.report.spec.origin
+        desk.fix(LatLon(spec.latitude, spec.longitude), accuracy = 80f)
+        desk.pass(0.5)
+        assertEquals(1L, desk.snapshot.fixes.wide)
+        // Not in the step in which the boat's own next fix comes: the newest one counts.
+        desk.until(2.0) { (it.fixAgeSeconds ?: 9.0) in 0.2..0.6 }
+        desk.fix(LatLon(spec.latitude + 0.01, spec.longitude))
+        desk.pass(0.5)
+        assertEquals(1L, desk.snapshot.fixes.jumps)
+        assertEquals(1L, desk.snapshot.fixes.refused, "by the mission itself")
+    }
+
+    @Test
+    fun anotherLinkOnTheWaterDoesNotEndTheMission() {
+        survey()
+        desk.ask { onStartCommand(BoatService.startIntent(context, LinkChoice.Usb), 0, 2) }
+        assertTrue(desk.until(5.0) { it.mission?.state == MissionState.Surveying })
+        assertEquals(1, logs().size)
+    }
+
+    @Test
+    fun theTraceHasWhatTheMapMadeOfEachReading() {
+        survey()
+        desk.pass(20.0)
+        val trace = desk.report.trace
+        assertEquals(desk.report.counts.taken, trace.size.toLong())
+        assertTrue(trace.zipWithNext().all { (a, b) -> b.seconds > a.seconds })
+        assertEquals(4, trace.count { it.gradient == null }, "a slope wants five readings")
+        val last = trace.last()
+        val (lower, upper) = assertNotNull(last.lower) to assertNotNull(last.upper)
+        assertTrue(assertNotNull(last.corrected) in lower..upper)
+        assertTrue((0 until desk.report.map.grid.size).any { (desk.report.ageOf(it) ?: 99.0) < 2.0 })
+    }
+
+    @Test
+    fun nothingWaitsOnTheMainThread() {
+        desk.end()
+        val waited = mutableListOf<String>()
+        val note = { what: String -> if (Looper.myLooper() == Looper.getMainLooper()) waited += what }
+        BoatService.logs =
+            LogOpener { file ->
+                note("open")
+                val real = FileOutput(file)
+                object : LogOutput {
+                    override fun append(bytes: ByteArray) {
+                        note("write")
+                        real.append(bytes)
+                    }
+
+                    override fun close() {
+                        note("close")
+                        real.close()
+                    }
+                }
+            }
+        val links =
+            LinkMaker { _, _ ->
+                object : BoardLink by wire.link {
+                    override fun read(into: ByteArray): Int = wire.link.read(into).also { note("read") }
+
+                    override fun write(bytes: ByteArray): Boolean = wire.link.write(bytes).also { note("send") }
+                }
+            }
+        desk.start(links = links)
+        desk.ask { load(ServiceDesk.POND) }
+        desk.until(10.0) { shot -> shot.preflight.all { it.ready } }
+        survey()
+        desk.pass(5.0)
+        desk.ask { stop() }
+        desk.until(10.0) { it.mission?.isOver == true }
+        desk.pass(1.0)
+        assertTrue(assertNotNull(desk.report.log).isClosed)
+        assertEquals(emptyList(), waited)
+    }
+
+    private fun survey() {
+        desk.ask { start() }
+        assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying }, "${desk.snapshot.answer}")
+    }
+
+    private fun stateSoon(): MissionState {
+        desk.pass(1.0)
+        return desk.state
+    }
+
+    private fun logs(): List<File> = BoatService.logOf(context, "").listFiles().orEmpty().sorted()
+
+    private fun read(file: File): RecoveredMission =
+        assertNotNull(MissionRecovery().apply { file.forEachLine { line(it) } }.recovered())
+
+    private fun sameMap(logged: RecoveredMission) {
+        val (ours, read) = desk.report.map to logged.estimator.map
+        for (cell in 0 until ours.grid.size) {
+            assertEquals(read.value(cell), ours.value(cell), 0.0)
+            assertEquals(read.upper(cell), ours.upper(cell), 0.0)
+            assertEquals(read.readings(cell), ours.readings(cell))
+        }
+    }
+
+    private fun notificationText(): CharSequence? {
+        val manager = context.getSystemService(NotificationManager::class.java)!!
+        return shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
+    }
+
+    /** A disk that somebody fills up. */
+    private class SmallDisk {
+        @Volatile var isFull = false
+
+        fun over(real: LogOutput) =
+            object : LogOutput {
+                override fun append(bytes: ByteArray) {
+                    if (isFull) throw IOException("No space left on device")
+                    real.append(bytes)
+                }
+
+                override fun close() = real.close()
+            }
+    }
+
+    private companion object {
+        const val DISARM = "{\"e\":{\"cmd\":\"disarm\"}}"
+    }
+}

@@ -1,0 +1,110 @@
+package stillwater.app.service
+
+import android.app.Application
+import android.os.BatteryManager
+import android.os.PowerManager
+import org.junit.Before
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import org.robolectric.annotation.Config
+import stillwater.app.link.LinkHealth
+import stillwater.app.link.LinkState
+import stillwater.app.pose.PoseProblem
+import kotlin.test.assertEquals
+
+/** Each line of the checklist by itself, and what makes it red. */
+@RunWith(RobolectricTestRunner::class)
+@Config(sdk = [26, 29, 34, 35])
+class PreflightTest {
+    private val context: Application = RuntimeEnvironment.getApplication()
+    private val battery = shadowOf(context.getSystemService(BatteryManager::class.java)!!)
+    private val power = shadowOf(context.getSystemService(PowerManager::class.java)!!)
+
+    @Before
+    fun allIsWell() {
+        Preflight.neededPermissions().forEach { shadowOf(context).grantPermissions(it) }
+        battery.setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, 30)
+        power.setIgnoringBatteryOptimizations(context.packageName, true)
+    }
+
+    @Test
+    fun aBoatThatIsReadyIsGreen() = assertEquals(emptyMap(), red(boat()))
+
+    @Test
+    fun theBoatsOwnLines() {
+        val link = PreflightCheck.LINK
+        assertEquals(mapOf(link to PreflightReason.NO_LINK), red(boat(hasLink = false)))
+        assertEquals(mapOf(link to PreflightReason.NOT_CONNECTED), red(boat(state = LinkState.WAITING)))
+        assertEquals(mapOf(link to PreflightReason.BOARD_SILENT), red(boat(silence = 2.5)))
+        val charge = PreflightCheck.BOAT_BATTERY
+        assertEquals(mapOf(charge to PreflightReason.UNKNOWN_CHARGE), red(boat(volts = null)))
+        assertEquals(mapOf(charge to PreflightReason.LOW_CHARGE), red(boat(volts = 10.9)))
+        val fix = PreflightCheck.FIX
+        for ((problem, reason) in mapOf(
+            PoseProblem.NO_RECEIVER to PreflightReason.NO_RECEIVER,
+            PoseProblem.NOT_PERMITTED to PreflightReason.NOT_PERMITTED,
+            PoseProblem.SWITCHED_OFF to PreflightReason.RECEIVER_OFF,
+        )) {
+            assertEquals(mapOf(fix to reason), red(boat(pose = problem)))
+        }
+        assertEquals(mapOf(fix to PreflightReason.NO_FIX), red(boat(age = null)))
+        assertEquals(mapOf(fix to PreflightReason.FIX_OLD), red(boat(age = 3.5)))
+        assertEquals(mapOf(fix to PreflightReason.FIX_WIDE), red(boat(accuracy = 11f)))
+        assertEquals(mapOf(fix to PreflightReason.FIX_WIDE), red(boat(accuracy = null)))
+        assertEquals(mapOf(fix to PreflightReason.NO_HEADING), red(boat(hasHeading = false)))
+    }
+
+    @Test
+    fun thePhonesOwnLines() {
+        shadowOf(context).denyPermissions(android.Manifest.permission.ACCESS_FINE_LOCATION)
+        battery.setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, 29)
+        power.setIgnoringBatteryOptimizations(context.packageName, false)
+        val expected =
+            mapOf(
+                PreflightCheck.PERMISSIONS to PreflightReason.NOT_PERMITTED,
+                PreflightCheck.PHONE_BATTERY to PreflightReason.LOW_CHARGE,
+                PreflightCheck.BATTERY_SAVER to PreflightReason.NOT_EXEMPT,
+            )
+        assertEquals(expected, red(boat()))
+        assertEquals(
+            mapOf(PreflightCheck.PHONE_BATTERY to PreflightReason.LOW_CHARGE),
+            red(boat(isVirtual = true)),
+            "the demo needs no permission, and nothing is lost when Android ends it",
+        )
+        battery.setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, Int.MIN_VALUE)
+        assertEquals(PreflightReason.UNKNOWN_CHARGE, red(boat())[PreflightCheck.PHONE_BATTERY])
+    }
+
+    private fun red(boat: BoatAtRest): Map<PreflightCheck, PreflightReason?> {
+        val items = Preflight(context).look(boat)
+        assertEquals(PreflightCheck.entries.toList(), items.map { it.check })
+        assertEquals(items.map { !it.ready }, items.map { it.reason != null })
+        return items.filter { !it.ready }.associate { it.check to it.reason }
+    }
+
+    private fun boat(
+        hasLink: Boolean = true,
+        state: LinkState = LinkState.CONNECTED,
+        silence: Double = 0.1,
+        volts: Double? = 15.0,
+        pose: PoseProblem? = null,
+        age: Double? = 1.0,
+        accuracy: Float? = 5f,
+        hasHeading: Boolean = true,
+        isVirtual: Boolean = false,
+    ) = BoatAtRest(
+        hasLink = hasLink,
+        link = LinkHealth(state),
+        boardSilence = silence,
+        volts = volts,
+        lowestVolts = 11.0,
+        pose = pose,
+        fixAgeSeconds = age,
+        accuracyMetres = accuracy,
+        hasHeading = hasHeading,
+        isVirtual = isVirtual,
+    )
+}

@@ -1,0 +1,18 @@
+package stillwater.mission
+
+import stillwater.control.Danger
+
+/** What a person wants of a mission that was started; dangers are graver than any of it. */
+public enum class Wish(internal val danger: Danger?) {
+    /** Survey. */
+    GO_ON(null),
+
+    /** Wait with the motors at rest, armed. */
+    WAIT(Danger.OPERATOR_WAIT),
+
+    /** Stay on the spot, under power. */
+    HOLD(Danger.OPERATOR_HOLD),
+
+    /** Go home and end the mission there. */
+    RETURN(Danger.OPERATOR_RETURN),
+}
