@@ -224,7 +224,8 @@ internal class BoatLoop(
         if (held.link?.health?.state != LinkState.CONNECTED || now - askedAt < QUESTION_SECONDS) return
         askedAt = now
         held.write(PlatypusEncoder.encode(Command.AskState))
-        if (held.ears.report.state == BoardState.ACTIVE) standStill()
+        val state = held.ears.report.state
+        if (state != null && state != BoardState.STANDBY) standStill()
     }
 
     private fun standStill() {
