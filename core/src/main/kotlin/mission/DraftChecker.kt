@@ -190,7 +190,7 @@ internal class DraftChecker(private val draft: MissionDraft) {
         const val NUMERALS = "0123456789.+-eE"
 
         /** Each is drawn twice a second. */
-        const val MOST_CELLS = 40_000
+        const val MOST_CELLS = 20_000
 
         /** How a refusal begins, and the field it is about. */
         val NAMES = mapOf(

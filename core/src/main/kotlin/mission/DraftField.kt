@@ -4,7 +4,8 @@ package stillwater.mission
  * What a person fills in of a mission; a problem is shown where it is.
  *
  * @property start the text of a number before anyone has typed; null for what is not a number in a text.
- * @property unit of the number, as it is written behind it; empty for shares, the probe's own unit and what is no number.
+ * @property unit of the number, as it is written behind it; empty for shares, the probe's own unit and what is no
+ *   number.
  * @property optional whether the text may be empty.
  */
 public enum class DraftField(

@@ -12,7 +12,8 @@ import kotlin.math.round
 /**
  * A mission that a person is still filling in: anything may be missing or wrong, and [check] says what.
  *
- * Numbers are kept as they were typed, so that a half-typed one outlives a turn of the phone. Immutable; JSON by [toJson].
+ * Numbers are kept as they were typed, so that a half-typed one outlives a turn of the phone. Immutable; JSON by
+ * [toJson].
  *
  * @property name what lists call it.
  * @property origin where the frame of all places has its zero; null before the first place.
@@ -145,7 +146,7 @@ public data class MissionDraft(
 
         private fun centimetres(metres: Double) = round(metres * 100) / 100
 
-        /** Least and greatest value that fresh water has, with room: what lies beyond is taken for a fault of the probe. */
+        /** Least and greatest value that fresh water has, with room: what lies beyond is the probe's fault. */
         private fun usual(quantity: Quantity) = when (quantity) {
             Quantity.DISSOLVED_OXYGEN -> "0" to "20"
             Quantity.ACIDITY -> "4" to "11"

@@ -7,8 +7,8 @@ import kotlin.random.Random
 /**
  * How long a sensor takes for 1 - 1/e of a step between [low] and [high], up or down, whichever is longer; s.
  *
- * For a first-order lag that is its time constant. Tried on the sensor itself in steps of 0.1 s with nothing else measured,
- * so noise and drift are in it; at most 3600 s, which a sensor that never gets there is said to take.
+ * For a first-order lag that is its time constant. Tried on the sensor itself in steps of 0.1 s with nothing else
+ * measured, so noise and drift are in it; at most 3600 s, which a sensor that never gets there is said to take.
  *
  * @throws IllegalArgumentException if an end is not finite or [low] is not below [high].
  */

@@ -66,10 +66,12 @@ internal class Documents(
     fun chosen(purpose: DocumentPurpose, document: Uri?) {
         if (document == null) return tell(context.getString(R.string.document_cancelled), purpose)
         when (purpose) {
-            DocumentPurpose.MISSION -> read(document, purpose) { json, _ -> MissionDraft.of(MissionSpec.fromJson(json)) }
+            DocumentPurpose.MISSION ->
+                read(document, purpose) { json, _ -> MissionDraft.of(MissionSpec.fromJson(json)) }
             DocumentPurpose.PROBE -> read(document, purpose) { json, draft -> draft.measuring(json) }
             DocumentPurpose.SAVED_MISSION -> {
-                val json = desk.check?.spec?.toJson() ?: return tell(context.getString(R.string.save_not_whole), purpose)
+                val spec = desk.check?.spec ?: return tell(context.getString(R.string.save_not_whole), purpose)
+                val json = spec.toJson()
                 write(document, purpose) { it.write(json.toByteArray()) }
             }
             DocumentPurpose.LOG -> ofShared(document, purpose) { log, out -> log.inputStream().use { it.copyTo(out) } }

@@ -1,16 +1,14 @@
 package stillwater.app.screen
 
 import android.content.Context
+import android.graphics.Typeface
 import android.os.SystemClock
 import android.view.View
-import android.widget.LinearLayout
 import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.R
 import stillwater.app.link.BluetoothTransport
-import stillwater.app.link.BoardReport
 import stillwater.app.link.LinkChoice
-import stillwater.app.link.LinkState
 import stillwater.app.link.SerialDrivers
 import stillwater.app.service.BoatSnapshot
 
@@ -50,7 +48,7 @@ internal class LinkScreen(private val context: Context, private val host: Screen
             val each = words.getOrNull(index)
             line.say(each?.words)
             line.setTextColor(context.getColor(if (each?.isBad == true) R.color.bad else R.color.text))
-            line.setTypeface(null, if (each?.isTitle == true) android.graphics.Typeface.BOLD else 0)
+            line.setTypeface(null, if (each?.isTitle == true) Typeface.BOLD else Typeface.NORMAL)
         }
     }
 

@@ -30,8 +30,8 @@ import stillwater.mission.MissionDraft
 import stillwater.mission.MissionSpec
 
 /**
- * The one window: a screen in the middle, the way to the others and the boat's state above it, STOP below it whatever the
- * screen.
+ * The one window: a screen in the middle, the way to the others and the boat's state above it, STOP below it whatever
+ * the screen.
  *
  * It holds nothing that matters: it looks at the service twice a second while it is in sight, and may be turned, left
  * or swiped away at any time. What is being filled in is kept in its state and in a file.

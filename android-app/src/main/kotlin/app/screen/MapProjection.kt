@@ -13,9 +13,15 @@ internal class MapProjection(val centre: Position, val scale: Float, width: Floa
     private val middleX = width / 2
     private val middleY = height / 2
 
-    fun x(position: Position): Float = middleX + ((position.x - centre.x) * scale).toFloat()
+    fun x(position: Position): Float = x(position.x)
 
-    fun y(position: Position): Float = middleY - ((position.y - centre.y) * scale).toFloat()
+    fun y(position: Position): Float = y(position.y)
+
+    /** Where what is [east] m of the frame's origin is drawn, px. */
+    fun x(east: Double): Float = middleX + ((east - centre.x) * scale).toFloat()
+
+    /** Where what is [north] m of the frame's origin is drawn, px. */
+    fun y(north: Double): Float = middleY - ((north - centre.y) * scale).toFloat()
 
     /** What lies under a point of the screen. */
     fun position(x: Float, y: Float): Position =
@@ -25,7 +31,7 @@ internal class MapProjection(val centre: Position, val scale: Float, width: Floa
         /** A boat that has not moved yet is shown in 10 m of water, m. */
         private const val SMALLEST_SPAN = 10.0
 
-        /** All of [extent], at least one position, in sight, [margin] px free at every edge and [foot] px more below. */
+        /** All of [extent], not empty, in sight, [margin] px free at every edge and [foot] px more below. */
         fun fitting(
             extent: List<Position>,
             width: Float,

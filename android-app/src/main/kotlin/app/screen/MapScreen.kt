@@ -1,7 +1,6 @@
 package stillwater.app.screen
 
 import android.content.Context
-import android.view.View
 import android.widget.Button
 import android.widget.LinearLayout
 import stillwater.app.R
@@ -12,7 +11,8 @@ import stillwater.app.service.BoatSnapshot
 internal class MapScreen(private val context: Context) : Screen {
     private val map = MapView(context).apply { id = R.id.map }
     private val words =
-        context.liveLine(context.getString(R.string.map_begin)).apply {
+        // Not a live region: a cell's age grows all the time. What a finger touches the map says itself.
+        context.line(context.getString(R.string.map_begin)).apply {
             id = R.id.map_words
             val gap = resources.getDimensionPixelSize(R.dimen.gap)
             setPadding(gap, gap / 3, gap, gap / 3)

@@ -9,11 +9,11 @@ import stillwater.model.Interval
 import stillwater.model.Position
 
 /**
- * The live map: cells coloured by what is believed, the fainter the less certain; track, plan, fence, keep-outs, home and
- * boat.
+ * The live map: cells coloured by what is believed, the fainter the less certain; track, plan, fence, keep-outs, home
+ * and boat.
  *
- * A cell that is tapped is outlined and told of: [onCell] gets its words. Drawn anew only when a scene comes or a finger
- * does. Confined to the main thread.
+ * A cell that is tapped is outlined and told of: [onCell] gets its words. Drawn anew only when a scene comes or a
+ * finger does. Confined to the main thread.
  */
 internal class MapView(context: Context) : WaterView(context) {
     /** Takes what there is to say about the tapped cell, each time it changes. */
@@ -71,7 +71,10 @@ internal class MapView(context: Context) : WaterView(context) {
         if (cell == Grid.OUTSIDE) return null
         tapped = cell
         invalidate()
-        return told(map, cell).also(onCell)
+        return told(map, cell).also {
+            announceForAccessibility(it)
+            onCell(it)
+        }
     }
 
     private fun told(map: FieldMap, cell: Int): String {
@@ -111,11 +114,13 @@ internal class MapView(context: Context) : WaterView(context) {
     }
 
     private fun drawCells(canvas: Canvas, projection: MapProjection, map: FieldMap, range: Interval?) {
+        val reach = maxOf(map.grid.cellWidth, map.grid.cellHeight) * projection.scale
+        stroke(R.color.line, HAIR_DP)
         for (cell in 0 until map.grid.size) {
+            if (!isInSight(projection, map.grid, cell, reach)) continue
+            trace(projection, map.grid.corners(cell), isClosed = true)
             if (map.readings(cell) == 0 && map.lower(cell) <= map.prior.lower && map.upper(cell) >= map.prior.upper) {
                 // Nothing is known of it: its outline alone.
-                trace(projection, map.grid.corners(cell), isClosed = true)
-                stroke(R.color.line, HAIR_DP)
                 canvas.drawPath(path, line)
                 continue
             }
@@ -123,9 +128,15 @@ internal class MapView(context: Context) : WaterView(context) {
             val share = range?.takeIf { it.width > 0 }?.let { (map.value(cell) - it.lower) / it.width } ?: MIDDLE
             val certainty = 1 - (map.upper(cell) - map.lower(cell)) / map.prior.width
             fill.color = FieldColours.faded(FieldColours.of(share), certainty)
-            trace(projection, map.grid.corners(cell), isClosed = true)
             canvas.drawPath(path, fill)
         }
+    }
+
+    /** Whether any of [cell], whose corners are at most [reach] px from its centre, is in the view. */
+    private fun isInSight(projection: MapProjection, grid: Grid, cell: Int, reach: Double): Boolean {
+        val x = projection.x(grid.centerX(cell))
+        val y = projection.y(grid.centerY(cell))
+        return x > -reach && x < width + reach && y > -reach && y < height + reach
     }
 
     private fun drawKeepOut(canvas: Canvas, projection: MapProjection, ring: List<Position>) {

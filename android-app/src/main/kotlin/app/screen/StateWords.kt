@@ -21,7 +21,8 @@ internal fun Context.stateWords(snapshot: BoatSnapshot): String {
         } else {
             missionWords(mission.state)
         }
-    val link = snapshot.linkName?.let { getString(R.string.notification_link, it, getString(snapshot.link.state.words())) }
+    val link =
+        snapshot.linkName?.let { getString(R.string.notification_link, it, getString(snapshot.link.state.words())) }
     return listOfNotNull(first, link).joinToString("\n")
 }
 

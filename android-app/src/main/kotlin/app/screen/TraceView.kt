@@ -56,7 +56,8 @@ internal class TraceView(context: Context) : View(context) {
         val isLow = height < LEAST_LINES * text
         val middle = if (isLow) bottom + text else text + (bottom - text) * UPPER_SHARE
         val valueTicks = ((middle - 3 * text) / (ROOM_A_TICK * text)).toInt().coerceIn(1, VALUE_TICKS)
-        val values = Axis.round(moments.flatMap { listOf(it.reading, it.corrected) } + boundsInSight(moments), valueTicks)
+        val seen = moments.flatMap { listOf(it.reading, it.corrected) } + boundsInSight(moments)
+        val values = Axis.round(seen, valueTicks)
         val slopes = Axis.round(moments.map { it.gradient } + listOf(0.0), SLOPE_TICKS)
         val ticks = (values.ticks() + slopes.ticks()).map { (_, words) -> words }
         val left = EDGE_DP * density + ticks.maxOf { words.measureText(it) }
@@ -149,7 +150,8 @@ internal class TraceView(context: Context) : View(context) {
         if (scene.unit.isEmpty()) resources.getString(R.string.per_second) else "${scene.unit}/s"
 
     private fun described(scene: TraceScene): String {
-        val last = scene.moments.lastOrNull { it.reading.isFinite() } ?: return resources.getString(R.string.trace_empty)
+        val last =
+            scene.moments.lastOrNull { it.reading.isFinite() } ?: return resources.getString(R.string.trace_empty)
         val span = context.duration(last.seconds - scene.moments.first().seconds)
         return resources.getString(R.string.trace_said, span)
     }

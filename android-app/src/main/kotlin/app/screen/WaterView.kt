@@ -17,8 +17,8 @@ import stillwater.model.Position
 /**
  * A piece of water seen from above, which can be moved with a finger, and zoomed with two or by buttons.
  *
- * Shows all there is until someone moves it, or follows the boat. What is in sight outlives a turn of the phone. Confined
- * to the main thread.
+ * Shows all there is until someone moves it, or follows the boat. What is in sight outlives a turn of the phone.
+ * Confined to the main thread.
  */
 internal abstract class WaterView(context: Context) : View(context) {
     protected val density = resources.displayMetrics.density

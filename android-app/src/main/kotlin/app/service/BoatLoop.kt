@@ -276,11 +276,12 @@ internal class BoatLoop(
                 answer = answer,
                 past = missions.past,
             )
-        val isOther =
-            before.link.state != snapshot.link.state || before.linkName != snapshot.linkName ||
-                before.mission?.state != snapshot.mission?.state || before.mission?.log?.problem != snapshot.mission?.log?.problem
-        if (link != null && isOther) onChange()
+        if (link != null && told(before) != told(snapshot)) onChange()
     }
+
+    /** What the notification says. */
+    private fun told(shot: BoatSnapshot) =
+        listOf(shot.link.state, shot.linkName, shot.mission?.state, shot.mission?.log?.problem)
 
     private fun age(elapsedNanos: Long?): Double? = elapsedNanos?.let { now() - it * SECONDS_PER_NANO }
 

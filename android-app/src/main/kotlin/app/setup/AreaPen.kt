@@ -75,7 +75,10 @@ internal data class AreaPen(
 
     /** An outline that lost its last corner is none. */
     private fun MissionDraft.withRing(index: Int, places: List<PlaceSpec>) =
-        copy(keepOuts = keepOuts.mapIndexed { each, old -> if (each == index) places else old }.filter { it.isNotEmpty() })
+        copy(
+            keepOuts =
+            keepOuts.mapIndexed { each, old -> if (each == index) places else old }.filter { it.isNotEmpty() },
+        )
 
     private fun List<PlaceSpec>.without(index: Int) = filterIndexed { each, _ -> each != index }
 }

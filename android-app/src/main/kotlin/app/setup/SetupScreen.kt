@@ -42,9 +42,10 @@ internal class SetupScreen(
 ) : Screen {
     private val desk get() = host.desk
     private val said = context.liveLine().apply { id = R.id.document_said }
-    private val name = TextField(context, context.getString(R.string.field_name), isNumber = false, R.id.mission_name) { text ->
-        desk.change { it.with(DraftField.NAME, text) }
-    }
+    private val name =
+        TextField(context, context.getString(R.string.field_name), isNumber = false, R.id.mission_name) { text ->
+            desk.change { it.with(DraftField.NAME, text) }
+        }
     private val numbers = DraftField.NUMBERS.associateWith { field ->
         TextField(context, "", isNumber = true) { text -> desk.change { it.with(field, text) } }
     }

@@ -30,6 +30,7 @@ import java.io.ByteArrayOutputStream
 import java.io.File
 import java.io.IOException
 import java.io.OutputStream
+import java.util.concurrent.Executor
 import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
@@ -158,6 +159,22 @@ class DocumentsTest {
         assertFalse(log.exists())
         assertTrue("Deleted" in activity.wordsShown())
         assertEquals("look", window.boat.told.last())
+    }
+
+    @Test
+    fun nothingTouchesADocumentOrALogOnTheMainThread() {
+        val waiting = ArrayDeque<Runnable>()
+        take()
+        openPast()
+        Background.executor = Executor { waiting += it }
+        choose("CSV", document)
+        activity.view<View>(R.id.delete).performClick()
+        activity.view<View>(R.id.delete_yes).performClick()
+        window.settle()
+        assertEquals(0, out.size())
+        assertTrue(log.isFile)
+        while (waiting.isNotEmpty()) waiting.removeFirst().run()
+        assertTrue(out.size() > 0 && !log.exists())
     }
 
     @Test

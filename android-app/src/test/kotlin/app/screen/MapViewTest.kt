@@ -1,5 +1,7 @@
 package stillwater.app.screen
 
+import android.os.Parcelable
+import android.util.SparseArray
 import android.view.MotionEvent
 import android.view.View
 import org.junit.Test
@@ -80,7 +82,7 @@ class MapViewTest {
         map.scene = Scenes.halfSurveyed()
         map.zoom(3f)
         val before = assertNotNull(map.projection())
-        val state = android.util.SparseArray<android.os.Parcelable>()
+        val state = SparseArray<Parcelable>()
         map.id = View.generateViewId()
         map.saveHierarchyState(state)
         val other = mapView().apply {

@@ -41,7 +41,8 @@ import kotlin.math.hypot
 /** What the screens' tests and pictures show: a pond of 100 m by 60 m, half surveyed by a boat with a slow probe. */
 internal object Scenes {
     private val shore =
-        listOf(0 to -4, 60 to -9, 108 to 0, 112 to 40, 84 to 66, 30 to 69, -8 to 50, -10 to 12).map { (x, y) -> place(x, y) }
+        listOf(0 to -4, 60 to -9, 108 to 0, 112 to 40, 84 to 66, 30 to 69, -8 to 50, -10 to 12)
+            .map { (x, y) -> place(x, y) }
     private val island = listOf(60 to 50, 72 to 48, 75 to 57, 64 to 60).map { (x, y) -> place(x, y) }
 
     val spec =
@@ -110,9 +111,9 @@ internal object Scenes {
     /** Missions that were. */
     val past =
         listOf(
-            PastMission("2026-07-14T07-02-31-North-pond.log", 4_312_004, isComplete = true, epochMillis = 1_784_021_460_000),
+            PastMission("2026-07-14T07-02-31-North-pond.log", 4_312_004, true, 1_784_021_460_000),
             PastMission("2026-07-13T15-02-05-Mill-bay.log.incomplete", 912_331, false, 1_783_954_920_000),
-            PastMission("2026-07-12T08-15-40-Mill-bay.log", 2_120_560, isComplete = true, epochMillis = 1_783_844_100_000),
+            PastMission("2026-07-12T08-15-40-Mill-bay.log", 2_120_560, true, 1_783_844_100_000),
         )
 
     fun report(state: MissionState, wish: Wish = Wish.GO_ON, isRecovered: Boolean = false, isOver: Boolean = false) =
@@ -130,7 +131,7 @@ internal object Scenes {
             trace = trace.takeLast(TRACE),
             counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 7, 3),
             log = LogReport("2026-07-14T09-31-12-North-pond.log.incomplete", 9_113, 9_110),
-            readAt = DoubleArray(grid.size) { if (map.readings(it) > 0) it * SECONDS_A_CELL.toDouble() else Double.NaN },
+            readAt = DoubleArray(grid.size) { if (map.readings(it) > 0) 1.0 * it * SECONDS_A_CELL else Double.NaN },
             now = ROWS_DONE * grid.columns * SECONDS_A_CELL.toDouble(),
         )
 

@@ -7,6 +7,7 @@ import android.graphics.Color
 import android.view.View
 import android.widget.Button
 import org.junit.Assert.assertTrue
+import org.junit.Before
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
@@ -16,6 +17,7 @@ import stillwater.app.R
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.MissionDraft
 import java.io.File
+import java.util.TimeZone
 import kotlin.math.abs
 
 /**
@@ -26,6 +28,10 @@ import kotlin.math.abs
 @GraphicsMode(GraphicsMode.Mode.NATIVE)
 @Config(sdk = [35], qualifiers = "w411dp-h731dp-port-notnight-xhdpi")
 class ScreenshotTest {
+    /** Dates are the reader's own; in the pictures they are Greenwich's. */
+    @Before
+    fun atGreenwich() = TimeZone.setDefault(TimeZone.getTimeZone("UTC"))
+
     @Test
     fun map() = compare("map", mapScreen())
 

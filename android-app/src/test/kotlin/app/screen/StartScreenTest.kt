@@ -1,6 +1,7 @@
 package stillwater.app.screen
 
 import android.content.Intent
+import android.provider.Settings
 import android.view.View
 import android.widget.Button
 import org.junit.Test
@@ -74,7 +75,7 @@ class StartScreenTest {
         assertTrue("✗ Link to the board: not connected" in activity.wordsShown(), "${activity.wordsShown()}")
         activity.button("Let it run while the screen is off").performClick()
         val asked = shadowOf(activity).nextStartedActivity
-        assertEquals(android.provider.Settings.ACTION_REQUEST_IGNORE_BATTERY_OPTIMIZATIONS, asked.action)
+        assertEquals(Settings.ACTION_REQUEST_IGNORE_BATTERY_OPTIMIZATIONS, asked.action)
         activity.button("Choose the link").performClick()
         assertTrue("Connect to" in activity.wordsShown())
     }
