@@ -7,7 +7,7 @@ import kotlin.math.exp
 import kotlin.math.hypot
 
 /**
- * Water that is even but for a plume poor in oxygen, for demonstrations: v = b − d exp(−r / s), r the distance from [center].
+ * Water that is even but for a plume poor in oxygen, for a demo: v = b − d exp(−r / s), r the distance from [center].
  *
  * The same at all times, defined everywhere, and between [background] − [depth] and [background].
  *

@@ -95,7 +95,7 @@ class FaultsTest {
         assertEquals(MissionState.Stopped(StopReason.LOG_LOST), next(under, Danger.LOG_LOST, Failsafe.STOP))
         for (wish in listOf(Danger.OPERATOR_WAIT, Danger.OPERATOR_HOLD, Danger.OPERATOR_RETURN)) {
             val armed: MissionState = MissionState.Arming
-            assertEquals(armed, next(MissionState.Preflight(null), wish, Failsafe.STOP), "$wish does not keep it from arming")
+            assertEquals(armed, next(MissionState.Preflight(null), wish, Failsafe.STOP), "$wish lets it arm")
         }
     }
 

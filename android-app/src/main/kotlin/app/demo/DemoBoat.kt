@@ -47,7 +47,7 @@ internal class DemoBoat(name: String, mission: MissionSpec?) {
     private var pointing: PhoneHeading? = null
     private var seen = 0L
 
-    /** Lets its time pass until [now], s on the phone's clock. What is longer than [LONGEST] was no time for the boat. */
+    /** Lets its time pass until [now], s on the phone's clock; what is longer than [LONGEST] is cut. */
     fun advance(now: Double) =
         synchronized(boat) {
             if (before.isFinite()) boat.advance(minOf(now - before, LONGEST))

@@ -32,7 +32,7 @@ data class BoardReport(
     val depth: Double? = null,
 )
 
-/** Listens to what a board sends: core cuts the bytes into lines and the lines into messages. Confined to one thread. */
+/** Listens to a board: core cuts the bytes into lines and the lines into messages. Confined to one thread. */
 internal class BoardEars {
     private val codec = PlatypusCodec(::hear)
     private val framer = LineFramer(codec)
@@ -46,7 +46,7 @@ internal class BoardEars {
     val report: BoardReport
         get() = heard.copy(lines = framer.lines, malformed = codec.malformed.total + framer.oversized)
 
-    /** Takes the first [length] of [bytes], which have arrived; or, where that is [ByteLink.LOST], that the link is lost. */
+    /** Takes the first [length] of [bytes], or, where that is [ByteLink.LOST], that the link is lost. */
     fun take(bytes: ByteArray, length: Int) {
         if (length == ByteLink.LOST) {
             // What follows is not the rest of the line that was cut, nor need it be the same board.

@@ -6,7 +6,7 @@ import java.io.File
 import java.io.IOException
 
 /**
- * The log of one mission: [line] takes lines on the boat's thread and never waits, [flush] brings them to the disk on the
+ * A mission's log: [line] takes lines on the boat's thread and never waits, [flush] brings them to the disk on the
  * disk's. What the disk does not take is kept, up to [MOST_BYTES], and tried again at every flush.
  *
  * @param file that is written; its name ends with [LogFolder.INCOMPLETE] until [close].
@@ -70,7 +70,8 @@ internal class LogFile(
         release()
         val complete = File(file.path.removeSuffix(LogFolder.INCOMPLETE))
         val isRenamed = !file.exists() || file.renameTo(complete)
-        synchronized(lock) { told = told.copy(name = if (isRenamed) complete.name else file.name, isClosed = isRenamed) }
+        val name = if (isRenamed) complete.name else file.name
+        synchronized(lock) { told = told.copy(name = name, isClosed = isRenamed) }
         return isRenamed
     }
 

@@ -23,7 +23,7 @@ internal class LogFolder(
     private val folder by lazy(place)
     private val room = room ?: { folder.usableSpace }
 
-    /** A log for the mission called [name] that begins at [epochMillis]; nothing is on the disk before its first flush. */
+    /** A log for the mission [name] that begins at [epochMillis]; on the disk from its first flush on. */
     fun begin(name: String, epochMillis: Long): LogFile {
         val stamp = STAMP.format(Instant.ofEpochMilli(epochMillis))
         val plain = name.map { if (it.isLetterOrDigit()) it else '-' }.joinToString("").take(LONGEST_NAME)
@@ -33,7 +33,7 @@ internal class LogFolder(
     /** The log [name], to go on with. */
     fun goOn(name: String): LogFile = LogFile(File(folder, name), ::open, room)
 
-    /** What the newest incomplete log tells, with its name; null where there is none. Older ones are left as they are. */
+    /** What the newest incomplete log tells, with its name; null where there is none. Older ones stay. */
     fun recover(): Pair<String, RecoveredMission>? =
         files().filter { it.name.endsWith(INCOMPLETE) }.sortedByDescending { it.name }.firstNotNullOfOrNull { file ->
             read(file)?.let { file.name to it }

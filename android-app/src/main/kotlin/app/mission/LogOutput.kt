@@ -4,7 +4,7 @@ import java.io.File
 import java.io.IOException
 import java.io.RandomAccessFile
 
-/** Where a log's bytes go. A seam, because a test has no full disk. May wait: not for the main nor the boat's thread. */
+/** Where a log's bytes go. A seam, for a test has no full disk. May wait: for the disk's thread. */
 internal interface LogOutput {
     /** Appends all of [bytes] and has them on the disk. @throws IOException where not all could be; then none is. */
     @Throws(IOException::class)

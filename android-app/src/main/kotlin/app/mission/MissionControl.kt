@@ -25,7 +25,7 @@ internal interface Keeper {
 }
 
 /**
- * Which mission is loaded, and what became of it: loaded, under way, over. Every command answers why it was not followed,
+ * Which mission is loaded, and what became of it: loaded, under way, over. Commands answer why they were not followed,
  * or null. Confined to the boat's thread.
  *
  * @param folder of the logs. Retained.
@@ -75,7 +75,7 @@ internal class MissionControl(
         return null
     }
 
-    /** Has what a process left behind: an incomplete log's mission, else the one that was loaded. [then] comes after. */
+    /** Has what a process left behind: an incomplete log's mission, else the loaded one. [then] comes after. */
     fun recover(then: () -> Unit) {
         disk.run {
             val found = folder.recover()

@@ -75,7 +75,7 @@ data class TracePoint(
 )
 
 /**
- * What became of the probe's readings since the mission was armed, each counted once: [received] is the sum of the others.
+ * What became of the probe's readings since the mission was armed; [received] is the sum of the others.
  *
  * @property received by the mission.
  * @property taken into the map.

@@ -224,7 +224,8 @@ internal class BoatLoop(
         if (held.link?.health?.state != LinkState.CONNECTED || now - askedAt < QUESTION_SECONDS) return
         askedAt = now
         held.write(PlatypusEncoder.encode(Command.AskState))
-        if (held.ears.report.state == BoardState.ACTIVE) standStill()
+        val state = held.ears.report.state
+        if (state != null && state != BoardState.STANDBY) standStill()
     }
 
     private fun standStill() {
@@ -275,11 +276,12 @@ internal class BoatLoop(
                 answer = answer,
                 past = missions.past,
             )
-        val isOther =
-            before.link.state != snapshot.link.state || before.linkName != snapshot.linkName ||
-                before.mission?.state != snapshot.mission?.state || before.mission?.log?.problem != snapshot.mission?.log?.problem
-        if (link != null && isOther) onChange()
+        if (link != null && told(before) != told(snapshot)) onChange()
     }
+
+    /** What the notification says. */
+    private fun told(shot: BoatSnapshot) =
+        listOf(shot.link.state, shot.linkName, shot.mission?.state, shot.mission?.log?.problem)
 
     private fun age(elapsedNanos: Long?): Double? = elapsedNanos?.let { now() - it * SECONDS_PER_NANO }
 

@@ -123,7 +123,8 @@ internal class Preflight(private val context: Context) {
             val reason =
                 when (check) {
                     PreflightCheck.PERMISSIONS ->
-                        PreflightReason.NOT_PERMITTED.takeIf { missingPermissions(context).isNotEmpty() && !boat.isVirtual }
+                        PreflightReason.NOT_PERMITTED
+                            .takeIf { !boat.isVirtual && missingPermissions(context).isNotEmpty() }
                     PreflightCheck.LINK -> link(boat)
                     PreflightCheck.FIX -> fix(boat)
                     PreflightCheck.BOAT_BATTERY -> boatBattery(boat)

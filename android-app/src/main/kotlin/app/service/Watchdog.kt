@@ -23,10 +23,6 @@ internal class Watchdog {
 
     @Volatile private var guarded: ByteLink? = null
 
-    /** Times the motors were rested. */
-    @Volatile var bites = 0L
-        private set
-
     /** The thread it looks on. */
     val looper: Looper get() = thread.looper
 
@@ -51,7 +47,6 @@ internal class Watchdog {
             override fun run() {
                 val link = guarded
                 if (link != null && SystemClock.uptimeMillis() - fedAt >= PATIENCE_MILLIS) {
-                    bites++
                     link.write(rest)
                 }
                 handler.postDelayed(this, LOOK_MILLIS)

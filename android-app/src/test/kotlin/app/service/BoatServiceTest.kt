@@ -129,6 +129,15 @@ class BoatServiceTest {
     }
 
     @Test
+    fun aLinkThatIsIdleIsAskedEverySecond() {
+        started(BoatService.startIntent(context, board))
+        val link = made.single()
+        val before = link.asked
+        repeat(10) { settle() }
+        assertEquals(before + 5, link.asked, "in five seconds")
+    }
+
+    @Test
     fun aStartRightAfterAStopIsNotUndone() {
         val service = started(BoatService.startIntent(context, board))
         service.onStartCommand(BoatService.stopIntent(context), 0, 2)
@@ -265,7 +274,14 @@ class BoatServiceTest {
         }
 
         /** All but the questions. */
-        override fun write(bytes: ByteArray): Boolean = String(bytes).let { "state" in it || sent.add(it) }
+        override fun write(bytes: ByteArray): Boolean {
+            val text = String(bytes)
+            if ("state" in text) asked++ else sent += text
+            return true
+        }
+
+        /** Questions so far. */
+        @Volatile var asked = 0
     }
 
     private companion object {

@@ -56,7 +56,8 @@ class LongMissionTest {
         service.onStartCommand(BoatService.startIntent(context, LinkChoice.Demo), 0, 1)
         service.load(ServiceDesk.POND.replace("\"seconds\":200", "\"seconds\":7150"))
         pass(5)
-        assertTrue(service.snapshot.isDemo && service.snapshot.preflight.all { it.ready }, "${service.snapshot.preflight}")
+        val checks = service.snapshot.preflight
+        assertTrue(service.snapshot.isDemo && checks.all { it.ready }, "$checks")
         service.start()
         // What the first minutes load, and what Android's own start leaves, is gone or settled by then.
         pass(3000)

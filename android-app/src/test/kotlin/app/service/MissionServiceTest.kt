@@ -182,9 +182,12 @@ class MissionServiceTest {
 
     @Test
     fun aBoardThatIsArmedWithoutAMissionIsDisarmed() {
+        val told = desk.told.length
         desk.boat.phone.write("{\"e\":{\"cmd\":\"arm\"}}\n".toByteArray())
-        assertTrue(desk.until(10.0) { it.board.state?.word == "active" }, "somebody else armed it")
-        assertTrue(desk.until(5.0) { it.board.state?.word == "standby" })
+        desk.pass(1.5)
+        assertFalse(DISARM in desk.told.substring(told), "while it arms it says standby")
+        assertTrue(desk.until(5.0) { DISARM in desk.told.substring(told) })
+        assertTrue(desk.until(2.0) { it.board.state?.word == "standby" })
     }
 
     @Test

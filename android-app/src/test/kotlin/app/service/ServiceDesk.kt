@@ -53,7 +53,11 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
     /** The boat. */
     val boat =
         VirtualBoat(
-            VirtualBoatSpec(PROBE, board = BoardSpec(oxygenPeriod = 1.0), start = mission.home.let { Position(it.x, it.y) }),
+            VirtualBoatSpec(
+                PROBE,
+                board = BoardSpec(oxygenPeriod = 1.0),
+                start = Position(mission.home.x, mission.home.y),
+            ),
             PlumeWater(Position(25.0, 15.0)),
             LocalFrame(LatLon(mission.origin.latitude, mission.origin.longitude)),
             seed,
@@ -129,7 +133,7 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
         if (++steps % STEPS_A_SECOND == 0) shadowOf(service.diskLooper).idle()
     }
 
-    /** Lets [seconds] s pass, at least half a one; the snapshot afterwards has all that was done before the last half. */
+    /** Lets [seconds] s pass, at least half a one; the snapshot then has all that was done before the last half. */
     fun pass(seconds: Double) {
         repeat((seconds / STEP).toInt() - LOOK_STEPS) { step() }
         settle()
@@ -162,7 +166,8 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
     private fun turn(heading: Double) {
         val place = mission.origin
         val declination =
-            GeomagneticField(place.latitude.toFloat(), place.longitude.toFloat(), 0f, System.currentTimeMillis()).declination
+            GeomagneticField(place.latitude.toFloat(), place.longitude.toFloat(), 0f, System.currentTimeMillis())
+                .declination
         // From magnetic north, clockwise, as the sensor has it.
         val azimuth = PI / 2 - heading - Math.toRadians(declination.toDouble())
         val values = floatArrayOf(0f, 0f, sin(-azimuth / 2).toFloat(), cos(-azimuth / 2).toFloat())
