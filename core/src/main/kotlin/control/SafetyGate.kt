@@ -39,6 +39,9 @@ public enum class Danger {
     /** The battery was low for too long. */
     BATTERY_LOW,
 
+    /** What is left of the budget is needed for the way home. */
+    BUDGET_SPENT,
+
     /** The mission is over. */
     MISSION_END,
 }
@@ -49,8 +52,8 @@ public enum class Danger {
  * @property longestSilence of the board, s, above 0; it speaks at about 10 Hz.
  * @property oldestFix s, above 0.
  * @property mostJumps fixes refused in a row that are borne, at least 0.
- * @property fenceMargin how far beyond the fence the boat may be led back under power, m, at least 0; farther out the
- *   motors rest.
+ * @property fenceMargin how far beyond the fence the boat may be led back under power, m, at least 0; where it may be
+ *   farther out, by [deviations] of its position, the motors rest.
  * @property stopTime time constant with which the boat loses its way, motors at rest, s, at least 0.
  * @property reaction time from a decision to its effect on the motors, s, at least 0.
  * @property deviations standard deviations of the position that are kept from the fence on top, at least 0.
@@ -72,6 +75,7 @@ public data class SafetySettings(
     val answers: Map<Danger, Failsafe> = mapOf(
         Danger.BATTERY_LOW to Failsafe.RETURN_HOME,
         Danger.FENCE to Failsafe.RETURN_HOME,
+        Danger.BUDGET_SPENT to Failsafe.RETURN_HOME,
         Danger.MISSION_END to Failsafe.RETURN_HOME,
     ),
 ) {
@@ -136,6 +140,9 @@ public class Situation {
     /** Whether a person wants the boat to stop. */
     public var operatorStop: Boolean = false
 
+    /** Whether what is left of the budget is needed for the way home. */
+    public var budgetSpent: Boolean = false
+
     /** Whether the mission has nothing left to do. */
     public var missionEnded: Boolean = false
 }
@@ -154,9 +161,9 @@ public sealed interface Ruling {
  *
  * [assess] says whether the boat may go on and what to do otherwise; [permit] lets through of a drive what is safe,
  * whoever asks for it. A boat that holds or returns needs the link and its place: without one of them its motors rest,
- * whatever the policy. Near the fence, nearer than it takes to stop, only thrust and turns that lead inwards pass; beyond
- * the margin none does. So a fence wants to lie that distance outside of what is surveyed. A boat that drifts is carried on
- * by the water: that, too, is for the fence to allow.
+ * whatever the policy. Near the fence, be it the shore or a keep-out's outline, nearer than it takes to stop, only thrust
+ * and turns that lead to the water pass; beyond the margin none does. So a fence wants to lie that distance outside of what
+ * is surveyed. A boat that drifts is carried on by the water: that, too, is for the fence to allow.
  *
  * Derivation of the stopping distance: core/docs/SafetyGate.md. Never throws on data. Confined to one thread.
  *
@@ -190,7 +197,8 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         val forward = drive.forward.coerceIn(-1.0, 1.0)
         val turn = drive.turn.coerceIn(-1.0, 1.0)
         val distance = fence.distance(situation.x, situation.y)
-        if (distance < -settings.fenceMargin) return Drive.NONE
+        // The place is not exact: what counts is where the boat may be.
+        if (distance - settings.deviations * situation.deviation < -settings.fenceMargin) return Drive.NONE
         if (distance > stoppingDistance(situation)) return Drive(forward, turn)
         val pushX = sign(forward) * cos(situation.heading)
         val pushY = sign(forward) * sin(situation.heading)
@@ -226,6 +234,7 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
         batteryLow -> Danger.BATTERY_LOW
         situation.missionEnded -> Danger.MISSION_END
+        situation.budgetSpent -> Danger.BUDGET_SPENT
         else -> null
     }
 

@@ -13,6 +13,7 @@ import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.Reading
+import stillwater.wire.BoardState
 import stillwater.wire.ByteLink
 import stillwater.wire.Command
 import stillwater.wire.Message
@@ -62,8 +63,9 @@ public class Mission(
     )
     private val port = BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) })
     private val use = BudgetUse(spec.budget)
-    private val navigator = Navigator(spec, water, pose.track, use)
-    private val gate = SafetyGate(spec.failsafe.settings(), Fence(spec.area.corners()))
+    private val fence = Fence(water.outlines[0], water.outlines.drop(1))
+    private val navigator = Navigator(spec, water, fence, pose.track, use)
+    private val gate = SafetyGate(spec.failsafe.settings(), fence)
     private val situation = Situation()
     private var now = BoatTime(Double.NaN)
     private var armedAt = Double.NEGATIVE_INFINITY
@@ -125,7 +127,8 @@ public class Mission(
             refusedSteps++
             return state
         }
-        val dt = if (now.seconds.isNaN()) begin(time) else time - now
+        val isFirst = now.seconds.isNaN()
+        val dt = if (isFirst) begin(time) else time - now
         now = time
         pose.advance(time, dt, drive)
         if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y)
@@ -135,7 +138,7 @@ public class Mission(
         state = MissionPhases.next(state, PhaseInput(ruling, port.state, navigator.isHome, spec.failsafe.rearms))
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)
-        command(before)
+        command(before, isFirst)
         log.step(StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut))
         return state
     }
@@ -154,6 +157,7 @@ public class Mission(
         situation.linkAge = port.silence(now)
         situation.volts = port.volts
         situation.operatorStop = stopWanted
+        situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
         return gate.assess(situation)
     }
@@ -170,9 +174,9 @@ public class Mission(
         return navigator.steer(pose.heading, pose.yawRate)
     }
 
-    private fun command(before: MissionState) {
+    private fun command(before: MissionState, isFirst: Boolean) {
         when (state) {
-            MissionState.Idle, is MissionState.Preflight -> port.askState(now)
+            MissionState.Idle, is MissionState.Preflight -> leaveDisarmed(isFirst)
             is MissionState.Stopped -> {
                 val isNew = before !is MissionState.Stopped
                 if (isNew) port.tell(now, Drive.NONE)
@@ -184,6 +188,12 @@ public class Mission(
                 port.askState(now)
             }
         }
+    }
+
+    /** A process that died may have left the board armed, and any question asked of it keeps its watchdog quiet. */
+    private fun leaveDisarmed(isFirst: Boolean) {
+        val isArmed = port.state == BoardState.ACTIVE || port.state == BoardState.CONNECTED
+        if ((port.askState(now) && isArmed) || isFirst) port.order(Command.Disarm)
     }
 
     /** The slowest motor controllers take 18 s to arm, and being told again may start them over. */

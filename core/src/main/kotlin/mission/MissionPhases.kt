@@ -51,6 +51,6 @@ internal object MissionPhases {
         Danger.BATTERY_LOW -> StopReason.BATTERY
         Danger.FENCE -> StopReason.FENCE
         Danger.OPERATOR_STOP -> StopReason.OPERATOR
-        Danger.LINK_LOST, Danger.FIX_STALE, Danger.FIX_JUMPING -> null
+        Danger.LINK_LOST, Danger.FIX_STALE, Danger.FIX_JUMPING, Danger.BUDGET_SPENT -> null
     }
 }

@@ -240,6 +240,7 @@ public data class FailsafePolicy(
         answers = mapOf(
             Danger.BATTERY_LOW to battery.failsafe,
             Danger.FENCE to fence.failsafe,
+            Danger.BUDGET_SPENT to Failsafe.RETURN_HOME,
             Danger.MISSION_END to end.failsafe,
         ),
     )
@@ -250,7 +251,7 @@ public data class FailsafePolicy(
  *
  * @property name what tables call it.
  * @property origin where the frame has its zero.
- * @property area the water; its shore is the safety gate's fence, keep-outs are the planner's to keep out of.
+ * @property area the water; its shore and its keep-outs are the safety gate's fence.
  * @property grid the map's cells.
  * @property probe what is measured.
  * @property estimator by its name.
