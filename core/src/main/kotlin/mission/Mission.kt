@@ -55,8 +55,8 @@ public class Mission(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
         object : SurveyListener {
-            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) =
-                log.reading(now, message, verdict, taken, held)
+            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, gate: PlausibilityGate) =
+                log.reading(now, message, verdict, taken, gate.held, gate.same)
 
             override fun passed(time: BoatTime, place: Position) = log.pass(now, time, place)
         },

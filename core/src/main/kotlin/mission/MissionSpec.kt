@@ -126,6 +126,8 @@ public enum class Quantity {
  * @property lowest least value the water can have, sensor units; the map's prior and the range of what is taken.
  * @property highest greatest value.
  * @property largestJump from one reading to the next that needs no confirmation, sensor units; null for a fifth of the range.
+ * @property stuckAfter equal readings in a row that a sound probe does not give, at least 2: where it is noisy beside its
+ *   resolution, so that one that says the same again and again is stuck; null where equal readings are nothing special.
  * @property latency from sample to arrival of its line, s, at least 0.
  * @property longestTimeConstant slowest response that is possible, s, for the interval filter; median of what the
  *   self-calibrating estimator believes beforehand.
@@ -137,6 +139,7 @@ public data class ProbeSpec(
     val lowest: Double,
     val highest: Double,
     @SerialName("largest_jump") val largestJump: Double? = null,
+    @SerialName("stuck_after") val stuckAfter: Int? = null,
     @SerialName("latency_s") val latency: Double = 0.0,
     @SerialName("longest_time_constant_s") val longestTimeConstant: Double = 20.0,
 ) {
@@ -148,6 +151,7 @@ public data class ProbeSpec(
         require(largestJump == null || (largestJump > 0 && largestJump.isFinite())) {
             "largest_jump ($largestJump) must be above 0 and finite"
         }
+        require(stuckAfter == null || stuckAfter >= 2) { "stuck_after ($stuckAfter readings) must be at least 2" }
         require(latency in 0.0..LONGEST_LATENCY) { "latency_s ($latency s) must be in [0, $LONGEST_LATENCY]" }
         require(longestTimeConstant > 0 && longestTimeConstant.isFinite()) {
             "longest_time_constant_s ($longestTimeConstant s) must be above 0 and finite"

@@ -24,6 +24,8 @@ internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
     private var waitingTime = Double.NaN
     private var speed = 0.0
     private var now = 0.0
+    private var agreeSince = Double.NaN
+    private var isBelieved = false
 
     /** Fixes refused: not finite, older than one before, or where the boat cannot be. */
     var refused = 0L
@@ -61,12 +63,26 @@ internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
         val place = waiting ?: return
         waiting = null
         val local = frame.toLocal(place)
-        if (track.fix(local.x, local.y) == FixUse.USED) fixTime = waitingTime else refused++
+        if (track.fix(local.x, local.y) == FixUse.USED) {
+            fixTime = waitingTime
+            if (agreeSince.isNaN()) agreeSince = waitingTime
+            if (waitingTime - agreeSince >= AGREEMENT) isBelieved = true
+        } else {
+            refused++
+            doubt()
+        }
+    }
+
+    /** The first fix after a start may be the wrong one: until a place is believed, another takes over soon. */
+    private fun doubt() {
+        if (isBelieved) return
+        agreeSince = Double.NaN
+        if (track.jumps > MOST_JUMPS) track.reset()
     }
 
     /** Fills in what [situation] has of the pose. */
     fun describe(situation: Situation) {
-        situation.fixAge = now - fixTime
+        situation.fixAge = if (isBelieved) now - fixTime else Double.POSITIVE_INFINITY
         situation.jumps = track.jumps
         situation.x = track.x
         situation.y = track.y
@@ -77,6 +93,12 @@ internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
     }
 
     private companion object {
+        /** For so long fixes agree before the boat moves, s: receivers wander most while they settle. */
+        const val AGREEMENT = 15.0
+
+        /** Fixes refused in a row that an unbelieved place survives. */
+        const val MOST_JUMPS = 2
+
         /** Time constant with which a hull takes up speed, s. */
         const val SPEED_TIME = 2.0
 
