@@ -50,7 +50,7 @@ public class Mission(
     }
 
     private val water = spec.area.water()
-    private val pose = PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed)
+    private val pose = PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
     private val survey = Survey(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
@@ -64,7 +64,7 @@ public class Mission(
     private val port = BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) })
     private val use = BudgetUse(spec.budget)
     private val fence = Fence(water.outlines[0], water.outlines.drop(1))
-    private val navigator = Navigator(spec, water, fence, pose.track, use)
+    private val navigator = Navigator(spec, water, fence, pose.track, use, mixing)
     private val gate = SafetyGate(spec.failsafe.settings(), fence)
     private val situation = Situation()
     private var now = BoatTime(Double.NaN)

@@ -1,6 +1,7 @@
 package stillwater.mission
 
 import stillwater.control.Fence
+import stillwater.control.Mixing
 import stillwater.control.TrackEstimator
 import stillwater.control.WaypointFollower
 import stillwater.field.FieldMap
@@ -78,12 +79,13 @@ internal class Navigator(
     private val fence: Fence,
     private val track: TrackEstimator,
     use: BudgetUse,
+    mixing: Mixing,
 ) {
     private enum class Aim { NOTHING, SURVEY, HOME, HOLD }
 
     private val home = spec.home.position
     private val wayHome = wayHome(spec, water)
-    private val follower = WaypointFollower(spec.boat.follower())
+    private val follower = WaypointFollower(spec.boat.follower().copy(turnThrust = mixing.turnThrust))
     private val planner = BudgetedPlanner(
         EntryPlanner(spec.planner.build(spec, water, Random(spec.seed)), water),
         limit = spec.budget.metres ?: spec.budget.seconds ?: 0.0,

@@ -73,12 +73,13 @@ internal object FaultCampaign {
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
     val results = (first until first + arguments[1].toLong()).map { seed ->
+        val begun = System.nanoTime()
         FaultCampaign.run(seed).also { run ->
             val found = FaultCampaign.faultsFound(run)
             val what = run.kinds.singleOrNull()?.name ?: "ALL"
             if (found.isNotEmpty() || arguments.size > 2) {
                 System.err.println(
-                    "$seed $what ${run.case.spec.estimator} ${run.case.spec.planner} ${run.case.mixing} " +
+                    "$seed ${(System.nanoTime() - begun) / 1_000_000} ms $what ${run.case.spec.estimator} ${run.case.spec.planner} ${run.case.mixing} " +
                         "${run.end} ${run.verdicts.run { "$readings readings, $badTaken bad, mended $mendedBounds" }} " +
                         "driven %.1f drifted %.1f power %.0f s: %s".format(
                             Locale.ROOT,
