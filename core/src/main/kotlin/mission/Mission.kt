@@ -13,7 +13,6 @@ import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.Reading
-import stillwater.wire.BoardState
 import stillwater.wire.ByteLink
 import stillwater.wire.Command
 import stillwater.wire.Message
@@ -190,10 +189,13 @@ public class Mission(
         }
     }
 
-    /** A process that died may have left the board armed, and any question asked of it keeps its watchdog quiet. */
+    /**
+     * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
+     * answers may not arrive: so it is told with every question.
+     */
     private fun leaveDisarmed(isFirst: Boolean) {
-        val isArmed = port.state == BoardState.ACTIVE || port.state == BoardState.CONNECTED
-        if ((port.askState(now) && isArmed) || isFirst) port.order(Command.Disarm)
+        if (isFirst) repeat(DISARM_COPIES) { port.order(Command.Disarm) }
+        if (port.askState(now)) port.order(Command.Disarm)
     }
 
     /** The slowest motor controllers take 18 s to arm, and being told again may start them over. */
@@ -208,5 +210,8 @@ public class Mission(
 
     private companion object {
         const val LONGEST_ARMING = 20.0
+
+        /** A line may be hit on the way. */
+        const val DISARM_COPIES = 3
     }
 }

@@ -4,7 +4,7 @@ import stillwater.control.Danger
 
 /** What a mission is about. */
 public sealed interface MissionState {
-    /** Nothing was started. A board that is armed, as by a process that died, is disarmed. */
+    /** Nothing was started. The board is kept disarmed: a process that died may have left it armed. */
     public data object Idle : MissionState
 
     /**

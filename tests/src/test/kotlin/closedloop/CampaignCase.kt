@@ -86,7 +86,7 @@ internal class CampaignCase(val seed: Long) {
         } else {
             """{"south_west":{"x_m":${-room},"y_m":${-room}},"north_east":{"x_m":$far,"y_m":$far}}"""
         }
-        val seconds = random.nextInt(200, 700)
+        val seconds = random.nextInt(150, 400)
         val budget = if (random.nextBoolean()) """{"seconds":$seconds}""" else """{"metres":${(seconds * 0.8).roundToInt()}}"""
         val half = cell / 2.0
         return """{"name":"run-$seed","origin":{"lat_deg":45.5,"lon_deg":-73.6},"area":$area,""" +

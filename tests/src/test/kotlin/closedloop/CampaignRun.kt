@@ -42,7 +42,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
     private var startAt = random.nextDouble(2.0, 4.0)
     private var deadUntil = -1.0
 
-    /** What happens in each step besides; for those who test the observer. */
+    /** What happens at the end of each step besides; for those who test the observer. */
     var meanwhile: () -> Unit = {}
 
     private val verdicts = Verdicts()
@@ -78,8 +78,8 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
             observer.look(VirtualBoat.TICK, faults.isLinked && deadUntil < 0)
         }
         faults.strike(boat.time.seconds)
-        meanwhile()
         process()
+        meanwhile()
         lengths.add(text.length)
     }
 
@@ -197,7 +197,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
         const val STEP = 0.1
         const val TICKS = 5
         const val FLUSHED = 10
-        const val LONGEST = 12_000
+        const val LONGEST = 7000
         const val AFTERWARDS = 30
         const val QUIET = 5.0
         const val KILL_EVERY = 80.0

@@ -56,6 +56,23 @@ internal object FaultCampaign {
     private fun seconds(results: List<RunResult>) =
         "%.2f".format(Locale.ROOT, results.maxOfOrNull { it.observer.worstTimeToZero } ?: 0.0)
 
+    /** What a run was, in a line. */
+    fun summary(run: RunResult): String = listOf(
+        run.case.seed,
+        run.kinds.singleOrNull()?.name ?: "ALL",
+        run.case.spec.estimator,
+        run.case.spec.planner,
+        run.case.mixing,
+        run.end,
+        "${run.verdicts.readings} readings (${run.verdicts.badTaken} bad)",
+        "%.1f m beyond driven, %.1f m drifted, %.0f s under power".format(
+            Locale.ROOT,
+            run.observer.worstDriven,
+            run.observer.worstDrifted,
+            run.observer.underPower,
+        ),
+    ).joinToString(" ")
+
     /** What is wrong with a run, in a line; empty where nothing is. */
     fun faultsFound(run: RunResult): String = listOfNotNull(
         "beyond the margin".takeIf { run.observer.beyondMargin > 0 },
@@ -69,28 +86,18 @@ internal object FaultCampaign {
     ).joinToString("; ")
 }
 
-/** `FIRST COUNT`: prints the table of a campaign, and on the other stream each run in which something is wrong. */
+/** `FIRST COUNT [all]`: prints the table of a campaign, and on the other stream each run in which something is wrong, or all. */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
-    val results = (first until first + arguments[1].toLong()).map { seed ->
-        val begun = System.nanoTime()
-        FaultCampaign.run(seed).also { run ->
-            val found = FaultCampaign.faultsFound(run)
-            val what = run.kinds.singleOrNull()?.name ?: "ALL"
-            if (found.isNotEmpty() || arguments.size > 2) {
-                System.err.println(
-                    "$seed ${(System.nanoTime() - begun) / 1_000_000} ms $what ${run.case.spec.estimator} ${run.case.spec.planner} ${run.case.mixing} " +
-                        "${run.end} ${run.verdicts.run { "$readings readings, $badTaken bad, mended $mendedBounds" }} " +
-                        "driven %.1f drifted %.1f power %.0f s: %s".format(
-                            Locale.ROOT,
-                            run.observer.worstDriven,
-                            run.observer.worstDrifted,
-                            run.observer.underPower,
-                            found,
-                        ),
-                )
-            }
-        }
+    val results = ArrayList<RunResult>()
+    for (seed in first until first + arguments[1].toLong()) {
+        val run = FaultCampaign.run(seed)
+        results += run
+        val found = FaultCampaign.faultsFound(run)
+        if (found.isNotEmpty() || arguments.size > 2) System.err.println("${FaultCampaign.summary(run)}: $found")
+        if (results.size % HUNDRED == 0) System.err.println(FaultCampaign.table(results))
     }
     print(FaultCampaign.table(results))
 }
+
+private const val HUNDRED = 100
