@@ -106,11 +106,12 @@ public class PlausibilityGate(
             outOfRange++
             return ReadingVerdict.OUT_OF_RANGE
         }
-        if (stuckAfter != null && reading.value == last) return wait(reading, stuckAfter)
         val waiting = held
         held = null
         val isConfirmed = waiting != null && confirms(waiting.value, reading.value)
         if (waiting != null) if (isConfirmed) pass(waiting) else lone++
+        // The one just confirmed counts, too.
+        if (stuckAfter != null && reading.value == last) return wait(reading, stuckAfter)
         if (abs(reading.value - last) <= largestJump) {
             pass(reading)
             return if (isConfirmed) ReadingVerdict.CONFIRMED else ReadingVerdict.PASSED
@@ -151,8 +152,6 @@ public class PlausibilityGate(
     }
 
     private fun wait(reading: Reading, most: Int): ReadingVerdict {
-        if (held != null) lone++
-        held = null
         equals.add(reading)
         // The one that passed counts among the equal ones.
         if (!isStuck && equals.size + 1 < most) return ReadingVerdict.SAME

@@ -82,6 +82,10 @@ class PlausibilityGateTest {
         take(7.5)
         assertEquals(listOf(7.5), taken.drop(6))
         assertEquals(8, gate.stuck)
+        // It gets stuck on its way, at a value that has to be confirmed.
+        val before = taken.size
+        listOf(11.0, 11.0, 11.0, 11.0, 11.1).forEach { take(it) }
+        assertEquals(listOf(11.0, 11.1), taken.drop(before))
     }
 
     @Test

@@ -35,6 +35,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
     /** Steps whose lines of the log may be gone with a process. */
     private val goneSteps = HashSet<Int>()
     private var step = 0
+    private var isMoored = true
 
     /** By which the boat's clock is before the virtual time, s. */
     private var clock = if (FaultKind.CLOCK_WRAP in kinds) WRAP - random.nextDouble(20.0, 200.0) else 0.0
@@ -69,10 +70,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
     private fun tick() {
         step++
         link.step = step
-        boat.dynamics.currentX = case.currentX(boat.time.seconds)
-        boat.dynamics.currentY = case.currentY(boat.time.seconds)
-        boat.dynamics.windX = case.windX
-        boat.dynamics.windY = case.windY
+        drift()
         repeat(TICKS) {
             boat.advance(VirtualBoat.TICK)
             observer.look(VirtualBoat.TICK, faults.isLinked && deadUntil < 0)
@@ -81,6 +79,16 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
         process()
         meanwhile()
         lengths.add(text.length)
+    }
+
+    /** A person holds the boat until it goes for the first time. */
+    private fun drift() {
+        if (!boat.board.actuation.isAtRest) isMoored = false
+        if (isMoored) return
+        boat.dynamics.currentX = case.currentX(boat.time.seconds)
+        boat.dynamics.currentY = case.currentY(boat.time.seconds)
+        boat.dynamics.windX = case.windX
+        boat.dynamics.windY = case.windY
     }
 
     private fun process() {
@@ -206,8 +214,8 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
         /** The bar is 0.6 s with a watchdog of 0.5 s. */
         const val SLACK = 0.1 + 1e-6
 
-        /** Steps that a reading may wait before it is taken: as long as it takes to call a probe stuck. */
-        const val NEARBY = 100
+        /** Steps between the board's line and the log's. */
+        const val NEARBY = 3
 
         /** Three deviations of the probe's noise. */
         const val TOLERANCE = 0.06

@@ -21,14 +21,16 @@ class FaultCampaignTest {
     /** A pilot who bypasses the mission: the observer sees that it is beyond the fence and drives without a link. */
     @Test
     fun theObserverSeesWhatAMissionWouldNotTell() {
-        val run = CampaignRun(CampaignCase(700_100), setOf(FaultKind.LINK_CUT))
+        val observers = (700_100L..700_102L).map { madPilot(CampaignRun(CampaignCase(it), setOf(FaultKind.LINK_CUT))) }
+        assertTrue(observers.any { it.beyondMargin > 0 }, "beyond the margin")
+        assertTrue(observers.any { it.tooLong > 0 }, "without a link")
+    }
+
+    private fun madPilot(run: CampaignRun): Observer {
         run.meanwhile = {
-            run.boat.phone.write(PlatypusEncoder.encode(Command.Arm))
             val ahead = if (run.boat.spec.vectored) Actuation.Vectored(1.0, 0.0) else Actuation.Differential(1.0, 1.0)
             run.boat.phone.write(PlatypusEncoder.encode(Command.Move(ahead)))
         }
-        val seen = run.run().observer
-        assertTrue(seen.beyondMargin > 0, "beyond the margin")
-        assertTrue(seen.tooLong > 0, "without a link")
+        return run.run().observer
     }
 }

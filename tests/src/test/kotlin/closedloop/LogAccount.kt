@@ -13,7 +13,7 @@ internal class LogAccount(text: String, steps: List<Int> = emptyList()) {
     /** What changed the map, in order: a reading taken, or with a NaN a cell left without one. */
     val events: List<Reading>
 
-    /** The step in which each of [events] was written; empty where none were given. */
+    /** The step in which each of [events] was first written of, be it that it had to wait; empty where no steps were given. */
     val eventSteps: List<Int>
 
     /** Values of all the probe's lines in the log, whatever became of them. */
@@ -27,7 +27,7 @@ internal class LogAccount(text: String, steps: List<Int> = emptyList()) {
         header = lines.first { "\"spec\":" in it }
         val found = all.map { if (it.endsWith("}")) events(it) else emptyList() }
         events = found.flatten()
-        eventSteps = if (steps.isEmpty()) emptyList() else found.flatMapIndexed { i, list -> list.map { steps[i] } }
+        eventSteps = if (steps.isEmpty()) emptyList() else firstSteps(all, steps, found)
         said = lines.filter { "\"reading\":" in it }.map {
             it.substringAfter("\"data\":[").substringBefore(']').toDoubleOrNull() ?: Double.NaN
         }
@@ -42,6 +42,15 @@ internal class LogAccount(text: String, steps: List<Int> = emptyList()) {
         return fresh
     }
 
+    private fun firstSteps(lines: List<String>, steps: List<Int>, found: List<List<Reading>>): List<Int> {
+        val first = HashMap<Reading, Int>()
+        for ((i, line) in lines.withIndex()) {
+            if ("\"reading\":" !in line) continue
+            for (match in READING.findAll(line)) first.putIfAbsent(numbers(match.groupValues[1], 0.0), steps[i])
+        }
+        return found.flatMapIndexed { i, list -> list.map { first[it] ?: steps[i] } }
+    }
+
     private fun events(line: String): List<Reading> {
         if ("\"pass\":[" in line) return listOf(numbers(line.substringAfter("\"pass\":["), Double.NaN))
         val list = line.substringAfter("\"taken\":[[", "").substringBefore("]]", "")
@@ -54,6 +63,8 @@ internal class LogAccount(text: String, steps: List<Int> = emptyList()) {
     }
 
     companion object {
+        private val READING = Regex("\\[([-0-9.E]+,[-0-9.E]+,[-0-9.E]+,[-0-9.E]+)]")
+
         /** Cells in which the two differ in any bit. */
         fun differences(one: FieldMap, other: FieldMap): Int = (0 until one.grid.size).count {
             one.value(it).toRawBits() != other.value(it).toRawBits() ||
