@@ -1,5 +1,6 @@
 package stillwater.mission
 
+import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.Fence
 import stillwater.control.Mixing
@@ -13,6 +14,7 @@ import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.Reading
+import stillwater.wire.BoardState
 import stillwater.wire.ByteLink
 import stillwater.wire.Command
 import stillwater.wire.Message
@@ -126,8 +128,7 @@ public class Mission(
             refusedSteps++
             return state
         }
-        val isFirst = now.seconds.isNaN()
-        val dt = if (isFirst) begin(time) else time - now
+        val dt = if (now.seconds.isNaN()) begin(time) else time - now
         now = time
         pose.advance(time, dt, drive)
         if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y)
@@ -137,7 +138,7 @@ public class Mission(
         state = MissionPhases.next(state, PhaseInput(ruling, port.state, navigator.isHome, spec.failsafe.rearms))
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)
-        command(before, isFirst)
+        command(before)
         log.step(StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut))
         return state
     }
@@ -173,17 +174,16 @@ public class Mission(
         return navigator.steer(pose.heading, pose.yawRate)
     }
 
-    private fun command(before: MissionState, isFirst: Boolean) {
+    private fun command(before: MissionState) {
         when (state) {
-            MissionState.Idle, is MissionState.Preflight -> leaveDisarmed(isFirst)
+            MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
-                val isNew = before !is MissionState.Stopped
-                if (isNew) port.tell(now, Drive.NONE)
-                if (isNew || port.askState(now)) port.order(Command.Disarm)
+                if (before !is MissionState.Stopped) port.tell(now, Drive.NONE)
+                leaveDisarmed()
             }
             else -> {
                 if (state == MissionState.Arming) arm(before)
-                port.tell(now, drive)
+                if (!isDeaf()) port.tell(now, drive)
                 port.askState(now)
             }
         }
@@ -191,11 +191,11 @@ public class Mission(
 
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
-     * answers may not arrive: so it is told with every question.
+     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every question.
      */
-    private fun leaveDisarmed(isFirst: Boolean) {
-        if (isFirst) repeat(DISARM_COPIES) { port.order(Command.Disarm) }
-        if (port.askState(now)) port.order(Command.Disarm)
+    private fun leaveDisarmed() {
+        if (port.state != BoardState.STANDBY || port.askState(now)) port.order(Command.Disarm)
+        port.askState(now)
     }
 
     /** The slowest motor controllers take 18 s to arm, and being told again may start them over. */
@@ -205,13 +205,16 @@ public class Mission(
         port.order(Command.Arm)
     }
 
+    /** Rest was said; what is said on to a board that is not heard can only be spoilt on the way and become a drive. */
+    private fun isDeaf() = state == MissionState.Holding(Danger.LINK_LOST) && port.silence(now) > RESTING
+
     private fun isUnderWay(state: MissionState) =
         state == MissionState.Surveying || state is MissionState.Holding || state is MissionState.Returning
 
     private companion object {
         const val LONGEST_ARMING = 20.0
 
-        /** A line may be hit on the way. */
-        const val DISARM_COPIES = 3
+        /** Silence after which nothing more is said of drives, s: rest was said four times. */
+        const val RESTING = 0.5
     }
 }

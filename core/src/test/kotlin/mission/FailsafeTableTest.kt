@@ -11,7 +11,12 @@ import kotlin.test.assertTrue
 /** The failsafe holds in every state: each state against each fault, judged at the board's motors. */
 class FailsafeTableTest {
     /** A state and how a mission gets there. */
-    private class Case(val name: String, val policy: String, val state: (MissionState) -> Boolean, val way: Desk.() -> Unit)
+    private class Case(
+        val name: String,
+        val policy: String,
+        val state: (MissionState) -> Boolean,
+        val way: Desk.() -> Unit,
+    )
 
     /** A fault, and how long the motors may go on, s. */
     private class Fault(val name: String, val longest: Double, val strike: Desk.() -> Unit)
@@ -21,12 +26,18 @@ class FailsafeTableTest {
         Case("preflight", "{}", { it is MissionState.Preflight }) { mission.start() },
         Case("arming", "{}", { it == MissionState.Arming }) { begin() },
         Case("surveying", "{}", { it == MissionState.Surveying }) { begin() },
-        Case("holding", """{"battery":"hold","lowest_volts":14}""", { it == MissionState.Holding(Danger.BATTERY_LOW) }) {
+        Case(
+            "holding",
+            """{"battery":"hold","lowest_volts":14}""",
+            { it == MissionState.Holding(Danger.BATTERY_LOW) },
+        ) {
             begin()
             until(30.0) { false }
             boat.board.volts = 12.0
         },
-        Case("holding at the end", """{"end":"hold"}""", { it == MissionState.Holding(Danger.MISSION_END) }) { begin() },
+        Case("holding at the end", """{"end":"hold"}""", { it == MissionState.Holding(Danger.MISSION_END) }) {
+            begin()
+        },
         Case("returning", """{"lowest_volts":14}""", { it == MissionState.Returning(Danger.BATTERY_LOW) }) {
             begin()
             until(60.0) { false }
@@ -56,6 +67,12 @@ class FailsafeTableTest {
         Fault("board reset", 0.2) { boat.board.reset() },
     )
 
+    private fun spec(policy: String, seconds: Int) = MissionSpec.fromJson(
+        Desk.SMALL.replace("900", "$seconds")
+            .replace("self-calibrating", "averaging")
+            .replace(""""home":""", """"failsafe":$policy,"home":"""),
+    )
+
     private fun Desk.begin() {
         until(3.0) { false }
         mission.start()
@@ -65,8 +82,7 @@ class FailsafeTableTest {
     fun motorsRestInTimeInEveryState() {
         for (case in cases) {
             for (fault in faults) {
-                val text = Desk.SMALL.replace(""""home":""", """"failsafe":${case.policy},"home":""").replace("900", "150")
-                val desk = Desk(MissionSpec.fromJson(text.replace("self-calibrating", "averaging")), 441)
+                val desk = Desk(spec(case.policy, 150), 441)
                 case.way(desk)
                 assertTrue(desk.until(400.0, case.state), "${case.name} is reached, not ${desk.mission.state}")
                 fault.strike(desk)
@@ -91,8 +107,7 @@ class FailsafeTableTest {
             "hold" to MissionState.Holding(Danger.MISSION_END),
         )
         for ((policy, end) in ends) {
-            val text = Desk.SMALL.replace(""""home":""", """"failsafe":{"end":"$policy"},"home":""").replace("900", "200")
-            val desk = Desk(MissionSpec.fromJson(text.replace("self-calibrating", "averaging")), 451)
+            val desk = Desk(spec("""{"end":"$policy"}""", 200), 451)
             desk.begin()
             assertTrue(desk.until(200.0) { it == MissionState.Returning(Danger.BUDGET_SPENT) }, policy)
             assertTrue(desk.until(200.0) { it == end }, "$policy ends ${desk.mission.state}")

@@ -5,6 +5,7 @@ import stillwater.field.Field
 import stillwater.mission.EstimatorName
 import stillwater.mission.MissionSpec
 import stillwater.mission.PlannerName
+import stillwater.model.Position
 import stillwater.sensor.SensorSpec
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.LinkSpec
@@ -48,14 +49,15 @@ internal class CampaignCase(val seed: Long) {
 
     val boat = VirtualBoatSpec(
         SensorSpec.fromJson(
-            """{"name":"probe","stages":[{"type":"first-order-lag","time_constant_s":${random.nextDouble(2.0, 10.0)}},""" +
+            """{"name":"probe","stages":[""" +
+                """{"type":"first-order-lag","time_constant_s":${random.nextDouble(2.0, 10.0)}},""" +
                 """{"type":"noise","standard_deviation":0.02}]}""",
         ),
         board = BoardSpec(oxygenPeriod = 1.0, watchdog = watchdog, arming = random.nextDouble(2.0, 6.0)),
         link = LinkSpec(delay = random.nextDouble(0.0, 0.05)),
         pose = PoseSpec(compassOffset = random.nextDouble(-0.05, 0.05)),
         vectored = mixing == Mixing.VECTORED,
-        start = spec.home.let { stillwater.model.Position(it.x, it.y) },
+        start = spec.home.let { Position(it.x, it.y) },
         heading = random.nextDouble(-PI, PI),
     )
 
@@ -87,11 +89,13 @@ internal class CampaignCase(val seed: Long) {
             """{"south_west":{"x_m":${-room},"y_m":${-room}},"north_east":{"x_m":$far,"y_m":$far}}"""
         }
         val seconds = random.nextInt(150, 400)
-        val budget = if (random.nextBoolean()) """{"seconds":$seconds}""" else """{"metres":${(seconds * 0.8).roundToInt()}}"""
+        val metres = (seconds * 0.8).roundToInt()
+        val budget = if (random.nextBoolean()) """{"seconds":$seconds}""" else """{"metres":$metres}"""
         val half = cell / 2.0
         return """{"name":"run-$seed","origin":{"lat_deg":45.5,"lon_deg":-73.6},"area":$area,""" +
             """"grid":{"south_west":{"x_m":0,"y_m":0},"columns":$columns,"rows":$columns,"cell_m":$cell},""" +
-            """"probe":{"quantity":"dissolved-oxygen","port":1,"lowest":4,"highest":12,"largest_jump":0.1,"stuck_after":6,""" +
+            """"probe":{"quantity":"dissolved-oxygen","port":1,"lowest":4,"highest":12,""" +
+            """"largest_jump":0.1,"stuck_after":6,""" +
             """"longest_time_constant_s":12},"estimator":"${word(estimator)}","planner":"${word(planner)}",""" +
             """"budget":$budget,"home":{"x_m":$half,"y_m":$half},"seed":$seed,""" +
             """"failsafe":{"lowest_volts":12,"battery":"${policy()}","fence":"${policy()}","end":"${policy()}"}}"""

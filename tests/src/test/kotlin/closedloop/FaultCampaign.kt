@@ -17,8 +17,9 @@ internal object FaultCampaign {
     /** A line for each kind of fault. */
     fun table(results: List<RunResult>): String = buildString {
         appendLine(
-            "| fault | runs | occurred | beyond margin | motors too long | readings lost | exceptions | bounds made wrong " +
-                "| worst time to zero, s (v4.2.0) | worst excursion driven (drifting), m | readings | missions completed |",
+            "| fault | runs | occurred | beyond margin | motors too long | readings lost | exceptions " +
+                "| bounds made wrong | worst time to zero, s (v4.2.0) " +
+                "| worst excursion driven (drifting), m | readings | missions completed |",
         )
         appendLine("|---|" + "---|".repeat(11))
         for (kinds in rows) line(kinds, results.filter { it.kinds == kinds })
@@ -86,7 +87,7 @@ internal object FaultCampaign {
     ).joinToString("; ")
 }
 
-/** `FIRST COUNT [all]`: prints the table of a campaign, and on the other stream each run in which something is wrong, or all. */
+/** `FIRST COUNT [all]`: prints the table; on the other stream each run in which something is wrong, or all. */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
     val results = ArrayList<RunResult>()

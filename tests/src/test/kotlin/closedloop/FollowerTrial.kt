@@ -131,7 +131,9 @@ internal class FollowerTrial(private val mixing: Mixing, private val turning: Bo
 
         /** A line for each drive and current over [seeds]. */
         fun table(seeds: LongRange): String = buildString {
-            appendLine("| drive | current | whole path, mean (worst), m | legs without their ends, mean (worst), m | ended |")
+            appendLine(
+                "| drive | current | whole path, mean (worst), m | legs without their ends, mean (worst), m | ended |",
+            )
             appendLine("|---|---|---|---|---|")
             for (mixing in Mixing.entries) {
                 for (turning in listOf(false, true)) {
