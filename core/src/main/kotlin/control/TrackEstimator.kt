@@ -16,7 +16,7 @@ import kotlin.math.sin
  */
 public data class TrackSettings(
     val fixDeviation: Double = 1.5,
-    val driftChange: Double = 0.01,
+    val driftChange: Double = 0.02,
     val largestDrift: Double = 0.5,
     val gate: Double = 6.0,
 ) {

@@ -1,6 +1,5 @@
 package stillwater.control
 
-import stillwater.model.Actuation
 import stillwater.model.Drive
 import kotlin.math.PI
 import kotlin.math.abs
@@ -21,6 +20,8 @@ import kotlin.math.sqrt
  * @property deceleration the boat slows down before a turn so that it needs no more than this, m/s².
  * @property turnGain turning effort per rad of heading error, 1/rad.
  * @property turnDamping turning effort per rad/s of yaw, s/rad, at least 0.
+ * @property turnThrust share of full thrust given in a full turn at least, 0 to 1: a swivelled thruster turns the tighter
+ *   the more it pushes.
  * @throws IllegalArgumentException if a number is out of its range.
  */
 public data class FollowerSettings(
@@ -31,6 +32,7 @@ public data class FollowerSettings(
     val deceleration: Double = 0.15,
     val turnGain: Double = 1.0,
     val turnDamping: Double = 0.5,
+    val turnThrust: Double = 0.0,
 ) {
     init {
         for ((name, value) in listOf(
@@ -47,6 +49,7 @@ public data class FollowerSettings(
         require(turnDamping >= 0 && turnDamping.isFinite()) {
             "turnDamping ($turnDamping s/rad) must be at least 0 and finite"
         }
+        require(turnThrust in 0.0..1.0) { "turnThrust ($turnThrust) must be in [0, 1]" }
     }
 }
 
@@ -135,8 +138,9 @@ public class WaypointFollower(public val settings: FollowerSettings) {
         val wanted = course + asin((-across / speed).coerceIn(-STEEPEST, STEEPEST))
         val error = wrapped(wanted - heading)
         val turn = settings.turnGain * error - settings.turnDamping * if (yawRate.isFinite()) yawRate else 0.0
+        val effort = turn.coerceIn(-1.0, 1.0)
         val share = speed / settings.topSpeed
-        return Drive(share * share * maxOf(0.0, cos(error)), turn.coerceIn(-1.0, 1.0))
+        return Drive(maxOf(share * share * cos(error), settings.turnThrust * abs(effort)), effort)
     }
 
     /** v² = v₁² + 2 a d: what still can be slowed down to the turn's speed v₁ over the distance d. */
@@ -165,38 +169,5 @@ public class WaypointFollower(public val settings: FollowerSettings) {
 
         /** Sine of the largest angle against the current: at 64 degrees little way is left. */
         const val STEEPEST = 0.9
-    }
-}
-
-/** How a [Drive] becomes what is sent to the actuators; what is not finite becomes rest. */
-public enum class Mixing {
-    /** Two thrusters: turning is kept where both cannot be had, because a boat that turns can still be led. */
-    DIFFERENTIAL {
-        override fun mix(drive: Drive): Actuation {
-            if (!drive.forward.isFinite() || !drive.turn.isFinite()) return Actuation.Differential(0.0, 0.0)
-            val turn = drive.turn.coerceIn(-1.0, 1.0)
-            val room = 1 - abs(turn)
-            val forward = drive.forward.coerceIn(-maxOf(room, LEAST), maxOf(room, LEAST))
-            return Actuation.Differential((forward - turn).coerceIn(-1.0, 1.0), (forward + turn).coerceIn(-1.0, 1.0))
-        }
-    },
-
-    /** A swivelled thruster: without thrust it does not turn, so a turn asks for some. */
-    VECTORED {
-        override fun mix(drive: Drive): Actuation {
-            if (!drive.forward.isFinite() || !drive.turn.isFinite()) return Actuation.Vectored(0.0, 0.0)
-            val turn = drive.turn.coerceIn(-1.0, 1.0)
-            val forward = drive.forward.coerceIn(-1.0, 1.0)
-            val thrust = if (forward >= 0) maxOf(forward, LEAST * abs(turn)) else forward
-            return Actuation.Vectored(thrust, turn)
-        }
-    }, ;
-
-    /** What [drive] is for this boat. */
-    public abstract fun mix(drive: Drive): Actuation
-
-    private companion object {
-        /** Share of full thrust kept for the other use. */
-        const val LEAST = 0.25
     }
 }

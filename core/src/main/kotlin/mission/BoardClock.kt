@@ -59,7 +59,8 @@ public class BoardClock(public val drift: Double = 1e-4) {
         val grown = offset + drift * maxOf(0.0, heard.seconds - heardBefore)
         offset = if (offset.isNaN()) delay else minOf(delay, grown)
         heardBefore = heard.seconds
-        return BoatTime(board + offset)
+        // The sum may round up.
+        return BoatTime(minOf(board + offset, heard.seconds))
     }
 
     private companion object {

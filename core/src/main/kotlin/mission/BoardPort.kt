@@ -88,7 +88,8 @@ public class BoardPort(
         if (!isNewRest && now.seconds - toldAt < HEARTBEAT) return
         toldAt = now.seconds
         sent = actuation
-        send(Command.Move(actuation))
+        // A line that is hit on the way is not heard, and of a first rest that must not happen.
+        repeat(if (isNewRest) REST_COPIES else 1) { send(Command.Move(actuation)) }
     }
 
     /** Sends [command] at once. */
@@ -127,6 +128,7 @@ public class BoardPort(
         /** Time between questions, s. */
         public const val PATIENCE: Double = 1.0
 
+        private const val REST_COPIES = 3
         private const val BUFFER = 4096
 
         /** So that a link that never runs dry can't hold a step up. */

@@ -15,6 +15,7 @@ import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.Reading
+import stillwater.wire.BoardState
 import stillwater.wire.ByteLink
 import stillwater.wire.Command
 import stillwater.wire.Message
@@ -53,13 +54,13 @@ public class Mission(
     }
 
     private val water = spec.area.water()
-    private val pose = PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed)
+    private val pose = PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
     private val survey = Survey(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
         object : SurveyListener {
-            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) {
-                log.reading(now, message, verdict, taken, held)
+            override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, gate: PlausibilityGate) {
+                log.reading(now, message, verdict, taken, gate.held, gate.same)
                 taken.forEach(this@Mission.taken::take)
             }
 
@@ -68,8 +69,9 @@ public class Mission(
     )
     private val port = BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) })
     private val use = BudgetUse(spec.budget)
-    private val navigator = Navigator(spec, water, pose.track, use)
-    private val gate = SafetyGate(spec.failsafe.settings(), Fence(spec.area.corners()))
+    private val fence = Fence(water.outlines[0], water.outlines.drop(1))
+    private val navigator = Navigator(spec, water, fence, pose.track, use, mixing)
+    private val gate = SafetyGate(spec.failsafe.settings(), fence)
     private val situation = Situation()
     private var now = BoatTime(Double.NaN)
     private var armedAt = Double.NEGATIVE_INFINITY
@@ -174,6 +176,7 @@ public class Mission(
         situation.operatorStop = stopWanted
         situation.operatorWish = wish.danger
         situation.logLost = logLost
+        situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
         return gate.assess(situation)
     }
@@ -192,18 +195,26 @@ public class Mission(
 
     private fun command(before: MissionState) {
         when (state) {
-            MissionState.Idle, is MissionState.Preflight -> port.askState(now)
+            MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
-                val isNew = before !is MissionState.Stopped
-                if (isNew) port.tell(now, Drive.NONE)
-                if (isNew || port.askState(now)) port.order(Command.Disarm)
+                if (before !is MissionState.Stopped) port.tell(now, Drive.NONE)
+                leaveDisarmed()
             }
             else -> {
                 if (state == MissionState.Arming) arm(before)
-                port.tell(now, drive)
+                if (!isDeaf()) port.tell(now, drive)
                 port.askState(now)
             }
         }
+    }
+
+    /**
+     * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
+     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every question.
+     */
+    private fun leaveDisarmed() {
+        if (port.state != BoardState.STANDBY || port.askState(now)) port.order(Command.Disarm)
+        port.askState(now)
     }
 
     /** The slowest motor controllers take 18 s to arm, and being told again may start them over. */
@@ -220,7 +231,13 @@ public class Mission(
         else -> false
     }
 
+    /** Rest was said; what is said on to a board that is not heard can only be spoilt on the way and become a drive. */
+    private fun isDeaf() = state == MissionState.Holding(Danger.LINK_LOST) && port.silence(now) > RESTING
+
     private companion object {
         const val LONGEST_ARMING = 20.0
+
+        /** Silence after which nothing more is said of drives, s: rest was said four times. */
+        const val RESTING = 0.5
     }
 }

@@ -90,13 +90,22 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         platypus(message)?.let { write(now, it) }
     }
 
-    /** Writes what the probe said at [now], the [verdict] on it, and what the map took. */
-    public fun reading(now: BoatTime, message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?) {
+    /** Writes what the probe said at [now], the [verdict] on it, what the map took, and what waits. */
+    public fun reading(
+        now: BoatTime,
+        message: Message,
+        verdict: ReadingVerdict,
+        taken: List<Reading>,
+        held: Reading?,
+        same: List<Reading> = emptyList(),
+    ) {
         val sensor = platypus(message) ?: return
         val list = taken.joinToString(",") { exact(it) }
         val waits = held?.let { ""","held":${exact(it)}""" }.orEmpty()
+        val equal = same.joinToString(",") { exact(it) }
+        val equals = if (same.isEmpty()) "" else ""","same":[$equal]"""
         val word = verdict.name.lowercase().replace('_', '-')
-        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits}""")
+        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits$equals}""")
     }
 
     /** Writes that a cell was left, without a reading in it, at [place] at [time]; [now] is when that was noticed. */

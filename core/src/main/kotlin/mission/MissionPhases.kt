@@ -56,7 +56,13 @@ internal object MissionPhases {
         Danger.FENCE -> StopReason.FENCE
         Danger.LOG_LOST -> StopReason.LOG_LOST
         Danger.OPERATOR_STOP, Danger.OPERATOR_RETURN -> StopReason.OPERATOR
-        Danger.LINK_LOST, Danger.FIX_STALE, Danger.FIX_JUMPING, Danger.OPERATOR_WAIT, Danger.OPERATOR_HOLD -> null
+        Danger.LINK_LOST,
+        Danger.FIX_STALE,
+        Danger.FIX_JUMPING,
+        Danger.BUDGET_SPENT,
+        Danger.OPERATOR_WAIT,
+        Danger.OPERATOR_HOLD,
+        -> null
     }
 
     private val WISHES = Wish.entries.mapNotNull { it.danger }

@@ -23,6 +23,7 @@ import stillwater.model.Reading
  * @property lastTime latest time on the boat's clock that the log has, s.
  * @property lastValue value of the last reading taken, sensor units; NaN where there was none.
  * @property held reading that waits for its confirmation; null where none does.
+ * @property same readings equal to the last that wait for one that is not.
  * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
@@ -34,6 +35,7 @@ public class RecoveredMission internal constructor(
     public val lastTime: Double,
     public val lastValue: Double,
     public val held: Reading?,
+    public val same: List<Reading>,
     public val lastState: String,
     public val readings: Long,
     public val unreadable: Long,
@@ -52,6 +54,7 @@ public class MissionRecovery {
     private var lastTime = 0.0
     private var lastValue = Double.NaN
     private var held: Reading? = null
+    private var same = emptyList<Reading>()
     private var lastState = MissionState.Idle.word
     private var readings = 0L
     private var unreadable = 0L
@@ -67,7 +70,7 @@ public class MissionRecovery {
     public fun recovered(): RecoveredMission? {
         val spec = spec ?: return null
         val estimator = estimator ?: return null
-        return RecoveredMission(spec, estimator, used, lastTime, lastValue, held, lastState, readings, unreadable)
+        return RecoveredMission(spec, estimator, used, lastTime, lastValue, held, same, lastState, readings, unreadable)
     }
 
     private fun content(line: String): JsonObject? {
@@ -106,6 +109,8 @@ public class MissionRecovery {
     private fun pass(estimator: FieldEstimator, json: JsonElement): Boolean {
         val numbers = numbers(json, PASS_SIZE) ?: return false
         estimator.update(BoatTime(numbers[0]), numbers[1], numbers[2], Double.NaN)
+        held = null
+        same = emptyList()
         return true
     }
 
@@ -118,6 +123,7 @@ public class MissionRecovery {
             readings++
         }
         held = json["held"]?.let { reading(it) }
+        same = (json["same"] as? JsonArray)?.mapNotNull { reading(it) }.orEmpty()
         return true
     }
 

@@ -130,6 +130,8 @@ public enum class Quantity(public val unit: String) {
  * @property lowest least value the water can have, sensor units; the map's prior and the range of what is taken.
  * @property highest greatest value.
  * @property largestJump from one reading to the next that needs no confirmation, sensor units; null for a fifth of the range.
+ * @property stuckAfter equal readings in a row that a sound probe does not give, at least 2: where it is noisy beside its
+ *   resolution, so that one that says the same again and again is stuck; null where equal readings are nothing special.
  * @property latency from sample to arrival of its line, s, at least 0.
  * @property longestTimeConstant slowest response that is possible, s, for the interval filter; median of what the
  *   self-calibrating and the Bayesian estimator believe beforehand.
@@ -145,6 +147,7 @@ public data class ProbeSpec(
     val lowest: Double,
     val highest: Double,
     @SerialName("largest_jump") val largestJump: Double? = null,
+    @SerialName("stuck_after") val stuckAfter: Int? = null,
     @SerialName("latency_s") val latency: Double = 0.0,
     @SerialName("longest_time_constant_s") val longestTimeConstant: Double = 20.0,
     @SerialName("smallest_slope_per_s") val smallestSlope: Double? = null,
@@ -158,6 +161,7 @@ public data class ProbeSpec(
         require(largestJump == null || (largestJump > 0 && largestJump.isFinite())) {
             "largest_jump ($largestJump) must be above 0 and finite"
         }
+        require(stuckAfter == null || stuckAfter >= 2) { "stuck_after ($stuckAfter readings) must be at least 2" }
         require(latency in 0.0..LONGEST_LATENCY) { "latency_s ($latency s) must be in [0, $LONGEST_LATENCY]" }
         require(longestTimeConstant > 0 && longestTimeConstant.isFinite()) {
             "longest_time_constant_s ($longestTimeConstant s) must be above 0 and finite"
@@ -271,6 +275,7 @@ public data class FailsafePolicy(
         answers = mapOf(
             Danger.BATTERY_LOW to battery.failsafe,
             Danger.FENCE to fence.failsafe,
+            Danger.BUDGET_SPENT to Failsafe.RETURN_HOME,
             Danger.MISSION_END to end.failsafe,
             Danger.LOG_LOST to end.failsafe,
             Danger.OPERATOR_HOLD to Failsafe.HOLD,
@@ -284,7 +289,7 @@ public data class FailsafePolicy(
  *
  * @property name what tables call it.
  * @property origin where the frame has its zero.
- * @property area the water; its shore is the safety gate's fence, keep-outs are the planner's to keep out of.
+ * @property area the water; its shore and its keep-outs are the safety gate's fence.
  * @property grid the map's cells.
  * @property probe what is measured.
  * @property estimator by its name.

@@ -4,7 +4,7 @@ import stillwater.control.Danger
 
 /** What a mission is about. */
 public sealed interface MissionState {
-    /** Nothing was started. The board is left alone. */
+    /** Nothing was started. The board is kept disarmed: a process that died may have left it armed. */
     public data object Idle : MissionState
 
     /**
@@ -17,13 +17,13 @@ public sealed interface MissionState {
     /** The board was told to arm and has not said that it has. Motors rest. */
     public data object Arming : MissionState
 
-    /** Goes where the planner says, or home because the budget wants it. */
+    /** Goes where the planner says. */
     public data object Surveying : MissionState
 
     /** Waits for [danger] to pass, on the spot under power or with its motors at rest. */
     public data class Holding(val danger: Danger) : MissionState
 
-    /** On its way home because of [danger]. */
+    /** On its way home because of [danger], which may be that the budget allows no more. */
     public data class Returning(val danger: Danger) : MissionState
 
     /** Over, and disarmed. */

@@ -1,5 +1,7 @@
 package stillwater.mission
 
+import stillwater.control.Fence
+import stillwater.control.Mixing
 import stillwater.control.TrackEstimator
 import stillwater.control.WaypointFollower
 import stillwater.field.FieldMap
@@ -74,15 +76,17 @@ internal class EntryPlanner(private val planner: Planner, private val water: Wat
 internal class Navigator(
     private val spec: MissionSpec,
     private val water: WaterArea,
+    private val fence: Fence,
     private val track: TrackEstimator,
     use: BudgetUse,
+    mixing: Mixing,
 ) {
     private enum class Aim { NOTHING, SURVEY, HOME, HOLD }
 
     private val home = spec.home.position
     private val wayHome = wayHome(spec, water)
-    private val follower = WaypointFollower(spec.boat.follower())
-    private val planner: Planner = BudgetedPlanner(
+    private val follower = WaypointFollower(spec.boat.follower().copy(turnThrust = mixing.turnThrust))
+    private val planner = BudgetedPlanner(
         EntryPlanner(spec.planner.build(spec, water, Random(spec.seed)), water),
         limit = spec.budget.metres ?: spec.budget.seconds ?: 0.0,
         cost = if (spec.budget.metres != null) TravelCost(1.0, 0.0) else TravelCost(1 / spec.boat.cruise, TURN_TIME),
@@ -94,9 +98,14 @@ internal class Navigator(
     private val plan = Plan()
     private var next = 0
     private var aim = Aim.NOTHING
+    private var knowsWay = false
 
     /** Times the planner was asked. */
     var plans = 0L
+        private set
+
+    /** Whether the budget allows no more than the way home; stays so. */
+    var isHomeBound = false
         private set
 
     /** Whether the planner has nowhere to go any more. */
@@ -104,7 +113,7 @@ internal class Navigator(
         private set
 
     /** Whether the boat came home on purpose. */
-    val isHome: Boolean get() = aim == Aim.HOME && follower.arrived && next >= plan.size
+    val isHome: Boolean get() = aim == Aim.HOME && knowsWay && follower.arrived && next >= plan.size
 
     /** The waypoints ahead, the one steered for first. */
     fun ahead(): List<Position> = plan.waypoints().drop(maxOf(0, next - 1))
@@ -124,11 +133,24 @@ internal class Navigator(
 
     /** Goes home. */
     fun goHome() {
-        if (turnTo(Aim.HOME)) {
-            wayHome.fill(track.x, track.y, plan)
-            if (plan.size == 0) plan.add(home.x, home.y)
-        }
+        val isAfloat = water.contains(track.x, track.y)
+        if (turnTo(Aim.HOME) || (isAfloat && !knowsWay)) fillWayHome(isAfloat)
         if (follower.arrived && next < plan.size) nextLeg()
+        if (isHomeBound && isHome) isOver = true
+    }
+
+    /** From off the water, as believed, the nearest of it comes first, and the way is asked for again from there. */
+    private fun fillWayHome(isAfloat: Boolean) {
+        startLegs()
+        wayHome.fill(track.x, track.y, plan)
+        knowsWay = isAfloat
+        if (plan.size > 0) return
+        if (isAfloat) {
+            plan.add(home.x, home.y)
+        } else {
+            val deep = HOLDING * spec.boat.arrival - fence.distance(track.x, track.y)
+            plan.add(track.x + deep * fence.inwardX, track.y + deep * fence.inwardY)
+        }
     }
 
     /** Stays where the boat is, and comes back when it was carried off. */
@@ -151,12 +173,16 @@ internal class Navigator(
     private fun turnTo(wanted: Aim): Boolean {
         if (aim == wanted) return false
         aim = wanted
+        startLegs()
+        return true
+    }
+
+    private fun startLegs() {
         plan.clear()
         next = 0
         // A leg of no length to where the boat is counts as reached at the next look.
         follower.leg(track.x, track.y, track.x, track.y)
         follower.steer(track, 0.0, 0.0)
-        return true
     }
 
     private fun replan(map: FieldMap, value: Double) {
@@ -167,6 +193,7 @@ internal class Navigator(
         val from = if (here.distanceTo(home) <= HOLDING * spec.boat.arrival) home else here
         val outcome = planner.plan(map, from, value, StopCondition.NEVER, plan)
         isOver = outcome != PlanOutcome.Planned
+        if (planner.isHomeBound) isHomeBound = true
     }
 
     private fun nextLeg() {

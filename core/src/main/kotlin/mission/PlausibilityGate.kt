@@ -12,11 +12,17 @@ public enum class ReadingVerdict {
     /** It lies so far from the one before that it waits for the next to confirm it. */
     HELD,
 
-    /** It passes, and the one held before it with it. */
+    /** It passes, and the one held before it with it. A reading that is held may confirm the one before, too. */
     CONFIRMED,
 
     /** It is outside of what the water can have. */
     OUT_OF_RANGE,
+
+    /** It is what the one before it was, to the last digit, and waits for one that is not. */
+    SAME,
+
+    /** It is one of too many that are the same: the probe is stuck, or its line is. */
+    STUCK,
 
     /** It or its place is not a number, or its place is not known. */
     WITHOUT_VALUE_OR_PLACE,
@@ -31,28 +37,45 @@ public fun interface ReadingSink {
 /**
  * Keeps back readings that are likelier a digit changed on the wire than water: the lines carry no checksum.
  *
- * A reading outside [range] is dropped. One that differs from the reading before by more than [largestJump] is held until
- * the next: if that agrees with it, both pass, else the held one was alone and is dropped. Every reading is counted under
+ * A reading outside [range] is dropped. Readings equal to the one before wait for one that is not; where there are [stuckAfter]
+ * of them or more, that one included, the probe is taken to be stuck and they are dropped, all but the first, which was
+ * true when it was read. The first, and one that differs from the reading before by more than
+ * [largestJump], is held until the next: if it lies between its neighbours, or beyond them by no more than a jump, it
+ * passes, else it was alone and is dropped. So a probe that moves fast loses nothing, and a jump of a few deviations of the
+ * noise is a good choice. Every reading is counted under
  * what became of it. Never throws on data. Confined to one thread.
  *
  * @property range what the water can have, sensor units.
  * @property largestJump from one reading to the next that needs no confirmation, sensor units, above 0; may be infinite.
+ * @property stuckAfter equal readings in a row that a sound probe does not give, at least 2; null where it may.
  * @param sink where readings go that pass, in order. Retained.
- * @throws IllegalArgumentException if [largestJump] is not above 0.
+ * @throws IllegalArgumentException if [largestJump] is not above 0 or [stuckAfter] below 2.
  */
 public class PlausibilityGate(
     public val range: Interval,
     public val largestJump: Double,
+    public val stuckAfter: Int? = null,
     private val sink: ReadingSink,
 ) {
     init {
         require(largestJump > 0) { "largestJump ($largestJump sensor units) must be above 0" }
+        require(stuckAfter == null || stuckAfter >= 2) { "stuckAfter ($stuckAfter readings) must be at least 2" }
     }
+
+    private val equals = ArrayList<Reading>()
+    private var isStuck = false
 
     private var last = Double.NaN
 
     /** The reading that waits for the next; null where none does. */
     public var held: Reading? = null
+        private set
+
+    /** Readings equal to the last that passed, which wait for one that is not. Not to be modified. */
+    public val same: List<Reading> get() = equals
+
+    /** Readings of a probe that was stuck. */
+    public var stuck: Long = 0
         private set
 
     /** Readings that passed. */
@@ -72,7 +95,7 @@ public class PlausibilityGate(
         private set
 
     /** Readings that were left out. */
-    public val leftOut: Long get() = outOfRange + lone + withoutValueOrPlace
+    public val leftOut: Long get() = outOfRange + lone + stuck + withoutValueOrPlace
 
     /** Judges [reading] and hands on what passes. */
     public fun take(reading: Reading): ReadingVerdict {
@@ -84,18 +107,23 @@ public class PlausibilityGate(
             return ReadingVerdict.OUT_OF_RANGE
         }
         val waiting = held
-        if (waiting != null && abs(reading.value - waiting.value) <= largestJump) {
-            pass(waiting)
+        held = null
+        val isConfirmed = waiting != null && confirms(waiting.value, reading.value)
+        if (waiting != null) if (isConfirmed) pass(waiting) else lone++
+        // The one just confirmed counts, too.
+        if (stuckAfter != null && reading.value == last) return wait(reading, stuckAfter)
+        if (abs(reading.value - last) <= largestJump) {
             pass(reading)
-            return ReadingVerdict.CONFIRMED
-        }
-        if (waiting != null) lone++
-        if (last.isNaN() || abs(reading.value - last) <= largestJump) {
-            pass(reading)
-            return ReadingVerdict.PASSED
+            return if (isConfirmed) ReadingVerdict.CONFIRMED else ReadingVerdict.PASSED
         }
         held = reading
         return ReadingVerdict.HELD
+    }
+
+    /** Whether [held] lies on the way from the reading before it to [next], or but a jump off it. */
+    private fun confirms(held: Double, next: Double): Boolean {
+        val before = if (last.isNaN()) next else last
+        return held >= minOf(before, next) - largestJump && held <= maxOf(before, next) + largestJump
     }
 
     /** Counts a reading whose place is not known. */
@@ -104,14 +132,44 @@ public class PlausibilityGate(
         return ReadingVerdict.WITHOUT_VALUE_OR_PLACE
     }
 
-    /** Goes on after a restart: [last] is the value that passed last, NaN where none did, and [held] what waited. */
-    public fun resume(last: Double, held: Reading?) {
+    /** The boat has left the place: what waits is given up, because later readings of it would come out of order. */
+    public fun giveUp() {
+        if (held != null) lone++
+        held = null
+        stuck += equals.size
+        equals.clear()
+    }
+
+    /**
+     * Goes on after a restart: [last] is the value that passed last, NaN where none did, and [held] and [same] are what
+     * waited.
+     */
+    public fun resume(last: Double, held: Reading?, same: List<Reading> = emptyList()) {
+        equals.clear()
+        equals.addAll(same)
         this.last = last
         this.held = held
     }
 
+    private fun wait(reading: Reading, most: Int): ReadingVerdict {
+        equals.add(reading)
+        // The one that passed counts among the equal ones.
+        if (!isStuck && equals.size + 1 < most) return ReadingVerdict.SAME
+        isStuck = true
+        stuck += equals.size
+        equals.clear()
+        return ReadingVerdict.STUCK
+    }
+
     private fun pass(reading: Reading) {
         held = null
+        isStuck = false
+        for (i in equals.indices) handOn(equals[i])
+        equals.clear()
+        handOn(reading)
+    }
+
+    private fun handOn(reading: Reading) {
         last = reading.value
         passed++
         sink.take(reading)

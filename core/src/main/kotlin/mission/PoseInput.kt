@@ -1,13 +1,14 @@
 package stillwater.mission
 
 import stillwater.control.FixUse
+import stillwater.control.Mixing
 import stillwater.control.Situation
 import stillwater.control.TrackEstimator
+import stillwater.control.WaterSpeed
 import stillwater.model.BoatTime
 import stillwater.model.Drive
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
-import kotlin.math.sqrt
 
 /**
  * Where the boat is, from the phone's fixes and compass and what its thrusters do. Confined to one thread.
@@ -15,15 +16,17 @@ import kotlin.math.sqrt
  * @property frame in which the track has its metres.
  * @property track the estimate.
  */
-internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
+internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mixing: Mixing) {
     val track = TrackEstimator()
     private var fixTime = Double.NEGATIVE_INFINITY
     private var compassTime = Double.NEGATIVE_INFINITY
     private var lastHeading = Double.NaN
     private var waiting: LatLon? = null
     private var waitingTime = Double.NaN
-    private var speed = 0.0
+    private val speed = WaterSpeed(topSpeed)
     private var now = 0.0
+    private var agreeSince = Double.NaN
+    private var isBelieved = false
 
     /** Fixes refused: not finite, older than one before, or where the boat cannot be. */
     var refused = 0L
@@ -56,17 +59,31 @@ internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
     /** Lets [dt] s pass until [now] under [drive], and takes the fix that came meanwhile. */
     fun advance(now: BoatTime, dt: Double, drive: Drive) {
         this.now = now.seconds
-        speed += minOf(1.0, dt / SPEED_TIME) * (topSpeed * sqrt(maxOf(0.0, drive.forward)) - speed)
-        track.advance(dt, heading, speed)
+        speed.advance(dt, mixing.ahead(drive))
+        track.advance(dt, heading, speed.value)
         val place = waiting ?: return
         waiting = null
         val local = frame.toLocal(place)
-        if (track.fix(local.x, local.y) == FixUse.USED) fixTime = waitingTime else refused++
+        if (track.fix(local.x, local.y) == FixUse.USED) {
+            fixTime = waitingTime
+            if (agreeSince.isNaN()) agreeSince = waitingTime
+            if (waitingTime - agreeSince >= AGREEMENT) isBelieved = true
+        } else {
+            refused++
+            doubt()
+        }
+    }
+
+    /** The first fix after a start may be the wrong one: until a place is believed, another takes over soon. */
+    private fun doubt() {
+        if (isBelieved) return
+        agreeSince = Double.NaN
+        if (track.jumps > MOST_JUMPS) track.reset()
     }
 
     /** Fills in what [situation] has of the pose. */
     fun describe(situation: Situation) {
-        situation.fixAge = now - fixTime
+        situation.fixAge = if (isBelieved) now - fixTime else Double.POSITIVE_INFINITY
         situation.jumps = track.jumps
         situation.x = track.x
         situation.y = track.y
@@ -77,8 +94,11 @@ internal class PoseInput(val frame: LocalFrame, private val topSpeed: Double) {
     }
 
     private companion object {
-        /** Time constant with which a hull takes up speed, s. */
-        const val SPEED_TIME = 2.0
+        /** For so long fixes agree before the boat moves, s: receivers wander most while they settle. */
+        const val AGREEMENT = 15.0
+
+        /** Fixes refused in a row that an unbelieved place survives. */
+        const val MOST_JUMPS = 2
 
         /** A compass that has not spoken for so long is not one, s. */
         const val OLDEST_COMPASS = 1.0

@@ -11,8 +11,8 @@ import stillwater.wire.Message
 
 /** Hears what a [Survey] does with each reading, for the log. */
 internal interface SurveyListener {
-    /** [message] came from the probe; [verdict] became of it, and [taken] went into the map, in order. */
-    fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, held: Reading?)
+    /** [message] came from the probe; [verdict] of [gate] became of it, and [taken] went into the map, in order. */
+    fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, gate: PlausibilityGate)
 
     /** The boat left a cell in which no reading was taken; it was at [place] at [time]. */
     fun passed(time: BoatTime, place: Position)
@@ -40,6 +40,7 @@ internal class Survey(
     val gate = PlausibilityGate(
         probe.range,
         probe.largestJump ?: (probe.range.width * DEFAULT_JUMP),
+        probe.stuckAfter,
         ::accept,
     )
 
@@ -53,7 +54,7 @@ internal class Survey(
     fun resume(recovered: RecoveredMission, now: BoatTime) {
         shift = maxOf(0.0, recovered.lastTime + AFTER - now.seconds)
         lastValue = recovered.lastValue
-        gate.resume(recovered.lastValue, recovered.held)
+        gate.resume(recovered.lastValue, recovered.held, recovered.same)
     }
 
     /** The boat is at ([x], [y]), m, [now]. */
@@ -79,7 +80,7 @@ internal class Survey(
         val place = history.at(sampled)
         taken.clear()
         val verdict = if (place == null) gate.lacksPlace() else gate.take(Reading(sampled + shift, place, value))
-        listener.read(message, verdict, taken, gate.held)
+        listener.read(message, verdict, taken, gate)
         return true
     }
 
@@ -91,6 +92,7 @@ internal class Survey(
     }
 
     private fun pass() {
+        gate.giveUp()
         estimator.update(watchedTime, watchedPlace.x, watchedPlace.y, Double.NaN)
         listener.passed(watchedTime, watchedPlace)
     }

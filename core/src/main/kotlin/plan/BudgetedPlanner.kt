@@ -68,6 +68,10 @@ public class BudgetedPlanner(
 ) : Planner {
     private val back = Plan()
 
+    /** Whether the last plan was the way home because the budget allowed nothing else. */
+    public var isHomeBound: Boolean = false
+        private set
+
     init {
         require(limit >= 0 && limit.isFinite()) { "limit ($limit) must be at least 0 and finite" }
         require(reserve >= 0 && reserve.isFinite()) { "reserve ($reserve) must be at least 0 and finite" }
@@ -80,6 +84,7 @@ public class BudgetedPlanner(
         stop: StopCondition,
         plan: Plan,
     ): PlanOutcome {
+        isHomeBound = false
         val outcome = planner.plan(map, from, sensorValue, stop, plan)
         val left = limit - meter.used()
         if (plan.size == 0) {
@@ -106,6 +111,7 @@ public class BudgetedPlanner(
     }
 
     private fun goHome(from: Position, plan: Plan): PlanOutcome {
+        isHomeBound = true
         plan.clear()
         if (from == home) return PlanOutcome.BudgetSpent
         wayHome.fill(from.x, from.y, plan)

@@ -125,7 +125,14 @@ class SafetyGateTest {
 
     @Test
     fun aBoatDrivenAtTheFenceByAMadPilotStaysWithinIt() {
-        val random = Random(401)
+        mad(401, fence)
+        val west = listOf(Position(8.0, 8.0), Position(20.0, 8.0), Position(20.0, 20.0))
+        val east = listOf(Position(32.0, 28.0), Position(48.0, 36.0), Position(30.0, 44.0))
+        mad(402, Fence(square, listOf(west, east)))
+    }
+
+    private fun mad(seed: Int, fence: Fence) {
+        val random = Random(seed)
         val hull = Hull()
         // T = m / d1, an upper bound of the time constant; the drag's square only shortens it.
         val settings = SafetySettings(stopTime = hull.mass / hull.linearDrag)
@@ -147,8 +154,31 @@ class SafetyGateTest {
                 boat.advance(0.1, Mixing.DIFFERENTIAL.mix(drive))
                 farthest = minOf(farthest, fence.distance(boat.x, boat.y))
             }
-            assertTrue(farthest > 0, "run $it: $farthest m")
+            assertTrue(farthest > 0, "seed $seed, run $it: $farthest m")
         }
+    }
+
+    @Test
+    fun aKeepOutIsAFenceFromOutside() {
+        val island = listOf(Position(20.0, 20.0), Position(30.0, 20.0), Position(30.0, 30.0), Position(20.0, 30.0))
+        val beside = listOf(Position(28.0, 22.0), Position(40.0, 22.0), Position(40.0, 28.0), Position(28.0, 28.0))
+        val both = Fence(square, listOf(island, beside.reversed()))
+        assertEquals(4.0, both.distance(24.0, 16.0), 1e-12)
+        assertEquals(-1.0, both.inwardY, 1e-12)
+        assertEquals(3.0, both.distance(3.0, 25.0), 1e-12)
+        assertEquals(-4.0, both.distance(24.0, 25.0), 1e-12)
+        assertEquals(-1.0, both.inwardX, 1e-12)
+        assertEquals(-3.0, both.distance(35.0, 25.0), 1e-12)
+        assertEquals(-2.0, both.distance(52.0, 25.0), 1e-12)
+        val gate = SafetyGate(SafetySettings(fenceMargin = 3.0), both)
+        val ashore = sound().apply {
+            x = 21.0
+            heading = PI
+            deviation = 0.1
+        }
+        assertEquals(Danger.FENCE, (gate.assess(ashore) as Ruling.Fall).danger)
+        assertEquals(Drive(1.0, 0.2), ruled(gate, ashore), "led out")
+        assertEquals(Drive.NONE, ruled(gate, ashore.apply { deviation = 0.8 }), "it may be 3.4 m within")
     }
 
     @Test

@@ -95,7 +95,7 @@ class MissionDraftTest {
         val acidity = triangle.with(DraftField.LARGEST_JUMP, "3").measuring(Quantity.ACIDITY)
         assertEquals("4", acidity.text(DraftField.LOWEST))
         assertEquals("", acidity.text(DraftField.LARGEST_JUMP))
-        val probe = ProbeSpec(Quantity.DEPTH, 3, 0.5, 12.0, 1.0, 0.25, 2.0)
+        val probe = ProbeSpec(Quantity.DEPTH, 3, 0.5, 12.0, 1.0, latency = 0.25, longestTimeConstant = 2.0)
         assertEquals(probe, triangle.measuring(probe).check().spec?.probe)
     }
 

@@ -12,8 +12,8 @@ import kotlin.test.assertTrue
 
 /** Readings that the map took, in the log's own order. */
 internal fun Desk.replayedReadings(): List<Reading> = lines.flatMap { line ->
-    val list = line.substringAfter("\"taken\":[", "").substringBefore("]]")
-    list.split("],").filter { it.isNotBlank() && "[" in it }.map { part ->
+    val list = line.substringAfter("\"taken\":[[", "").substringBefore("]]")
+    list.split("],").filter { it.isNotBlank() }.map { part ->
         val numbers = part.trim('[', ']').split(',').map { it.toDouble() }
         Reading(BoatTime(numbers[0]), Position(numbers[1], numbers[2]), numbers[3])
     }
