@@ -1,10 +1,13 @@
 package stillwater.world
 
 import stillwater.field.CellField
+import stillwater.field.Field
 import stillwater.model.Grid
 import kotlin.math.PI
+import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.pow
+import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.random.Random
 
@@ -29,19 +32,43 @@ object UniformField : RandomField {
  */
 object GaussianMixtureField : RandomField {
     override fun draw(grid: Grid, random: Random): CellField {
-        val bumps = List(random.nextInt(3, 7)) {
-            Bump(
-                column = random.nextDouble() * (grid.columns - 1),
-                row = random.nextDouble() * (grid.rows - 1),
-                sigma = random.nextDouble(1.0, 3.0),
-                amplitude = random.nextDouble(0.5, 1.0),
-            )
-        }
-        val sums = sums(grid, bumps)
+        val sums = sums(grid, bumps(grid, random))
         val lowest = sums.min()
         val span = sums.max() - lowest
         return CellField(grid, DoubleArray(sums.size) { if (span > 0) (sums[it] - lowest) / span else 0.5 })
     }
+
+    /**
+     * The same mixture without steps: at the cells' centres the value that [draw] gives with the same [random], between
+     * and around them the Gaussians themselves, which may go a little beyond 0 and 1 there.
+     */
+    fun drawSmooth(grid: Grid, random: Random): Field {
+        val bumps = bumps(grid, random)
+        val sums = sums(grid, bumps)
+        val lowest = sums.min()
+        val span = sums.max() - lowest
+        val c = cos(grid.rotation)
+        val s = sin(grid.rotation)
+        return Field { x, y, _ ->
+            val east = x - grid.origin.x
+            val north = y - grid.origin.y
+            // The centre of cell (0, 0) is (0, 0) to the Gaussians.
+            val column = (c * east + s * north) / grid.cellWidth - CENTRE
+            val row = (c * north - s * east) / grid.cellHeight - CENTRE
+            if (span > 0) (sum(column, row, bumps) - lowest) / span else CENTRE
+        }
+    }
+
+    private fun bumps(grid: Grid, random: Random) = List(random.nextInt(3, 7)) {
+        Bump(
+            column = random.nextDouble() * (grid.columns - 1),
+            row = random.nextDouble() * (grid.rows - 1),
+            sigma = random.nextDouble(1.0, 3.0),
+            amplitude = random.nextDouble(0.5, 1.0),
+        )
+    }
+
+    private const val CENTRE = 0.5
 }
 
 /**
@@ -68,8 +95,10 @@ private class Bump(val column: Double, val row: Double, val sigma: Double, val a
 
 private fun sums(grid: Grid, bumps: List<Bump>) = DoubleArray(grid.size) { index ->
     val cell = grid.cell(index)
-    bumps.sumOf {
-        val squared = (cell.column - it.column).pow(2) + (cell.row - it.row).pow(2)
-        it.amplitude * exp(-squared / (2 * it.sigma * it.sigma))
-    }
+    sum(cell.column.toDouble(), cell.row.toDouble(), bumps)
+}
+
+private fun sum(column: Double, row: Double, bumps: List<Bump>) = bumps.sumOf {
+    val squared = (column - it.column).pow(2) + (row - it.row).pow(2)
+    it.amplitude * exp(-squared / (2 * it.sigma * it.sigma))
 }

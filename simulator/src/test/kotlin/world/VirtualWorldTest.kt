@@ -1,0 +1,112 @@
+package stillwater.world
+
+import org.junit.jupiter.api.Test
+import stillwater.model.BoatTime
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.model.LatLon
+import stillwater.model.Position
+import stillwater.virtual.PoseSpec
+import kotlin.math.abs
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertNotEquals
+import kotlin.test.assertTrue
+
+class VirtualWorldTest {
+    private val grid = Grid(Position(20.0, -10.0), 7, 5, 8.0, rotation = 0.4)
+    private val site = WorldSite(LatLon(45.5, -73.6), grid, Interval(0.0, 15.0), grid.center(3))
+    private val windy = WorldSettings(
+        seed = 12,
+        wind = Flow(3.0, 1.0),
+        current = Flow(0.2, 0.0),
+        currentTurn = 40.0,
+        pose = PoseSpec(wander = 2.0),
+    )
+
+    /** All that a phone would see of [world] in a minute, asked every [step] s. */
+    private fun seen(world: VirtualWorld, step: Double): List<Any?> {
+        val bytes = ByteArray(4096)
+        val heard = StringBuilder()
+        repeat((60 / step).toInt()) {
+            world.advance(step)
+            val count = world.boat.phone.read(bytes)
+            if (count > 0) heard.append(bytes.decodeToString(0, count))
+        }
+        return listOf(heard.toString(), world.boat.takeFix(), world.boat.dynamics.x, world.battery.used)
+    }
+
+    @Test
+    fun theSameSeedGivesTheSameBytesHoweverTimePasses() {
+        val once = seen(VirtualWorld(windy, site), 0.1)
+        assertEquals(once, seen(VirtualWorld(windy, site), 0.1))
+        assertEquals(once, seen(VirtualWorld(windy, site), 0.25))
+        assertNotEquals(once, seen(VirtualWorld(windy.copy(seed = 13), site), 0.1))
+    }
+
+    @Test
+    fun theCurrentTurnsRoundAndTheWindCarriesTheBoat() {
+        val world = VirtualWorld(windy.copy(wind = Flow.NONE), site)
+        world.advance(10.0)
+        // A quarter turn counter-clockwise: from east to north. One tick of 0.02 s is 0.003 rad.
+        assertEquals(0.0, world.boat.dynamics.currentX, 0.2 * 0.004)
+        assertEquals(0.2, world.boat.dynamics.currentY, 1e-5)
+        val still = VirtualWorld(windy.copy(current = Flow.NONE), site)
+        still.advance(10.0)
+        assertEquals(site.start.x + 10 * 0.03 * 3, still.boat.dynamics.x, 1e-6)
+    }
+
+    @Test
+    fun theBatteryIsUsedAndItsVoltageFalls() {
+        val world = VirtualWorld(WorldSettings(battery = BatterySpec(capacity = 1.0, idlePower = 3600.0)), site)
+        world.advance(0.5)
+        // 3600 W for half a second of one watt hour is half of it.
+        assertEquals(0.5, world.battery.used, 1e-9)
+        assertEquals(15.3 * (1 - 1 / 12.0), world.boat.board.volts, 1e-6)
+        world.advance(5.0)
+        assertEquals(15.3 * 5 / 6, world.boat.board.volts, 1e-9)
+    }
+
+    @Test
+    fun smoothWaterIsTheGaussiansAtTheCentresAndHasNoSteps() {
+        val range = Interval(2.0, 12.0)
+        val stepped = WaterKind.GAUSSIAN.draw(grid, range, Random(5))
+        val smooth = WaterKind.SMOOTH.draw(grid, range, Random(5))
+        val now = BoatTime(0.0)
+        for (cell in 0 until grid.size) {
+            val centre = grid.center(cell)
+            assertEquals(stepped.truth(centre.x, centre.y, now), smooth.truth(centre.x, centre.y, now), 1e-9)
+        }
+        // Amplitudes of at most 6, sigma of at least a cell of 8 m: the slope is at most 6 e^-1/2 / 8 a metre of the
+        // mixture before scaling; the steps between cells are far larger than a centimetre's change.
+        var largest = 0.0
+        var step = 0.0
+        repeat(4000) { i ->
+            val x = 20 + 0.01 * i
+            largest = maxOf(largest, abs(smooth.truth(x + 0.01, 5.0, now) - smooth.truth(x, 5.0, now)))
+            step = maxOf(step, abs(stepped.truth(x + 0.01, 5.0, now) - stepped.truth(x, 5.0, now)))
+        }
+        assertTrue(largest < 0.05 && step > 10 * largest, "smooth $largest, stepped $step a centimetre")
+    }
+
+    @Test
+    fun waterLiesInItsRangeAndIsDefinedEverywhere() {
+        for (kind in WaterKind.entries) {
+            val range = Interval(2.0, 12.0)
+            val field = kind.draw(grid, range, Random(6))
+            for (cell in 0 until grid.size) {
+                val centre = grid.center(cell)
+                assertTrue(field.truth(centre.x, centre.y, BoatTime(0.0)) in range, "$kind in cell $cell")
+            }
+            assertTrue(field.truth(1000.0, -500.0, BoatTime(0.0)).isFinite(), "$kind far off")
+        }
+    }
+
+    @Test
+    fun aCellsMeanIsItsValueWhereTheWaterIsEvenInIt() {
+        val even = VirtualWorld(WorldSettings(seed = 3), site)
+        val uneven = VirtualWorld(WorldSettings(seed = 3, water = WaterKind.SMOOTH), site)
+        for (cell in 0 until grid.size) assertEquals(even.truthAtCentre(cell), even.meanTruth(cell), 1e-9)
+        assertTrue((0 until grid.size).any { abs(uneven.truthAtCentre(it) - uneven.meanTruth(it)) > 0.01 })
+    }
+}
