@@ -22,7 +22,14 @@ class Stillwater : CliktCommand("stillwater") {
 }
 
 fun main(args: Array<String>) {
-    val command = Stillwater().subcommands(BenchmarkCommand(), MapCommand(), CorrectCommand(), DiagnoseCommand())
+    val command = Stillwater().subcommands(
+        BenchmarkCommand(),
+        MapCommand(),
+        CorrectCommand(),
+        DiagnoseCommand(),
+        VirtualBoatCommand(),
+        DriveCommand(),
+    )
     try {
         command.parse(args)
     } catch (wrong: UsageError) {

@@ -5,7 +5,7 @@ import stillwater.link.ReconnectingWire
 import stillwater.mission.Mission
 import stillwater.mission.MissionState
 import stillwater.model.BoatTime
-import stillwater.report.significant
+import stillwater.report.SignificantDigits
 import stillwater.wire.Malformed
 
 /**
@@ -62,7 +62,7 @@ internal class DriveStatus(
             "%7.1f s  %s%s".format(time.seconds, state.word, why),
             mission.position?.let { "at %.1f, %.1f m".format(it.x, it.y) } ?: "place unknown",
             "$known of ${map.grid.size} cells, ${mission.readings.passed} readings",
-            if (mission.board.volts.isNaN()) "" else "${mission.board.volts.significant(3)} V",
+            if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
             trouble(mission),
             phone.trouble(),
         )
@@ -87,5 +87,6 @@ internal class DriveStatus(
     private companion object {
         const val LIVE_NANOS = 250_000_000L
         const val MINUTE = 60.0
+        val VOLTS = SignificantDigits(3)
     }
 }
