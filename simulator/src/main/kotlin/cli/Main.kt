@@ -29,6 +29,7 @@ fun main(args: Array<String>) {
         DiagnoseCommand(),
         VirtualBoatCommand(),
         DriveCommand(),
+        ReplayCommand(),
     )
     try {
         command.parse(args)
