@@ -40,6 +40,7 @@ internal class DriveRun(
     @Volatile
     private var stopWanted = false
     private var startTold = false
+    private var begun = Double.NaN
     private var stopTold = false
 
     /** A person wants the mission to begin. */
@@ -75,7 +76,9 @@ internal class DriveRun(
 
     private fun step(): BoatTime {
         val moment = phone.await()
-        if (startWanted && !startTold) mission.start().also { startTold = true }
+        if (begun.isNaN()) begun = moment.time.seconds
+        val hasBooted = moment.time.seconds - begun >= BOOTING
+        if (startWanted && !startTold && hasBooted) mission.start().also { startTold = true }
         if (stopWanted && !stopTold) mission.stop().also { stopTold = true }
         for (fix in moment.fixes) mission.fix(fix.time, fix.place)
         if (moment.heading.isFinite()) mission.compass(moment.time, moment.heading, moment.yawRate)
@@ -103,6 +106,12 @@ internal class DriveRun(
     companion object {
         /** How long the board is waited for to say that it is disarmed, s on the boat's clock. */
         const val PARTING = 5.0
+
+        /**
+         * A board resets when its port is opened, and what it said just before may still arrive: the mission is not begun for
+         * so long, s, so that the board is not told to arm while it boots and cannot hear.
+         */
+        const val BOOTING = 3.0
         private const val STEP = 1e-3
     }
 }
