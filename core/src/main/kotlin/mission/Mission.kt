@@ -6,6 +6,7 @@ import stillwater.control.Mixing
 import stillwater.control.Ruling
 import stillwater.control.SafetyGate
 import stillwater.control.Situation
+import stillwater.estimate.SensorBelief
 import stillwater.field.FieldMap
 import stillwater.model.BoatTime
 import stillwater.model.Drive
@@ -80,6 +81,9 @@ public class Mission(
 
     /** What is believed about the water. */
     public val map: FieldMap get() = survey.map
+
+    /** What the estimator believes of its probe; null where it has no model of one. Allocates. */
+    public val sensor: SensorBelief? get() = sensorBelief(survey.estimator)
 
     /** Where the boat is believed to be, m; null where not known. */
     public val position: Position?

@@ -128,7 +128,11 @@ public enum class Quantity {
  * @property largestJump from one reading to the next that needs no confirmation, sensor units; null for a fifth of the range.
  * @property latency from sample to arrival of its line, s, at least 0.
  * @property longestTimeConstant slowest response that is possible, s, for the interval filter; median of what the
- *   self-calibrating estimator believes beforehand.
+ *   self-calibrating and the Bayesian estimator believe beforehand.
+ * @property smallestSlope that counts as one for the bounded filter, sensor units/s, at least 0; null for [DEFAULT_SLOPE] of
+ *   the range.
+ * @property readingError most that a reading may be off for noise and resolution, for the interval filter, sensor units, at
+ *   least 0; null for [DEFAULT_ERROR] of the range.
  */
 @Serializable
 public data class ProbeSpec(
@@ -139,6 +143,8 @@ public data class ProbeSpec(
     @SerialName("largest_jump") val largestJump: Double? = null,
     @SerialName("latency_s") val latency: Double = 0.0,
     @SerialName("longest_time_constant_s") val longestTimeConstant: Double = 20.0,
+    @SerialName("smallest_slope_per_s") val smallestSlope: Double? = null,
+    @SerialName("reading_error") val readingError: Double? = null,
 ) {
     init {
         require(port == null || port in 0..9) { "port ($port) must be in 0..9" }
@@ -152,14 +158,26 @@ public data class ProbeSpec(
         require(longestTimeConstant > 0 && longestTimeConstant.isFinite()) {
             "longest_time_constant_s ($longestTimeConstant s) must be above 0 and finite"
         }
+        require(smallestSlope == null || (smallestSlope >= 0 && smallestSlope.isFinite())) {
+            "smallest_slope_per_s ($smallestSlope per s) must be at least 0 and finite"
+        }
+        require(readingError == null || (readingError >= 0 && readingError.isFinite())) {
+            "reading_error ($readingError) must be at least 0 and finite"
+        }
     }
 
     /** What the water can have, sensor units. */
     public val range: Interval get() = Interval(lowest, highest)
 
-    private companion object {
+    public companion object {
+        /** Share of the range, per s: noise of a five-hundredth of it, read every second, seldom has a steeper slope. */
+        public const val DEFAULT_SLOPE: Double = 0.002
+
+        /** Share of the range: four standard deviations of that noise, and some resolution. */
+        public const val DEFAULT_ERROR: Double = 0.01
+
         /** The pose history reaches a minute back. */
-        const val LONGEST_LATENCY = 30.0
+        private const val LONGEST_LATENCY = 30.0
     }
 }
 

@@ -25,6 +25,7 @@ class ClosedLoopTest {
         for ((estimator, fixDeviation) in listOf(
             "averaging" to 1.5,
             "interval" to 1.5,
+            "bounded" to 1.5,
             "bounded-extended" to 1.5,
             "self-calibrating" to 0.05,
         )) {

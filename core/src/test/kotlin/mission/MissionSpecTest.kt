@@ -30,6 +30,8 @@ class MissionSpecTest {
             Triple("lawnmower", "mower", listOf("mower", "$.planner")),
             Triple("self-calibrating", "best", listOf("best", "$.estimator")),
             Triple("\"lowest\":0", "\"lowest\":20", listOf("lowest (20.0)", "$.probe")),
+            Triple("\"lowest\":0", "\"lowest\":0,\"reading_error\":-1", listOf("reading_error (-1.0)", "$.probe")),
+            Triple("\"lowest\":0", "\"lowest\":0,\"smallest_slope_per_s\":-1", listOf("smallest_slope_per_s (-1.0", "$.probe")),
             Triple("{\"seconds\":900}", "{}", listOf("either metres or seconds", "$.budget")),
             Triple("\"x_m\":80", "\"x_m\":-80", listOf("north_east", "$.area")),
             Triple("\"home\":{\"x_m\":5", "\"home\":{\"x_m\":500", listOf("home (500.0, 5.0)", "water")),

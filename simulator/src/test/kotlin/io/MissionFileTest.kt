@@ -1,0 +1,93 @@
+package stillwater.io
+
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import java.nio.file.Files
+import java.nio.file.Path
+import kotlin.io.path.writeBytes
+import kotlin.io.path.writeText
+import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
+
+class MissionFileTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private fun problem(old: String, new: String): String {
+        check(old in POND) { old }
+        val wrong = assertFailsWith<MissionProblem>(new) { MissionFile.parse(POND.replace(old, new), "pond.json") }
+        assertEquals(1, wrong.message.orEmpty().lines().size)
+        return wrong.message.orEmpty()
+    }
+
+    @Test
+    fun whatIsWrongIsSaidWithItsPlaceAndWhatWasExpected() {
+        for ((old, new, expected) in listOf(
+            Triple("\"columns\": 6", "\"columns\": 0", "5:11: grid: columns (0) must be at least 1"),
+            Triple("\"columns\": 6", "\"columns\": \"six\"", "5:59: grid.columns: expected a whole number, found 'six'"),
+            Triple("\"columns\": 6", "\"columns\": 1.5", "5:59: grid.columns: expected a whole number, found '1.5'"),
+            Triple("\"columns\": 6, ", "", "5:11: grid: expected the field columns, found none"),
+            Triple("\"lowest\": 0", "\"lowest\": NaN", "6:66: probe.lowest: expected a number, found 'NaN'"),
+            Triple(
+                "lawnmower",
+                "mower",
+                "7:14: planner: expected one of random-walk, lawnmower, bounded, bounded-extended, information, " +
+                    "settling-lawnmower, polygon-rrt, found 'mower'",
+            ),
+            Triple(
+                "\"seconds\": 900",
+                "\"minutes\": 15",
+                "8:14: budget: expected one of metres, seconds, reserve, found 'minutes'",
+            ),
+            Triple("{\"seconds\": 900}", "{}", "8:13: budget: a budget needs either metres or seconds"),
+            Triple("\"home\": {", "\"home\": [", "9:11: home: expected one of x_m, y_m, found '[\"x_m\": 5'"),
+            Triple("\"x_m\": 5,", "\"x_m\": 500,", "1:1: home (500.0, 5.0) must lie on the water"),
+            Triple("\"y_m\": 80}", "\"y_m\": {}}", "4:81: area.north_east.y_m: expected a number, found '{'"),
+        )) {
+            assertEquals("pond.json:$expected", problem(old, new))
+        }
+    }
+
+    @Test
+    fun whatIsNoJsonIsSaidToo() {
+        for ((text, expected) in listOf(
+            "" to "1:1: Expected start of the object '{', but had 'EOF' instead",
+            "[]" to "1:1: expected one of name, origin,",
+            POND.dropLast(2) to "9:31: Expected end of the object '}', but had 'EOF' instead",
+            POND.replace("\"home\"", "home") to "9:3: budget: ",
+        )) {
+            val wrong = assertFailsWith<MissionProblem> { MissionFile.parse(text, "pond.json") }
+            assertEquals("pond.json:$expected", wrong.message.orEmpty().take("pond.json:$expected".length))
+        }
+    }
+
+    @Test
+    fun aFileThatCannotBeReadIsNamed() {
+        fun said(file: Path) = assertFailsWith<MissionProblem> { MissionFile.read(file) }.message.orEmpty()
+        val none = directory.resolve("none.json")
+        assertEquals("$none: expected a mission (JSON), found no such file", said(none))
+        assertEquals("$directory: expected a mission (JSON), found a directory", said(directory))
+        val bytes = directory.resolve("bytes.json").apply { writeBytes(byteArrayOf(-1, -2, 3)) }
+        assertEquals("$bytes: expected a mission (JSON), found bytes that are no UTF-8 text", said(bytes))
+    }
+
+    @Test
+    fun aGoodOneIsRead() {
+        val file = Files.createFile(directory.resolve("pond.json")).apply { writeText(POND) }
+        assertEquals("pond", MissionFile.read(file).name)
+    }
+
+    private companion object {
+        const val POND = """{
+  "name": "pond",
+  "origin": {"lat_deg": 45.5, "lon_deg": -73.6},
+  "area": {"south_west": {"x_m": -20, "y_m": -20}, "north_east": {"x_m": 80, "y_m": 80}},
+  "grid": {"south_west": {"x_m": 0, "y_m": 0}, "columns": 6, "rows": 6, "cell_m": 10},
+  "probe": {"quantity": "dissolved-oxygen", "port": 1, "lowest": 0, "highest": 15},
+  "planner": "lawnmower",
+  "budget": {"seconds": 900},
+  "home": {"x_m": 5, "y_m": 5}
+}
+"""
+    }
+}
