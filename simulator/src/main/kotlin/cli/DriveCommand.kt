@@ -9,16 +9,19 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import com.github.ajalt.clikt.parameters.options.required
+import java.nio.file.Path
+import java.time.ZonedDateTime
+import java.time.format.DateTimeFormatter
 import stillwater.control.Mixing
 import stillwater.drive.BoardPhone
 import stillwater.drive.DriveRun
 import stillwater.drive.DriveStatus
-import stillwater.drive.MissionFile
+import stillwater.drive.LogOnDisk
 import stillwater.drive.MissionMapFiles
 import stillwater.drive.Phone
 import stillwater.drive.PhoneChannel
 import stillwater.io.LogProblem
-import stillwater.io.MissionSpecFile
+import stillwater.io.MissionFile
 import stillwater.link.ReconnectingWire
 import stillwater.link.WireAddress
 import stillwater.link.WireProblem
@@ -29,9 +32,6 @@ import stillwater.mission.MissionSpec
 import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
-import java.nio.file.Path
-import java.time.ZonedDateTime
-import java.time.format.DateTimeFormatter
 
 /** `stillwater drive`: a mission on a real wire, with a real boat or a virtual one at its other end. */
 class DriveCommand : WorkCommand("drive") {
@@ -71,7 +71,7 @@ class DriveCommand : WorkCommand("drive") {
     )
 
     override fun work() {
-        val spec = MissionSpecFile.read(Path.of(missionFile))
+        val spec = MissionFile.read(Path.of(missionFile))
         val address = WireAddress.parse(port, baud) ?: throw BadFlag("--port", WireAddress.EXPECTED, "'$port'")
         val channel = phoneAddress?.let {
             WireAddress.parse(it, baud) as? WireAddress.Tcp ?: throw BadFlag("--phone", "tcp:HOST:PORT", "'$it'")
@@ -89,8 +89,8 @@ class DriveCommand : WorkCommand("drive") {
     }
 
     private fun refuseOtherLogs(directory: Path) {
-        val unfinished = MissionFile.unfinished(directory)
-        val finished = MissionFile.finished(directory)
+        val unfinished = LogOnDisk.unfinished(directory)
+        val finished = LogOnDisk.finished(directory)
         when {
             resume && unfinished == null -> throw failure("--resume: expected an unfinished mission in $out, found none")
             !resume && unfinished != null ->
@@ -102,17 +102,17 @@ class DriveCommand : WorkCommand("drive") {
     private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path) {
         var recovered: RecoveredMission? = null
         val file = if (resume) {
-            val found = MissionFile.resume(checkNotNull(MissionFile.unfinished(directory)))
+            val found = LogOnDisk.resume(checkNotNull(LogOnDisk.unfinished(directory)))
             recovered = found.mission
             tell("recovered ${found.mission.readings} readings, ${found.mission.unreadable} lines unreadable, " +
                 "${found.tornBytes} bytes of a cut line taken off; the mission was ${found.mission.lastState}")
             found.file
         } else {
-            MissionFile.begin(directory)
+            LogOnDisk.begin(directory)
         }
         file.use {
             if (recovered != null && recovered.spec != spec) {
-                val log = MissionFile.unfinished(directory) ?: directory
+                val log = LogOnDisk.unfinished(directory) ?: directory
                 throw LogProblem(log, 1, null, "the mission of $missionFile", "another one, ${recovered.spec.name}")
             }
             val link = (phone as? BoardPhone)?.tap(wire) ?: wire
@@ -138,7 +138,7 @@ class DriveCommand : WorkCommand("drive") {
         listener.start()
     }
 
-    private fun finish(mission: Mission, file: MissionFile, directory: Path, reason: StopReason?) {
+    private fun finish(mission: Mission, file: LogOnDisk, directory: Path, reason: StopReason?) {
         val log = file.complete()
         val warnings = OutputDirectory(directory).use {
             val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)

@@ -6,16 +6,16 @@ import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
+import java.nio.file.Path
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
-import stillwater.io.MissionSpecFile
+import stillwater.io.MissionFile
 import stillwater.io.PlatypusVersion
 import stillwater.replay.OwnLogReplay
 import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
 import stillwater.replay.Replayed
 import stillwater.report.OutputDirectory
-import java.nio.file.Path
 
 /** `stillwater replay`: a recorded log through the mission once more. */
 class ReplayCommand : WorkCommand("replay") {
@@ -45,7 +45,7 @@ class ReplayCommand : WorkCommand("replay") {
     )
 
     override fun work() {
-        val spec = mission?.let { MissionSpecFile.read(Path.of(it)) }
+        val spec = mission?.let { MissionFile.read(Path.of(it)) }
         val content = LogContent.of(Path.of(log))
         val version = content.platypus ?: throw LogProblem(
             content.file,

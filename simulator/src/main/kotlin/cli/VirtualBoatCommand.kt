@@ -8,9 +8,11 @@ import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
+import java.nio.file.Path
+import kotlin.math.roundToLong
 import stillwater.boatserver.BoatServer
 import stillwater.boatserver.PhoneServer
-import stillwater.io.MissionSpecFile
+import stillwater.io.MissionFile
 import stillwater.link.PseudoTerminal
 import stillwater.link.ServedWire
 import stillwater.link.TcpServedWire
@@ -19,8 +21,6 @@ import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.world.VirtualWorld
 import stillwater.world.WorldSite
-import java.nio.file.Path
-import kotlin.math.roundToLong
 
 /** `stillwater virtual-boat`: a boat that is not there, on a wire that is. */
 class VirtualBoatCommand : WorkCommand("virtual-boat") {
@@ -54,7 +54,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
 
     override fun work() {
         if (pty == (tcp != null)) throw failure("expected one of --pty and --tcp PORT, found ${if (pty) "both" else "neither"}")
-        val spec = MissionSpecFile.read(Path.of(mission))
+        val spec = MissionFile.read(Path.of(mission))
         val world = boat.world(WorldSite.of(spec))
         try {
             (if (pty) PseudoTerminal() else TcpServedWire(host, checkNotNull(tcp))).use { wire ->

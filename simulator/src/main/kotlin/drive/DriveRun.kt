@@ -31,7 +31,7 @@ internal class DriveRun(
     private val mission: Mission,
     private val phone: Phone,
     private val wire: ReconnectingWire,
-    private val file: MissionFile,
+    private val file: LogOnDisk,
     private val watcher: DriveWatcher,
 ) {
     @Volatile

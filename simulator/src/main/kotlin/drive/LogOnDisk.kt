@@ -25,7 +25,7 @@ import kotlin.io.path.name
  *
  * @throws OutputException from every call if the disk refuses.
  */
-internal class MissionFile private constructor(private val path: Path, private val channel: FileChannel) :
+internal class LogOnDisk private constructor(private val path: Path, private val channel: FileChannel) :
     LogSink,
     AutoCloseable {
     private val waiting = StringBuilder()
@@ -73,10 +73,10 @@ internal class MissionFile private constructor(private val path: Path, private v
         private const val FLUSH_NANOS = 400_000_000L
 
         /** Begins a log in [directory], where no finished one may be. */
-        fun begin(directory: Path): MissionFile = guarded(directory) {
+        fun begin(directory: Path): LogOnDisk = guarded(directory) {
             Files.createDirectories(directory)
             val path = directory.resolve(NAME + INCOMPLETE)
-            MissionFile(path, FileChannel.open(path, CREATE_NEW, APPEND))
+            LogOnDisk(path, FileChannel.open(path, CREATE_NEW, APPEND))
         }
 
         /** The unfinished log in [directory]; null where there is none. */
@@ -97,7 +97,7 @@ internal class MissionFile private constructor(private val path: Path, private v
             path.toFile().bufferedReader(Charsets.UTF_8).useLines { lines -> lines.forEach(recovery::line) }
             val found = recovery.recovered()
                 ?: throw LogProblem(path, null, null, "a mission's log", "no mission that can be read")
-            Resumed(MissionFile(path, FileChannel.open(path, APPEND)), found, cut)
+            Resumed(LogOnDisk(path, FileChannel.open(path, APPEND)), found, cut)
         }
 
         /** Takes off what stands after the last end of a line; answers how many bytes. */
@@ -126,4 +126,4 @@ internal class MissionFile private constructor(private val path: Path, private v
  * @property mission what it tells.
  * @property tornBytes of a last line that was cut.
  */
-internal class Resumed(val file: MissionFile, val mission: RecoveredMission, val tornBytes: Long)
+internal class Resumed(val file: LogOnDisk, val mission: RecoveredMission, val tornBytes: Long)
