@@ -10,8 +10,8 @@ import kotlin.math.roundToLong
 /**
  * A virtual boat that other programs sail: its board on a wire, its phone's time, fixes and compass on another.
  *
- * The boat's time begins when somebody first opens one of the two, and goes at [speed] times wall time, or slower where the
- * machine is. While a phone's program is there, each tenth of a second waits until the program has answered the report of the
+ * The boat's time begins when somebody opens the phone's wire, or a second after the board's, and goes at [speed] times wall
+ * time, or slower where the machine is. While a phone's program is there, each tenth of a second waits until the program has answered the report of the
  * one before: then a pause of that program, however short on the wall, is not a long cut on the boat. A program that does not
  * answer for [PATIENCE_NANOS] is not waited for until it does, so that a boat whose brain hangs feels its watchdog. Opening
  * the wire resets the board. Confined to one thread, but for [stop].
@@ -50,6 +50,10 @@ internal class BoatServer(
      */
     fun serve(until: Double, isOnce: Boolean) {
         while (!isStopped && !attend()) LockSupport.parkNanos(IDLE_NANOS)
+        val opened = System.nanoTime()
+        while (!isStopped && attend() && !phone.attend() && System.nanoTime() - opened < COMPANY_NANOS) {
+            LockSupport.parkNanos(IDLE_NANOS)
+        }
         base = System.nanoTime()
         baseTime = world.time.seconds
         while (!isStopped && world.time.seconds < until) {
@@ -136,6 +140,7 @@ internal class BoatServer(
     companion object {
         /** Wall time for which a phone's program is waited for, ns. */
         const val PATIENCE_NANOS = 2_000_000_000L
+        private const val COMPANY_NANOS = 1_000_000_000L
         private const val TICKS = 5
         private const val NANOS = 1e9
         private const val SLIP_NANOS = 250_000_000L

@@ -20,6 +20,7 @@ import stillwater.drive.LogOnDisk
 import stillwater.drive.MissionMapFiles
 import stillwater.drive.Phone
 import stillwater.drive.PhoneChannel
+import stillwater.drive.Resumed
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
 import stillwater.link.ReconnectingWire
@@ -29,7 +30,6 @@ import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
-import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
 
@@ -79,9 +79,10 @@ class DriveCommand : WorkCommand("drive") {
         val directory = Path.of(out)
         refuseOtherLogs(directory)
         try {
-            val phone = channel?.let { PhoneChannel.open(it) } ?: BoardPhone(declination)
-            phone.use {
-                ReconnectingWire(address.opener(), address.opener().open()).use { sail(spec, it, phone, directory) }
+            ReconnectingWire(address.opener(), address.opener().open()).use { wire ->
+                // A virtual boat's time begins with its phone: the wire is open by then.
+                val phone = channel?.let { PhoneChannel.open(it) } ?: BoardPhone(declination)
+                phone.use { sail(spec, wire, it, directory) }
             }
         } catch (problem: WireProblem) {
             throw failure(problem.message.orEmpty())
@@ -100,24 +101,12 @@ class DriveCommand : WorkCommand("drive") {
     }
 
     private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path) {
-        var recovered: RecoveredMission? = null
-        val file = if (resume) {
-            val found = LogOnDisk.resume(checkNotNull(LogOnDisk.unfinished(directory)))
-            recovered = found.mission
-            tell("recovered ${found.mission.readings} readings, ${found.mission.unreadable} lines unreadable, " +
-                "${found.tornBytes} bytes of a cut line taken off; the mission was ${found.mission.lastState}")
-            found.file
-        } else {
-            LogOnDisk.begin(directory)
-        }
+        val resumed = if (resume) recover(spec, directory) else null
+        val file = resumed?.file ?: LogOnDisk.begin(directory)
         file.use {
-            if (recovered != null && recovered.spec != spec) {
-                val log = LogOnDisk.unfinished(directory) ?: directory
-                throw LogProblem(log, 1, null, "the mission of $missionFile", "another one, ${recovered.spec.name}")
-            }
             val link = (phone as? BoardPhone)?.tap(wire) ?: wire
             val mixing = if (vectored) Mixing.VECTORED else Mixing.DIFFERENTIAL
-            val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, recovered)
+            val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, resumed?.mission)
             val status = DriveStatus(terminal, wire, phone, quiet)
             val run = DriveRun(mission, phone, wire, file, status)
             attendPerson(run)
@@ -125,6 +114,20 @@ class DriveCommand : WorkCommand("drive") {
             status.wipe()
             finish(mission, file, directory, reason)
         }
+    }
+
+    private fun recover(spec: MissionSpec, directory: Path): Resumed {
+        val path = checkNotNull(LogOnDisk.unfinished(directory))
+        val resumed = LogOnDisk.resume(path) { found ->
+            if (found.spec == spec) return@resume
+            throw LogProblem(path, null, null, "the mission of $missionFile", "another one, ${found.spec.name}")
+        }
+        val found = resumed.mission
+        tell(
+            "recovered ${found.readings} readings, ${found.unreadable} lines unreadable, ${resumed.tornBytes} bytes of a " +
+                "cut line taken off; the mission was ${found.lastState}",
+        )
+        return resumed
     }
 
     private fun attendPerson(run: DriveRun) {

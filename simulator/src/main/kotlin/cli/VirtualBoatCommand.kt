@@ -17,6 +17,8 @@ import stillwater.link.PseudoTerminal
 import stillwater.link.ServedWire
 import stillwater.link.TcpServedWire
 import stillwater.link.WireProblem
+import stillwater.mission.ProbeSpec
+import stillwater.mission.Quantity
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.world.VirtualWorld
@@ -43,7 +45,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
 
     override fun helpEpilog(context: Context) = helpEnd(
         "The first line printed is where the board is, the second where the phone's channel is: what `stillwater drive` " +
-            "takes as --port and --phone. The boat's time begins when one of them is opened; opening the board's resets it. " +
+            "takes as --port and --phone. The boat's time begins when they are opened; opening the board's resets it. " +
             "Ctrl-C ends it. With --out, truth.csv has the water at each cell's centre and the cell's mean.",
         listOf(
             "stillwater virtual-boat pond.json --pty",
@@ -55,6 +57,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
     override fun work() {
         if (pty == (tcp != null)) throw failure("expected one of --pty and --tcp PORT, found ${if (pty) "both" else "neither"}")
         val spec = MissionFile.read(Path.of(mission))
+        requireProbe(spec.probe)
         val world = boat.world(WorldSite.of(spec))
         try {
             (if (pty) PseudoTerminal() else TcpServedWire(host, checkNotNull(tcp))).use { wire ->
@@ -63,6 +66,13 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         } catch (problem: WireProblem) {
             throw failure(problem.message.orEmpty())
         }
+    }
+
+    private fun requireProbe(probe: ProbeSpec) {
+        val isThere = probe.quantity == Quantity.DISSOLVED_OXYGEN && (probe.port == null || probe.port == 1)
+        if (isThere) return
+        val found = "${probe.quantity.name.lowercase().replace('_', '-')} on port ${probe.port ?: "any"}"
+        throw failure("$mission: probe: expected dissolved-oxygen on port 1, which the virtual boat has, found $found")
     }
 
     private fun serve(world: VirtualWorld, wire: ServedWire, phone: PhoneServer) {

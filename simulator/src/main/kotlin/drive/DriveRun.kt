@@ -40,7 +40,6 @@ internal class DriveRun(
     @Volatile
     private var stopWanted = false
     private var startTold = false
-    private var begun = Double.NaN
     private var stopTold = false
 
     /** A person wants the mission to begin. */
@@ -76,9 +75,7 @@ internal class DriveRun(
 
     private fun step(): BoatTime {
         val moment = phone.await()
-        if (begun.isNaN()) begun = moment.time.seconds
-        val hasBooted = moment.time.seconds - begun >= BOOTING
-        if (startWanted && !startTold && hasBooted) mission.start().also { startTold = true }
+        if (startWanted && !startTold && moment.time.seconds >= BOOTING) mission.start().also { startTold = true }
         if (stopWanted && !stopTold) mission.stop().also { stopTold = true }
         for (fix in moment.fixes) mission.fix(fix.time, fix.place)
         if (moment.heading.isFinite()) mission.compass(moment.time, moment.heading, moment.yawRate)

@@ -5,7 +5,9 @@ import stillwater.mission.LogSink
 import stillwater.mission.MissionRecovery
 import stillwater.mission.RecoveredMission
 import stillwater.report.OutputException
+import java.io.FilterInputStream
 import java.io.IOException
+import java.io.InputStream
 import java.io.RandomAccessFile
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
@@ -86,29 +88,36 @@ internal class LogOnDisk private constructor(private val path: Path, private val
         fun finished(directory: Path): Path? = directory.resolve(NAME).takeIf { it.exists() }
 
         /**
-         * Goes on with the unfinished log at [path]. A last line that was cut when the program died is taken off it.
+         * Goes on with the unfinished log at [path], unless [check] throws: then it is left as it is. A last line that was cut
+         * when the program died is taken off it.
          *
          * @throws LogProblem if it has no mission.
          */
-        fun resume(path: Path): Resumed = guarded(path) {
-            val cut = cutTornLine(path)
-            val recovery = MissionRecovery()
-            // A broken disk's bytes are no reason to give up the lines around them.
-            path.toFile().bufferedReader(Charsets.UTF_8).useLines { lines -> lines.forEach(recovery::line) }
-            val found = recovery.recovered()
-                ?: throw LogProblem(path, null, null, "a mission's log", "no mission that can be read")
-            Resumed(LogOnDisk(path, FileChannel.open(path, APPEND)), found, cut)
+        fun resume(path: Path, check: (RecoveredMission) -> Unit): Resumed = guarded(path) {
+            RandomAccessFile(path.toFile(), "rw").use { file ->
+                val end = endOfLines(file)
+                val recovery = MissionRecovery()
+                // A broken disk's bytes are no reason to give up the lines around them.
+                val whole = BoundedStream(Files.newInputStream(path), end)
+                whole.bufferedReader(Charsets.UTF_8).useLines { lines -> lines.forEach(recovery::line) }
+                val found = recovery.recovered()
+                    ?: throw LogProblem(path, null, null, "a mission's log", "no mission that can be read")
+                check(found)
+                val torn = file.length() - end
+                if (torn > 0) file.setLength(end)
+                Resumed(LogOnDisk(path, FileChannel.open(path, APPEND)), found, torn)
+            }
         }
 
-        /** Takes off what stands after the last end of a line; answers how many bytes. */
-        private fun cutTornLine(path: Path): Long = RandomAccessFile(path.toFile(), "rw").use { file ->
+        /** How many bytes of [file] are whole lines. */
+        private fun endOfLines(file: RandomAccessFile): Long {
             var end = file.length()
             while (end > 0) {
                 file.seek(end - 1)
                 if (file.read() == '\n'.code) break
                 end--
             }
-            (file.length() - end).also { if (it > 0) file.setLength(end) }
+            return end
         }
 
         private fun <T> guarded(path: Path, block: () -> T): T = try {
@@ -127,3 +136,15 @@ internal class LogOnDisk private constructor(private val path: Path, private val
  * @property tornBytes of a last line that was cut.
  */
 internal class Resumed(val file: LogOnDisk, val mission: RecoveredMission, val tornBytes: Long)
+
+/** The first [left] bytes of [stream]. */
+private class BoundedStream(stream: InputStream, private var left: Long) : FilterInputStream(stream) {
+    override fun read(): Int = if (left > 0) super.read().also { left-- } else -1
+
+    override fun read(into: ByteArray, offset: Int, length: Int): Int {
+        if (left <= 0) return -1
+        val count = super.read(into, offset, minOf(length.toLong(), left).toInt())
+        if (count > 0) left -= count
+        return count
+    }
+}
