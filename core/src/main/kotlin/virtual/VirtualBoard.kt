@@ -92,6 +92,10 @@ public class VirtualBoard(
     /** Volts, V; may be set to let the battery sag. */
     public var volts: Double = spec.volts
 
+    /** Readings of the probe that it has sent. */
+    public var readings: Long = 0
+        private set
+
     /** What the motors get: nothing unless armed and fed with commands. */
     public val actuation: Actuation
         get() = when {
@@ -148,7 +152,10 @@ public class VirtualBoard(
         if (now - probeLine >= spec.oxygenPeriod) {
             val value = probe.read(BoatTime(now), now - probeLine)
             probeLine = now
-            if (!value.isNaN()) output.line("{\"s1\":{\"type\":\"atlas_do\",\"data\":\"${fixed(value, 100)}\"}}\r\n")
+            if (!value.isNaN()) {
+                readings++
+                output.line("{\"s1\":{\"type\":\"atlas_do\",\"data\":\"${fixed(value, 100)}\"}}\r\n")
+            }
         }
     }
 

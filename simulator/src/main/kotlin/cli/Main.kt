@@ -27,6 +27,7 @@ fun main(args: Array<String>) {
         MapCommand(),
         CorrectCommand(),
         DiagnoseCommand(),
+        SimulateCommand(),
         VirtualBoatCommand(),
         DriveCommand(),
         ReplayCommand(),

@@ -1,0 +1,119 @@
+package stillwater.simulation
+
+import stillwater.report.SignificantDigits
+
+/**
+ * A [SimulationResult] in words: facts, and what to beware of.
+ *
+ * @param result to tell. @property unit of the quantity; empty where it has none.
+ */
+class SimulationSummary(private val result: SimulationResult, val unit: String) {
+    private val run = result.run
+    private val three = SignificantDigits(3)
+
+    /** Names and sentences, the most important first. */
+    val facts: List<Pair<String, String>> = buildList {
+        val end = run.history.spans.last()
+        add("mission" to "${run.spec.name}: ${end.label} after ${clock(end.from)}")
+        add("map error" to mapError())
+        add("in process" to inProcess())
+        add("way" to way())
+        add("readings" to readings())
+        bounds()?.let { add("bounds" to it) }
+        add("energy" to "${number(run.world.battery.used)} W h; battery at ${number(run.world.battery.volts)} V")
+        add("link" to link())
+        add("refused" to refused())
+        belief()?.let { add("sensor" to it) }
+    }
+
+    /** What to beware of, one line each. */
+    val warnings: List<String> = buildList {
+        if (!result.isOver) {
+            add("the mission was not over after ${clock(result.longest)}; --longest gives it more time")
+        }
+        if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
+        if (result.belief?.isExplained == false) {
+            val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
+            add("no sensor model explains the readings$where: the map has no bounds of its own and its values may be far off")
+        }
+        if (result.againstMeans.mean > result.averagesError.mean) {
+            add(
+                "the map is no better than the mean of each cell's readings: off the cells' means by " +
+                    "${number(result.againstMeans.mean)} against ${number(result.averagesError.mean)}$space$unit",
+            )
+        }
+        val holding = result.boundsAtCentres
+        if (holding.cells > 0 && holding.holding < CREDIBLE) {
+            add("the bounds hold the water at the cells' centres in only ${percent(holding.holding)} of ${holding.cells} cells")
+        }
+        if (result.atCentres.cells == 0) add("no cell has a reading")
+    }
+
+    private val space get() = if (unit.isEmpty()) "" else " "
+
+    private fun mapError(): String {
+        val centres = result.atCentres
+        return "${number(centres.mean)}$space$unit mean, ${number(centres.rootMeanSquare)} RMS over ${centres.cells} of " +
+            "${run.world.site.grid.size} cells at their centres; ${number(result.againstMeans.mean)} against their means"
+    }
+
+    private fun inProcess(): String {
+        val part = result.comparedError.mean / result.inProcessError.mean - 1
+        val more = if (part.isFinite()) ", so the stack's own part is ${percent(part)}" else ""
+        return "${number(result.inProcessError.mean)}$space$unit with the same readings at the true places$more"
+    }
+
+    private fun way() = "${number(run.track.distance)} m in ${clock(result.timeUnderWay)}; ${number(run.track.crossTrack)} m " +
+        "RMS off its legs (largest ${number(run.track.largestCrossTrack)} m), believed place off by " +
+        "${number(run.track.poseError)} m RMS"
+
+    private fun readings(): String {
+        val account = result.readings
+        val why = account.refused.entries.joinToString("") { ", ${it.value} refused (${it.key})" }
+        val outside = if (account.outside > 0) ", ${account.outside} of them off the map" else ""
+        return "${account.received} of ${account.sent} sent were received: ${account.taken} taken$outside$why" +
+            if (account.waiting > 0) ", ${account.waiting} waiting" else ""
+    }
+
+    private fun bounds(): String? {
+        val centres = result.boundsAtCentres
+        if (centres.cells == 0) return null
+        return "${number(centres.meanWidth)}$space$unit wide in ${centres.cells} cells; they hold the water at the centre in " +
+            "${percent(centres.holding)}, the cell's mean in ${percent(result.boundsAroundMeans.holding)}"
+    }
+
+    private fun link(): String {
+        val board = run.mission.board
+        val kinds = result.unreadable.entries.joinToString { "${it.key} ${it.value}" }
+        val lines = if (kinds.isEmpty()) "all lines could be read" else "${board.unreadable} lines could not be read ($kinds)"
+        return "$lines; the board could not use ${board.refusals} commands"
+    }
+
+    private fun refused(): String {
+        val mission = run.mission
+        return "${mission.refusedFixes} fixes, ${mission.refusedSteps} steps, ${mission.readings.leftOut} readings"
+    }
+
+    private fun belief(): String? {
+        val belief = result.belief ?: return null
+        val chosen = belief.chosen
+        val numbers = chosen.parameters.joinToString { "${it.name} ${number(it.value)} ${it.unit}" }
+        val verdict = if (belief.isExplained) "" else "none explains the readings; the nearest is "
+        return "$verdict${chosen.kind.label}" + if (numbers.isEmpty()) "" else ", $numbers"
+    }
+
+    private fun number(value: Double) = three.format(value)
+
+    private fun percent(share: Double) = "${three.format(PERCENT * share)} %"
+
+    companion object {
+        private const val CREDIBLE = 0.95
+        private const val PERCENT = 100
+
+        /** [seconds] as minutes and seconds. */
+        fun clock(seconds: Double): String {
+            val whole = Math.round(seconds)
+            return "${whole / 60}:${(whole % 60).toString().padStart(2, '0')} min"
+        }
+    }
+}
