@@ -7,7 +7,8 @@ import stillwater.model.LatLon
 /**
  * What came in between two steps, as the log writes it down: with it a replay hands the same to the same mission again.
  *
- * JSON: `{"order":["start"],"fix":[[t_s,lat_deg,lon_deg]],"compass":[[t_s,heading_rad,yaw_rate_rad_s]],"heard":["line"]}`,
+ * JSON:
+ * `{"order":["start"],"fix":[[t_s,lat_deg,lon_deg]],"compass":[[t_s,heading_rad,yaw_rate_rad_s]],"heard":["line"]}`,
  * each only where something came. `heard` has the board's lines whole, whether they could be read or not, one byte a
  * character. Confined to one thread.
  */

@@ -10,11 +10,11 @@ import kotlin.math.roundToLong
 /**
  * A virtual boat that other programs sail: its board on a wire, its phone's time, fixes and compass on another.
  *
- * The boat's time begins when somebody opens the phone's wire, or a second after the board's, and goes at [speed] times wall
- * time, or slower where the machine is. While a phone's program is there, each tenth of a second waits until the program has answered the report of the
- * one before: then a pause of that program, however short on the wall, is not a long cut on the boat. A program that does not
- * answer for [PATIENCE_NANOS] is not waited for until it does, so that a boat whose brain hangs feels its watchdog. Opening
- * the wire resets the board. Confined to one thread, but for [stop].
+ * The boat's time begins when somebody opens the phone's wire, or a second after the board's, and goes at [speed] times
+ * wall time, or slower where the machine is. While a phone's program is there, each tenth of a second waits until the
+ * program has answered the report of the one before: then a pause of that program, however short on the wall, is not a
+ * long cut on the boat. A program that does not answer for [PATIENCE_NANOS] is not waited for until it does, so that a
+ * boat whose brain hangs feels its watchdog. Opening the wire resets the board. Confined to one thread, but for [stop].
  *
  * @param world boat and water. @param wire the board's. @param phone the phone's. All retained.
  * @param speed the boat's seconds in one of the wall's, above 0.
@@ -65,9 +65,12 @@ internal class BoatServer(
                 say()
             }
             tick++
+            // The system hands bytes on in its own time: half a step of the wall's lies between them and the report that
+            // the step at this time may be taken, and half between the answer and the board's hearing what was sent.
+            pace(world.time.seconds - HALF_STEP)
             report()
-            pace()
             awaitAnswer()
+            pace(world.time.seconds)
         }
     }
 
@@ -105,8 +108,9 @@ internal class BoatServer(
         phone.tell(PhoneReport(tick, boat.time.seconds, boat.heading(), boat.yawRate, seen))
     }
 
-    private fun pace() {
-        val due = base + ((world.time.seconds - baseTime) / speed * NANOS).roundToLong()
+    /** Waits until the wall's time is that of the boat's [seconds]. */
+    private fun pace(seconds: Double) {
+        val due = base + ((seconds - baseTime) / speed * NANOS).roundToLong()
         var left = due - System.nanoTime()
         // What is lost is not made up for in a burst.
         if (left < -SLIP_NANOS) {
@@ -142,6 +146,7 @@ internal class BoatServer(
         const val PATIENCE_NANOS = 2_000_000_000L
         private const val COMPANY_NANOS = 1_000_000_000L
         private const val TICKS = 5
+        private const val HALF_STEP = 0.05
         private const val NANOS = 1e9
         private const val SLIP_NANOS = 250_000_000L
         private const val IDLE_NANOS = 5_000_000L

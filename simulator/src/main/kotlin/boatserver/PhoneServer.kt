@@ -7,8 +7,8 @@ import stillwater.wire.LineFramer
 /**
  * The side of a virtual boat that tells its phone's program time, fixes and compass, one report at a time.
  *
- * A report that is not answered is waited for; [wait] says for how long. What cannot be read is counted. Confined to one
- * thread.
+ * A report that is not answered is waited for; [wait] says for how long. What cannot be read is counted. Confined to
+ * one thread.
  *
  * @param wire to the program. Retained, closed with this.
  */

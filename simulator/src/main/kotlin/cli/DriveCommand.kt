@@ -9,9 +9,6 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import com.github.ajalt.clikt.parameters.options.required
-import java.nio.file.Path
-import java.time.ZonedDateTime
-import java.time.format.DateTimeFormatter
 import stillwater.control.Mixing
 import stillwater.drive.BoardPhone
 import stillwater.drive.DriveRun
@@ -32,18 +29,25 @@ import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
+import java.nio.file.Path
+import java.time.ZonedDateTime
+import java.time.format.DateTimeFormatter
 
 /** `stillwater drive`: a mission on a real wire, with a real boat or a virtual one at its other end. */
 class DriveCommand : WorkCommand("drive") {
     private val missionFile by argument("MISSION").help("mission (JSON)")
-    private val port by option("--port", metavar = "PORT", help = "the board: /dev/ttyACM0, COM3 or tcp:HOST:PORT").required()
+    private val port by option(
+        "--port",
+        metavar = "PORT",
+        help = "the board: /dev/ttyACM0, COM3 or tcp:HOST:PORT",
+    ).required()
     private val baud by option("--baud", metavar = "N", help = "of a serial port, bits/s")
         .wholeNumber("a whole number within 300..4000000") { it in SLOWEST_BAUD..FASTEST_BAUD }.default(USUAL_BAUD)
     private val phoneAddress by option(
         "--phone",
         metavar = "tcp:HOST:PORT",
-        help = "a virtual boat's phone channel, for time, fixes and compass; without it time is this machine's, and fixes " +
-            "and heading are those of the GPS receiver and the inertial unit on the board",
+        help = "a virtual boat's phone channel, for time, fixes and compass; without it time is this machine's, and " +
+            "fixes and heading are those of the GPS receiver and the inertial unit on the board",
     )
     private val declination by option(
         "--declination",
@@ -51,8 +55,10 @@ class DriveCommand : WorkCommand("drive") {
         help = "of the magnetic from the true north where the boat is, degrees, east positive; without --phone only",
     ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }.default(0.0)
     private val vectored by option("--vectored", help = "one thruster that swivels in place of two that do not").flag()
-    private val out by option("--out", metavar = "DIR", help = "directory for the log and the map").default("stillwater-drive")
-    private val resume by option("--resume", help = "go on with the unfinished mission in DIR, disarmed at first").flag()
+    private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
+        .default("stillwater-drive")
+    private val resume by option("--resume", help = "go on with the unfinished mission in DIR, disarmed at first")
+        .flag()
     private val yes by option("--yes", help = "begin without asking: motors will run").flag()
     private val numbersOnly by option("--numbers-only", help = "no figure").flag()
     private val quiet by option("--quiet", help = "print nothing but problems").flag()
@@ -60,9 +66,9 @@ class DriveCommand : WorkCommand("drive") {
     override fun help(context: Context) = "Sail a mission with the boat on a serial or TCP port."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the log is " +
-            "closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit code 0 when the " +
-            "mission was completed, 1 when it ended otherwise.",
+        "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the " +
+            "log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
+            "code 0 when the mission was completed, 1 when it ended otherwise.",
         listOf(
             "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
             "stillwater drive pond.json --port /dev/pts/3 --phone tcp:127.0.0.1:4002 --yes",
@@ -93,7 +99,8 @@ class DriveCommand : WorkCommand("drive") {
         val unfinished = LogOnDisk.unfinished(directory)
         val finished = LogOnDisk.finished(directory)
         when {
-            resume && unfinished == null -> throw failure("--resume: expected an unfinished mission in $out, found none")
+            resume && unfinished == null ->
+                throw failure("--resume: expected an unfinished mission in $out, found none")
             !resume && unfinished != null ->
                 throw failure("--out: $unfinished is unfinished; --resume goes on with it, another --out begins anew")
             finished != null -> throw failure("--out: expected a directory without a mission, found $finished")
@@ -124,8 +131,8 @@ class DriveCommand : WorkCommand("drive") {
         }
         val found = resumed.mission
         tell(
-            "recovered ${found.readings} readings, ${found.unreadable} lines unreadable, ${resumed.tornBytes} bytes of a " +
-                "cut line taken off; the mission was ${found.lastState}",
+            "recovered ${found.readings} readings, ${found.unreadable} lines unreadable, " +
+                "${resumed.tornBytes} bytes of a cut line taken off; the mission was ${found.lastState}",
         )
         return resumed
     }

@@ -6,7 +6,6 @@ import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
-import java.nio.file.Path
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
@@ -16,6 +15,7 @@ import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
 import stillwater.replay.Replayed
 import stillwater.report.OutputDirectory
+import java.nio.file.Path
 
 /** `stillwater replay`: a recorded log through the mission once more. */
 class ReplayCommand : WorkCommand("replay") {
@@ -23,8 +23,8 @@ class ReplayCommand : WorkCommand("replay") {
     private val mission by option(
         "--mission",
         metavar = "FILE",
-        help = "mission (JSON) to replay in place of the log's own; a Platypus log has none, and without this flag one is " +
-            "made around it",
+        help = "mission (JSON) to replay in place of the log's own; a Platypus log has none, and without this flag " +
+            "one is made around it",
     )
     private val out by option("--out", metavar = "DIR", help = "directory for the results").default("stillwater-replay")
     private val numbersOnly by option("--numbers-only", help = "no figure").flag()
@@ -34,9 +34,9 @@ class ReplayCommand : WorkCommand("replay") {
     override fun help(context: Context) = "Feed a recorded log through the mission: same estimator, same safety gate."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Writes cells.csv (the map, exact), decisions.csv (every change of state), replay.json (with a count of every line " +
-            "not understood), mission.json (what was replayed), mission.txt (the replay's own log) and a figure. A mission's " +
-            "own log is replayed bit for bit.",
+        "Writes cells.csv (the map, exact), decisions.csv (every change of state), replay.json (with a count of " +
+            "every line not understood), mission.json (what was replayed), mission.txt (the replay's own log) and a " +
+            "figure. A mission's own log is replayed bit for bit.",
         listOf(
             "stillwater replay stillwater-drive/mission.txt",
             "stillwater replay pond/mission.txt --mission other-estimator.json --out what-if",

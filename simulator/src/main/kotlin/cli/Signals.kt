@@ -3,8 +3,8 @@ package stillwater.cli
 import sun.misc.Signal
 
 /**
- * Lets a long command end in good order on Ctrl-C: the first calls [stop], from another thread; a second ends the program at
- * once.
+ * Lets a long command end in good order on Ctrl-C: the first calls [stop], from another thread; a second ends the
+ * program at once.
  */
 internal fun onInterrupt(stop: () -> Unit) {
     for (name in listOf("INT", "TERM", "HUP")) {

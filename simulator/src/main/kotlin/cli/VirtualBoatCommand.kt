@@ -4,12 +4,11 @@ import com.github.ajalt.clikt.core.Context
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
+import com.github.ajalt.clikt.parameters.options.RawOption
 import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
-import java.nio.file.Path
-import kotlin.math.roundToLong
 import stillwater.boatserver.BoatServer
 import stillwater.boatserver.PhoneServer
 import stillwater.io.MissionFile
@@ -23,13 +22,17 @@ import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.world.VirtualWorld
 import stillwater.world.WorldSite
+import java.nio.file.Path
+import kotlin.math.roundToLong
 
 /** `stillwater virtual-boat`: a boat that is not there, on a wire that is. */
 class VirtualBoatCommand : WorkCommand("virtual-boat") {
-    private val mission by argument("MISSION").help("mission (JSON): where the boat lies, and over which cells the water")
+    private val mission by argument("MISSION")
+        .help("mission (JSON): where the boat lies, and over which cells the water")
     private val boat by VirtualBoatOptions()
     private val pty by option("--pty", help = "the board on a pseudo-terminal, as if on a serial port (Linux)").flag()
-    private val tcp by option("--tcp", metavar = "PORT", help = "the board on this TCP port; 0 for any that is free").port()
+    private val tcp by option("--tcp", metavar = "PORT", help = "the board on this TCP port; 0 for any that is free")
+        .port()
     private val phonePort by option("--phone-port", metavar = "PORT", help = "TCP port of the phone's channel").port()
         .default(0, defaultForHelp = "any that is free")
     private val host by option("--host", metavar = "HOST", help = "address to listen on; 0.0.0.0 for the whole network")
@@ -44,9 +47,9 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
     override fun help(context: Context) = "Serve a virtual boat's electronics on a pseudo-terminal or a TCP port."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "The first line printed is where the board is, the second where the phone's channel is: what `stillwater drive` " +
-            "takes as --port and --phone. The boat's time begins when they are opened; opening the board's resets it. " +
-            "Ctrl-C ends it. With --out, truth.csv has the water at each cell's centre and the cell's mean.",
+        "The first line printed is where the board is, the second where the phone's channel is: what `stillwater " +
+            "drive` takes as --port and --phone. The boat's time begins when they are opened; opening the board's " +
+            "resets it. Ctrl-C ends it. With --out, truth.csv has the water at each cell's centre and the cell's mean.",
         listOf(
             "stillwater virtual-boat pond.json --pty",
             "stillwater virtual-boat pond.json --tcp 4001 --phone-port 4002 --speed 60 --once",
@@ -55,7 +58,9 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
     )
 
     override fun work() {
-        if (pty == (tcp != null)) throw failure("expected one of --pty and --tcp PORT, found ${if (pty) "both" else "neither"}")
+        if (pty == (tcp != null)) {
+            throw failure("expected one of --pty and --tcp PORT, found ${if (pty) "both" else "neither"}")
+        }
         val spec = MissionFile.read(Path.of(mission))
         requireProbe(spec.probe)
         val world = boat.world(WorldSite.of(spec))
@@ -90,10 +95,8 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
             "${phone.unreadable} of its lines unreadable".takeIf { phone.unreadable > 0 },
             "${server.slips} times slower than asked".takeIf { server.slips > 0 },
         )
-        echo(
-            "${(world.time.seconds * TENTHS).roundToLong() / TENTHS} s of the boat's time, opened ${wire.openings} times" +
-                bad.joinToString("") { ", $it" },
-        )
+        val seconds = (world.time.seconds * TENTHS).roundToLong() / TENTHS
+        echo("$seconds s of the boat's time, opened ${wire.openings} times" + bad.joinToString("") { ", $it" })
     }
 
     private fun write(directory: String, world: VirtualWorld) = OutputDirectory(Path.of(directory)).use { files ->
@@ -117,7 +120,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
 }
 
 /** A TCP port, 0 to 65535. */
-internal fun com.github.ajalt.clikt.parameters.options.RawOption.port() = convert { text ->
+internal fun RawOption.port() = convert { text ->
     text.toIntOrNull()?.takeIf { it in 0..LAST_PORT } ?: throw BadFlag(name, "a port in 0..$LAST_PORT", "'$text'")
 }
 

@@ -13,7 +13,10 @@ abstract class WorkCommand(name: String) : CliktCommand(name) {
         context { helpFormatter = { OneLineErrors(it) } }
     }
 
-    /** What the command does. May throw [BadFlag], [LogProblem], [MissionProblem] and [OutputException] besides [failure]. */
+    /**
+     * What the command does. May throw [BadFlag], [LogProblem], [MissionProblem] and [OutputException] besides
+     * [failure].
+     */
     protected abstract fun work()
 
     final override fun run() {

@@ -10,13 +10,13 @@ import java.util.concurrent.locks.LockSupport
 import kotlin.math.PI
 
 /**
- * A boat without a phone: a laptop has its fixes from the GPS receiver on the board and its heading from the board's inertial
- * unit, and its time from the wall.
+ * A boat without a phone: a laptop has its fixes from the GPS receiver on the board and its heading from the board's
+ * inertial unit, and its time from the wall.
  *
  * The mission's own link passes through [tap], which reads along. A fix carries the receiver's time of day: with it
- * [BoardClock] takes out how much longer one line was under way than the fastest. A heading counts only where the unit says
- * that its magnetometer is calibrated; without heading the mission does not start. Course over ground is no heading: a boat at
- * rest has none.
+ * [BoardClock] takes out how much longer one line was under way than the fastest. A heading counts only where the unit
+ * says that its magnetometer is calibrated; without heading the mission does not start. Course over ground is no
+ * heading: a boat at rest has none.
  *
  * @param declinationDeg of the magnetic north from the true one, degrees, east positive.
  */

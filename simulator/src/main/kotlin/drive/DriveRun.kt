@@ -21,8 +21,8 @@ interface DriveWatcher {
 /**
  * A mission under way on a wire: waits for the phone's next moment, steps, writes the log, until the mission is over.
  *
- * A person's [start] and [stop] may come from any thread. Whatever ends the run, the board has then been told to rest its
- * motors and to disarm, as far as there is a wire.
+ * A person's [start] and [stop] may come from any thread. Whatever ends the run, the board has then been told to rest
+ * its motors and to disarm, as far as there is a wire.
  *
  * @param mission to be stepped. @param phone where time, fixes and heading come from. @param wire to the board.
  * @param file the mission's log. All four are retained and confined to the thread that calls [sail].
@@ -105,8 +105,8 @@ internal class DriveRun(
         const val PARTING = 5.0
 
         /**
-         * A board resets when its port is opened, and what it said just before may still arrive: the mission is not begun for
-         * so long, s, so that the board is not told to arm while it boots and cannot hear.
+         * A board resets when its port is opened, and what it said just before may still arrive: the mission is not
+         * begun for so long, s, so that the board is not told to arm while it boots and cannot hear.
          */
         const val BOOTING = 3.0
         private const val STEP = 1e-3

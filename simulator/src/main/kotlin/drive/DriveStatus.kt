@@ -9,8 +9,8 @@ import stillwater.report.SignificantDigits
 import stillwater.wire.Malformed
 
 /**
- * Shows a mission under way: a line that stays up to date where somebody watches the terminal, else a line at each change of
- * state and every minute of the boat's time.
+ * Shows a mission under way: a line that stays up to date where somebody watches the terminal, else a line at each
+ * change of state and every minute of the boat's time.
  */
 internal class DriveStatus(
     private val terminal: Terminal,

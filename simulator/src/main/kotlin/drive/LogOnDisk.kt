@@ -22,8 +22,8 @@ import kotlin.io.path.name
 /**
  * A mission's log on disk: `mission.txt.incomplete` until it is closed, then `mission.txt`.
  *
- * Lines are only ever appended. [flush] hands them to the disk itself, not just to the system: a flat battery loses what came
- * after it. Confined to one thread.
+ * Lines are only ever appended. [flush] hands them to the disk itself, not just to the system: a flat battery loses
+ * what came after it. Confined to one thread.
  *
  * @throws OutputException from every call if the disk refuses.
  */
@@ -88,8 +88,8 @@ internal class LogOnDisk private constructor(private val path: Path, private val
         fun finished(directory: Path): Path? = directory.resolve(NAME).takeIf { it.exists() }
 
         /**
-         * Goes on with the unfinished log at [path], unless [check] throws: then it is left as it is. A last line that was cut
-         * when the program died is taken off it.
+         * Goes on with the unfinished log at [path], unless [check] throws: then it is left as it is. A last line that
+         * was cut when the program died is taken off it.
          *
          * @throws LogProblem if it has no mission.
          */
@@ -123,7 +123,8 @@ internal class LogOnDisk private constructor(private val path: Path, private val
         private fun <T> guarded(path: Path, block: () -> T): T = try {
             block()
         } catch (failed: IOException) {
-            throw OutputException("cannot write the log $path: ${failed.message ?: failed.javaClass.simpleName}", failed)
+            val why = failed.message ?: failed.javaClass.simpleName
+            throw OutputException("cannot write the log $path: $why", failed)
         }
     }
 }

@@ -12,7 +12,10 @@ import stillwater.report.writeFigures
 internal object MissionMapFiles {
     private val HEADER = listOf("cell", "x_m", "y_m", "value", "lower", "upper", "visits", "readings", "conflicts")
 
-    /** Writes [map] of [spec] into [directory]; the figure only where it [isDrawn]. Answers a warning where something is missing. */
+    /**
+     * Writes [map] of [spec] into [directory]; the figure only where it [isDrawn]. Answers a warning where something is
+     * missing.
+     */
     fun write(directory: OutputDirectory, spec: MissionSpec, map: FieldMap, isDrawn: Boolean): List<String> {
         val grid = map.grid
         directory.stream("cells.csv") { out ->

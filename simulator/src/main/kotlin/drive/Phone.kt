@@ -21,7 +21,10 @@ data class PhoneFix(val time: BoatTime, val place: LatLon)
  */
 data class Moment(val time: BoatTime, val fixes: List<PhoneFix>, val heading: Double, val yawRate: Double)
 
-/** Stands where the phone is aboard: tells the mission the time, where it is and which way it looks. Confined to one thread. */
+/**
+ * Stands where the phone is aboard: tells the mission the time, where it is and which way it looks. Confined to one
+ * thread.
+ */
 interface Phone : AutoCloseable {
     /** Waits until the next step is due, half a second at most, and tells what is known then. */
     fun await(): Moment

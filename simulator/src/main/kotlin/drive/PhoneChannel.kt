@@ -12,9 +12,10 @@ import java.util.concurrent.locks.LockSupport
 /**
  * The simulated phone of a virtual boat, over TCP: the boat's time comes from there, with fixes and compass.
  *
- * So one clock holds on both sides however fast the boat's time runs, and a pause of either program stops it rather than
- * being taken for a lost link. Where nothing is heard for [PATIENCE] s of wall time, time goes on here by itself, so that the
- * mission sees that its link is gone; when the boat comes back, perhaps with its clock at 0, time goes on from there.
+ * So one clock holds on both sides however fast the boat's time runs, and a pause of either program stops it rather
+ * than being taken for a lost link. Where nothing is heard for [PATIENCE] s of wall time, time goes on here by itself,
+ * so that the mission sees that its link is gone; when the boat comes back, perhaps with its clock at 0, time goes on
+ * from there.
  */
 internal class PhoneChannel(private val wire: ReconnectingWire) : Phone {
     private val buffer = ByteArray(BUFFER)

@@ -8,8 +8,8 @@ import kotlinx.serialization.json.Json
 /**
  * What the phone aboard a virtual boat knows at a moment: one line of the phone's channel.
  *
- * `{"tick":12,"t_s":1.2,"heading_rad":0.4,"yaw_rate_rad_s":0.01,"fix":{"t_s":1.0,"lat_deg":45.5,"lon_deg":-73.6}}`, answered
- * with `{"done":12}` when the step at that time has been taken: until then the boat's time stands still.
+ * `{"tick":12,"t_s":1.2,"heading_rad":0.4,"yaw_rate_rad_s":0.01,"fix":{"t_s":1.0,"lat_deg":45.5,"lon_deg":-73.6}}`,
+ * answered with `{"done":12}` when the step at that time has been taken: until then the boat's time stands still.
  *
  * @property tick counts from 1.
  * @property time on the boat's clock, s.
@@ -38,7 +38,9 @@ data class PhoneReport(
         @SerialName("lon_deg") val longitude: Double,
     ) {
         init {
-            require(latitude in -90.0..90.0 && longitude.isFinite()) { "no place: lat_deg $latitude, lon_deg $longitude" }
+            require(latitude in -90.0..90.0 && longitude.isFinite()) {
+                "lat_deg ($latitude) must be in -90..90 and lon_deg ($longitude) finite"
+            }
         }
     }
 

@@ -11,8 +11,8 @@ import com.sun.jna.Pointer
  * A board's wire on a pseudo-terminal, which looks like a serial port to any program. Linux only.
  *
  * It is raw: no echo, no line editing. Opening and closing of its other end are seen, as a board sees DTR. Source:
- * POSIX.1-2017, posix_openpt and following; pty(7) for what a master reads while nobody has the slave open. The calls go
- * through JNA, which the terminal library brings along.
+ * POSIX.1-2017, posix_openpt and following; pty(7) for what a master reads while nobody has the slave open. The calls
+ * go through JNA, which the terminal library brings along.
  *
  * @throws WireProblem where there are no pseudo-terminals.
  */
@@ -129,7 +129,8 @@ internal class PseudoTerminal : ServedWire {
 
         fun library(): LibC {
             if (!Platform.isLinux()) {
-                throw WireProblem("a pseudo-terminal is made on Linux only, this is ${System.getProperty("os.name")}; $USE_TCP")
+                val system = System.getProperty("os.name")
+                throw WireProblem("a pseudo-terminal is made on Linux only, this is $system; $USE_TCP")
             }
             return try {
                 Native.load("c", LibC::class.java)

@@ -6,9 +6,9 @@ import java.util.concurrent.atomic.AtomicReference
 /**
  * A wire that is opened again when it was lost, with pauses that double from [FIRST_PAUSE] to [LONGEST_PAUSE] ms.
  *
- * Opening goes on beside, on a thread of its own: the mission steps on meanwhile and reads [ByteLink.LOST]. Opening a port
- * can reset the board; that is for the mission to see in what the board says of itself. Everything else is confined to one
- * thread.
+ * Opening goes on beside, on a thread of its own: the mission steps on meanwhile and reads [ByteLink.LOST]. Opening a
+ * port can reset the board; that is for the mission to see in what the board says of itself. Everything else is
+ * confined to one thread.
  *
  * @param opener opens it again. Retained.
  * @param first already open. Retained, closed with this.

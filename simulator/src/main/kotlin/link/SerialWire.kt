@@ -12,12 +12,15 @@ import java.util.concurrent.TimeoutException
 /**
  * A serial port, 8N1, with DTR and RTS set: without them many boards keep silent. Setting them resets many boards.
  *
- * Reading does not wait. Writing is done by a thread of its own, because the library waits in it for as long as the port
- * takes nothing: the mission waits [PATIENCE_MILLIS] ms at most, and while one write is under way the next is not sent.
+ * Reading does not wait. Writing is done by a thread of its own, because the library waits in it for as long as the
+ * port takes nothing: the mission waits [PATIENCE_MILLIS] ms at most, and while one write is under way the next is not
+ * sent.
  */
 internal class SerialWire private constructor(private val port: SerialPort) : BoardWire {
     private var isLost = false
-    private val writer = Executors.newSingleThreadExecutor { Thread(it, "write to a serial port").apply { isDaemon = true } }
+    private val writer = Executors.newSingleThreadExecutor { work ->
+        Thread(work, "write to a serial port").apply { isDaemon = true }
+    }
     private var underWay: Future<Int>? = null
 
     override fun read(into: ByteArray): Int {
@@ -69,7 +72,7 @@ internal class SerialWire private constructor(private val port: SerialPort) : Bo
             } catch (wrong: SerialPortInvalidPortException) {
                 throw WireProblem("${address.name}: expected a serial port, found none; there ${found()}", wrong)
             } catch (missing: UnsatisfiedLinkError) {
-                throw WireProblem("${address.name}: serial ports cannot be used on this system; use tcp:HOST:PORT", missing)
+                throw WireProblem("${address.name}: this system has no serial ports; use tcp:HOST:PORT", missing)
             }
             port.setComPortParameters(address.baud, BITS, SerialPort.ONE_STOP_BIT, SerialPort.NO_PARITY)
             port.setComPortTimeouts(SerialPort.TIMEOUT_NONBLOCKING, 0, 0)

@@ -10,8 +10,8 @@ import java.nio.channels.SocketChannel
 /**
  * A TCP connection that stands for a serial cable.
  *
- * What the network does not take at once is dropped and said so, as a full serial buffer would: a command that is late is
- * worth nothing.
+ * What the network does not take at once is dropped and said so, as a full serial buffer would: a command that is late
+ * is worth nothing.
  */
 internal class TcpWire(private val channel: SocketChannel) : BoardWire {
     init {

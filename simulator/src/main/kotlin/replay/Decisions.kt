@@ -9,7 +9,8 @@ import stillwater.model.Position
 /**
  * A change of a mission's state.
  *
- * @property time on the boat's clock, s. @property state one word. @property why one word more; empty where there is none.
+ * @property time on the boat's clock, s. @property state one word. @property why one word more; empty where there is
+ *   none.
  * @property position believed, m; null where not known.
  */
 internal data class Decision(val time: Double, val state: String, val why: String, val position: Position?)

@@ -25,10 +25,11 @@ import kotlin.math.floor
 import kotlin.math.max
 
 /**
- * A mission around a Platypus log that came without one: cells over where the boat was, the probe that the log has most of, its
- * range that of the readings and a tenth more.
+ * A mission around a Platypus log that came without one: cells over where the boat was, the probe that the log has most
+ * of, its range that of the readings and a tenth more.
  *
- * Told beforehand what only the whole log shows, it is for looking at a log, not for judging how a mission would have gone.
+ * Told beforehand what only the whole log shows, it is for looking at a log, not for judging how a mission would have
+ * gone.
  */
 internal class MadeUpMission(private val content: LogContent, private val version: PlatypusVersion) {
     private class Readings(val port: Int) {
@@ -48,8 +49,9 @@ internal class MadeUpMission(private val content: LogContent, private val versio
         BufferedReader(content.reader {}).useLines { lines -> for (line in lines) take(parser.parse(line)) }
         val zero = origin ?: placeholder ?: LatLon(0.0, 0.0)
         if (origin == null) warnings += "the log has no fix: its mission waits for one"
-        val (quantity, found) = probes.entries.filter { it.value.values.isNotEmpty() }.maxByOrNull { it.value.values.size }
-            ?.let { it.key to it.value } ?: (Quantity.DISSOLVED_OXYGEN to Readings(-1))
+        val most = probes.entries.maxByOrNull { it.value.values.size }
+        val quantity = most?.key ?: Quantity.DISSOLVED_OXYGEN
+        val found = most?.value ?: Readings(-1)
         if (found.values.isEmpty()) warnings += "the log has no reading of a probe that a mission can have"
         return MissionSpec(
             name = "replay",

@@ -19,11 +19,12 @@ import stillwater.model.LatLon
 import java.nio.file.Path
 
 /**
- * Feeds what a mission's own log says came in (fixes, compass, the board's lines, a person's orders) through the mission again.
+ * Feeds what a mission's own log says came in (fixes, compass, the board's lines, a person's orders) through the
+ * mission again.
  *
- * Every step is taken at the recorded time, so that the same program decides the same, bit for bit; another program, or the
- * same with another [MissionSpec], shows what it would have decided on the same way. Where the log was gone on with after a
- * crash, the mission is recovered from the lines before, as it was then.
+ * Every step is taken at the recorded time, so that the same program decides the same, bit for bit; another program, or
+ * the same with another [MissionSpec], shows what it would have decided on the same way. Where the log was gone on with
+ * after a crash, the mission is recovered from the lines before, as it was then.
  *
  * @param file the log. @param other the mission to replay in place of the log's; null for the log's own.
  */

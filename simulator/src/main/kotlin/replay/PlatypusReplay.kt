@@ -17,13 +17,15 @@ import stillwater.model.Utm
 import java.io.BufferedReader
 
 /**
- * Feeds a Platypus boat's log through a mission: its poses as fixes and compass, its sensors' readings as a board's lines.
+ * Feeds a Platypus boat's log through a mission: its poses as fixes and compass, its sensors' readings as a board's
+ * lines.
  *
- * Steps are taken ten times a second of the log's time; a gap of more than [LONGEST_GAP] s is passed over after that time. The
- * boat went where it was then steered, so the mission's waypoints are not reached: what is shown is what it would have made of
- * the readings, and when it would have held, gone home or stopped.
+ * Steps are taken ten times a second of the log's time; a gap of more than [LONGEST_GAP] s is passed over after that
+ * time. The boat went where it was then steered, so the mission's waypoints are not reached: what is shown is what it
+ * would have made of the readings, and when it would have held, gone home or stopped.
  *
- * @param content the log. @param version of its format. @param wanted mission to replay; null for one made around the log.
+ * @param content the log. @param version of its format. @param wanted mission to replay; null for one made around the
+ *   log.
  */
 internal class PlatypusReplay(
     private val content: LogContent,
@@ -44,7 +46,8 @@ internal class PlatypusReplay(
     /** Replays it all. */
     fun run(): Replayed {
         val spec = wanted ?: MadeUpMission(content, version).spec(warnings)
-        val mission = Mission(spec, board.link, MissionLog(log::add, LogStart(0, "replay of ${content.file.fileName}"), spec))
+        val start = LogStart(0, "replay of ${content.file.fileName}")
+        val mission = Mission(spec, board.link, MissionLog(log::add, start, spec))
         mission.start()
         val parser = PlatypusLine(version)
         val clock = PlatypusClock()
@@ -96,7 +99,7 @@ internal class PlatypusReplay(
                 if (board.say(entry)) {
                     lines.count("sensor ${entry.type}")
                 } else {
-                    notUnderstood.count("numbers of a known sensor in place of ${entry.type.ifEmpty { "one without a type" }}")
+                    notUnderstood.count("numbers of a sensor known here, not '${entry.type}'")
                 }
             is PlatypusEntry.Start -> lines.count("beginnings")
             else -> lines.count("commands, gains and others that a mission does not need")
@@ -117,7 +120,9 @@ internal class PlatypusReplay(
         }
     }
 
-    /** The boats log ten poses a second of a receiver that has one fix a second: the same place again is no second fix. */
+    /**
+     * The boats log ten poses a second of a receiver that has one fix a second: the same place again is no second fix.
+     */
     private fun isNews(place: LatLon, time: BoatTime): Boolean {
         if (place == lastPlace && time.seconds - lastFix < FIX_PERIOD) return false
         lastPlace = place

@@ -5,8 +5,8 @@ import stillwater.wire.BoardState
 import java.math.BigDecimal
 
 /**
- * Says what a recorded board's sensors said, in the board's own words, and stands in for what a Platypus log does not have: it
- * always speaks, arms at once and stays armed until it is told otherwise.
+ * Says what a recorded board's sensors said, in the board's own words, and stands in for what a Platypus log does not
+ * have: it always speaks, arms at once and stays armed until it is told otherwise.
  */
 internal class RecordedBoard {
     private var state = BoardState.STANDBY

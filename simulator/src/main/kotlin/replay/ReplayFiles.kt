@@ -12,9 +12,14 @@ import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.wire.Malformed
 
-/** Writes what a replay came to: `cells.csv`, `decisions.csv`, `replay.json`, `mission.json`, `mission.txt` and the figure. */
+/**
+ * Writes what a replay came to: `cells.csv`, `decisions.csv`, `replay.json`, `mission.json`, `mission.txt` and the
+ * figure.
+ */
 internal class ReplayFiles(private val replayed: Replayed) {
-    /** Writes them into [directory]; the figure only where it [isDrawn]. Answers a warning where something is missing. */
+    /**
+     * Writes them into [directory]; the figure only where it [isDrawn]. Answers a warning where something is missing.
+     */
     fun write(directory: OutputDirectory, isDrawn: Boolean): List<String> {
         directory.stream("decisions.csv") { out ->
             CsvTable(out, listOf("time_s", "state", "why", "x_m", "y_m")).use { table ->
@@ -43,7 +48,9 @@ internal class ReplayFiles(private val replayed: Replayed) {
             put("steps_with_motors_running", replayed.decisions.driven)
             putJsonObject("seconds_in_state") { replayed.decisions.secondsIn.forEach { (name, s) -> put(name, s) } }
             putJsonObject("lines") { replayed.lines.forEach { (name, count) -> put(name, count) } }
-            putJsonObject("lines_not_understood") { replayed.notUnderstood.forEach { (name, count) -> put(name, count) } }
+            putJsonObject("lines_not_understood") {
+                replayed.notUnderstood.forEach { (expected, count) -> put(expected, count) }
+            }
             putJsonObject("board_lines_not_understood") { malformed().forEach { (name, count) -> put(name, count) } }
             val gate = replayed.mission.readings
             putJsonObject("readings") {

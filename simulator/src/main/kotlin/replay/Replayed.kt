@@ -32,8 +32,9 @@ internal class Replayed(
 /**
  * A replay held against its own log.
  *
- * @property differingSteps steps whose state or drive the log has otherwise. @property firstDifference time of the first, s; NaN
- *   where there is none. @property isSameMap whether the map is that of the recorded readings, bit for bit.
+ * @property differingSteps steps whose state or drive the log has otherwise. @property firstDifference time of the
+ *   first, s; NaN where there is none. @property isSameMap whether the map is that of the recorded readings, bit for
+ *   bit.
  */
 internal data class AsRecorded(val differingSteps: Long, val firstDifference: Double, val isSameMap: Boolean)
 

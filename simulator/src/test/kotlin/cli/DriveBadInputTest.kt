@@ -55,7 +55,8 @@ class DriveBadInputTest {
     @Test
     fun aBoardThatDoesNotListen() {
         val free = ServerSocket(0, 1, InetAddress.getLoopbackAddress()).use { it.localPort }
-        assertRefused("tcp:127.0.0.1:$free: expected a board that listens, found", *drive("--port", "tcp:127.0.0.1:$free"))
+        val port = "tcp:127.0.0.1:$free"
+        assertRefused("$port: expected a board that listens, found", *drive("--port", port))
         assertFalse(out.exists())
     }
 
@@ -98,7 +99,8 @@ class DriveBadInputTest {
     @Test
     fun aVirtualBoatThatCannotBeServed() {
         assertRefused("expected one of --pty and --tcp PORT, found neither", "virtual-boat", mission)
-        assertRefused("expected one of --pty and --tcp PORT, found both", "virtual-boat", mission, "--tcp", "1", "--pty")
+        val both = arrayOf("virtual-boat", mission, "--tcp", "1", "--pty")
+        assertRefused("expected one of --pty and --tcp PORT, found both", *both)
         assertRefused("--tcp: expected a port in 0..65535", "virtual-boat", mission, "--tcp", "65536")
         assertRefused("--speed: expected a number within", "virtual-boat", mission, "--tcp", "0", "--speed", "0")
         ServerSocket(0, 1, InetAddress.getLoopbackAddress()).use { taken ->

@@ -37,8 +37,10 @@ class ReplayCommandTest {
 
     private fun JsonObject.word(key: String) = getValue(key).jsonPrimitive.content
 
-    private fun JsonObject.count(vararg path: String): Long =
-        path.dropLast(1).fold(this) { json, key -> json.getValue(key).jsonObject }[path.last()]?.jsonPrimitive?.long ?: 0
+    private fun JsonObject.count(vararg path: String): Long {
+        val parent = path.dropLast(1).fold(this) { json, key -> json.getValue(key).jsonObject }
+        return parent[path.last()]?.jsonPrimitive?.long ?: 0
+    }
 
     private fun assertSameMap(mission: Mission, cells: Path) {
         for ((cell, line) in cells.readLines().drop(1).withIndex()) {
@@ -68,8 +70,9 @@ class ReplayCommandTest {
     @Test
     fun linesThatAreNoneAreCountedAndTheRestIsReplayed() {
         val (lines, mission) = sailed(44, 60)
-        val broken = lines.flatMapIndexed { i, line -> if (i % 100 == 50) listOf("rubbish $i", line) else listOf(line) } +
-            "1\tI\t{\"what\":1}" + "2\tI\t{\"mission\":{}}" + lines.last().take(30)
+        val others = listOf("1\tI\t{\"what\":1}", "2\tI\t{\"mission\":{}}", lines.last().take(30))
+        val rest = lines.flatMapIndexed { i, line -> listOfNotNull("rubbish $i".takeIf { i % 100 == 50 }, line) }
+        val broken = rest + others
         val summary = replay(write("log.txt.incomplete", broken), "out")
         assertSameMap(mission, directory.resolve("out/cells.csv"))
         // Lines without a frame, and the last one, which was cut.
@@ -130,7 +133,7 @@ class ReplayCommandTest {
     @ParameterizedTest
     @CsvSource(
         "a survey, 'time_s,do\n1,2\n', 'expected a mission''s log or a Platypus log, found neither'",
-        "no readable mission, '0\tI\t{\"spec\":{\"name\":1}}\n', 'expected a mission''s log, found no mission that can be read'",
+        "no readable mission, '0\tI\t{\"spec\":{\"name\":1}}\n', found no mission that can be read",
         "nothing, '', 'expected a log, found an empty file'",
     )
     fun whatIsNoLogIsRefusedInOneLineAndNothingIsWritten(case: String, text: String, message: String) {

@@ -14,7 +14,10 @@ import kotlin.test.assertTrue
 
 /** Bytes pass over real wires of the operating system as they are, and a wire that is lost says so. */
 class WiresTest {
-    /** Asks until [ended]; the system's buffers hand bytes on when they like. A wire that never does fails the build's time. */
+    /**
+     * Asks until [ended]; the system's buffers hand bytes on when they like. A wire that never does fails the build's
+     * time.
+     */
     private fun eventually(what: String, ended: () -> Boolean) {
         val deadline = System.nanoTime() + 20_000_000_000
         while (!ended()) {

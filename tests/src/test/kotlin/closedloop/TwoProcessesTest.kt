@@ -86,7 +86,7 @@ class TwoProcessesTest {
         assertFalse(directory.resolve("out/mission.txt.incomplete").exists())
         Program(directory, "replay", "out/mission.txt", "--numbers-only", "--out", "again").use { replay ->
             assertEquals(0, replay.end(), "$replay")
-            assertContains("$replay", "every step as recorded; the map is that of the recorded readings, bit for bit")
+            assertContains("$replay", SAME)
         }
         for (name in listOf("cells.csv", "mission.txt")) {
             val recorded = directory.resolve("out/$name").readText()
@@ -132,13 +132,14 @@ class TwoProcessesTest {
             Program(directory, "replay", "out/mission.txt", "--numbers-only", "--out", "again").use { replay ->
                 assertEquals(0, replay.end(), "$replay")
                 assertContains("$replay", "2 beginnings")
-                assertContains("$replay", "every step as recorded; the map is that of the recorded readings, bit for bit")
+                assertContains("$replay", SAME)
             }
         }
     }
 
     private companion object {
         const val SEED = 20_261_121L
+        const val SAME = "every step as recorded; the map is that of the recorded readings, bit for bit"
         val TIME = Regex(""""mission":\{"t_s":([0-9.]+)""")
     }
 }
