@@ -78,15 +78,15 @@ internal class SimulationFigures(private val result: SimulationResult, private v
         fun column(of: (Frame) -> Double) = DoubleArray(frames.size) { of(frames[it]) }
         // Outside of the map there are no bounds, and crossed ones have no inside.
         val hasBounds = { frame: Frame -> frame.lower <= frame.upper }
-        val middle = { frame: Frame -> if (hasBounds(frame)) (frame.lower + frame.upper) / 2 else Double.NaN }
         val figure = LinePlot(
             "Reading, bounds and water",
             "along the boat's way; the band is what the map allowed at that moment in the cell the boat was in",
             listOf(
                 Series(
-                    "middle of the bounds",
+                    "bounds of the cell",
                     minutes,
-                    column(middle),
+                    // The band alone: its middle is the value only for some estimators.
+                    column { Double.NaN },
                     column { if (hasBounds(it)) it.lower else Double.NaN },
                     column { if (hasBounds(it)) it.upper else Double.NaN },
                 ),

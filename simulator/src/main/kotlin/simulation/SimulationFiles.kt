@@ -67,10 +67,10 @@ class SimulationFiles(private val result: SimulationResult, private val command:
             caption,
             Provenance(Program.VERSION, command, run.world.settings.seed),
         )
-        summary.facts.take(SHOWN).forEach { (name, value) -> page.summary(name, value) }
+        summary.headline.forEach { (name, value) -> page.summary(name, value) }
         summary.warnings.forEach(page::warning)
         page.section("The run") {
-            keyValues(summary.facts.drop(SHOWN))
+            keyValues(summary.facts)
             paragraph("animation.html beside this page plays it.")
         }
         for (figure in figures) page.section(figure.figure.title) { figure(figure.figure, figure.caption) }
@@ -90,7 +90,6 @@ class SimulationFiles(private val result: SimulationResult, private val command:
     }
 
     private companion object {
-        const val SHOWN = 4
         val HEADER = listOf(
             "cell",
             "x_m",

@@ -26,6 +26,16 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         belief()?.let { add("sensor" to it) }
     }
 
+    /** The few numbers that stand at the top of a page. */
+    val headline: List<Pair<String, String>> = listOf(
+        "End" to run.history.spans.last().label,
+        "Map error" to "${number(result.atCentres.mean)} $unit".trim(),
+        "The same readings in process" to "${number(result.inProcessError.mean)} $unit".trim(),
+        "Cells with readings" to "${result.atCentres.cells} of ${run.world.site.grid.size}",
+        "Way" to "${number(run.track.distance)} m",
+        "Off the legs" to "${number(run.track.crossTrack)} m RMS",
+    )
+
     /** What to beware of, one line each. */
     val warnings: List<String> = buildList {
         if (!result.isOver) {
@@ -58,9 +68,11 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     }
 
     private fun inProcess(): String {
-        val part = result.comparedError.mean / result.inProcessError.mean - 1
-        val more = if (part.isFinite()) ", so the stack's own part is ${percent(part)}" else ""
-        return "${number(result.inProcessError.mean)}$space$unit with the same readings at the true places$more"
+        val own = result.comparedError
+        val ratio = own.mean / result.inProcessError.mean
+        val times = if (ratio.isFinite()) ", ${number(ratio)} times as much" else ""
+        return "${number(result.inProcessError.mean)}$space$unit with the same readings at the true places; the mission " +
+            "${number(own.mean)} over the same ${own.cells} cells$times"
     }
 
     private fun way() = "${number(run.track.distance)} m in ${clock(result.timeUnderWay)}; ${number(run.track.crossTrack)} m " +
