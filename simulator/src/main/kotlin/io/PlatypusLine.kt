@@ -59,8 +59,9 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         val key = if (colon > 0) payload.substring(0, colon) else return PlatypusEntry.Unreadable("KEY: text")
         val text = payload.substring(colon + 2)
         return when {
-            key == "POSE" -> POSE_TEXT.matchEntire(text.trim())?.destructured?.let { (easting, northing, yaw, zone) ->
-                pose(DecimalText.parse(easting), DecimalText.parse(northing), zone, DecimalText.parse(yaw))
+            key == "POSE" -> POSE_TEXT.matchEntire(text.trim())?.groupValues?.let { found ->
+                val yaw = DecimalText.parse(found[YAW])
+                pose(DecimalText.parse(found[EASTING]), DecimalText.parse(found[NORTHING]), found[ZONE], yaw)
             } ?: PlatypusEntry.Unreadable("POSE: {E, N, alt, Q[roll,pitch,yaw]} @ zone")
             key == "ES2" -> numbers(text.trim().removePrefix("[").removePrefix("e,").removeSuffix("]"), ",")
                 ?.takeIf { it.size == 2 && text.trim().endsWith("]") }
@@ -155,6 +156,12 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         private const val LATEST_EPOCH = 1e15
         private const val LEVEL_LENGTH = 3
         private const val QUATERNION = 4
+
+        /** Groups of [POSE_TEXT]. */
+        private const val EASTING = 1
+        private const val NORTHING = 2
+        private const val YAW = 3
+        private const val ZONE = 4
         private const val CLOCK_PARTS = 4
         private const val SENSOR_LENGTH = 6
         private val POSE_TEXT = Regex("""\{([^,]+), ([^,]+), [^,]+, Q\[(?:[^],]*,)*([^],]*)]} @ (\S+)""")

@@ -3,6 +3,7 @@ package stillwater.link
 import java.io.IOException
 import java.net.InetSocketAddress
 import java.nio.channels.ServerSocketChannel
+import java.nio.channels.UnresolvedAddressException
 
 /**
  * A board's wire on a TCP port. A second connection takes the place of the first, whose program may hang.
@@ -22,7 +23,7 @@ internal class TcpServedWire(host: String, port: Int) : ServedWire {
         } catch (failed: IOException) {
             server.close()
             throw WireProblem("tcp:$host:$port: cannot listen there: ${failed.message ?: "refused"}", failed)
-        } catch (unknown: java.nio.channels.UnresolvedAddressException) {
+        } catch (unknown: UnresolvedAddressException) {
             server.close()
             throw WireProblem("tcp:$host:$port: cannot listen there: no such host", unknown)
         }

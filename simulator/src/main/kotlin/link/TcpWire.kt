@@ -60,11 +60,21 @@ internal class TcpWire(private val channel: SocketChannel) : BoardWire {
             try {
                 channel.socket().connect(address.socketAddress(), PATIENCE_MILLIS)
                 return TcpWire(channel)
+            } catch (unknown: UnknownHostException) {
+                throw problem(channel, address, "no such host", unknown)
             } catch (failed: IOException) {
-                channel.close()
-                val why = if (failed is UnknownHostException) "no such host" else failed.message ?: "no connection"
-                throw WireProblem("$address: expected a board that listens, found: $why", failed)
+                throw problem(channel, address, failed.message ?: "no connection", failed)
             }
+        }
+
+        private fun problem(
+            channel: SocketChannel,
+            address: WireAddress.Tcp,
+            found: String,
+            why: IOException,
+        ): WireProblem {
+            channel.close()
+            return WireProblem("$address: expected a board that listens, found: $found", why)
         }
     }
 }
