@@ -29,6 +29,7 @@ internal class BoatServer(
     private val boat: VirtualBoat = world.boat
     private var openings = 0L
     private var tick = 0L
+    private var sent = 0L
     private var isHanging = false
     private var base = 0L
     private var baseTime = 0.0
@@ -78,6 +79,7 @@ internal class BoatServer(
         val isWired = wire.attend()
         if (wire.openings != openings) {
             openings = wire.openings
+            sent = 0
             boat.board.reset()
         }
         return phone.attend() || isWired
@@ -97,7 +99,9 @@ internal class BoatServer(
         while (true) {
             val count = boat.phone.read(buffer)
             if (count <= 0) return
+            val untaken = wire.untaken
             wire.write(buffer, count)
+            sent += count - (wire.untaken - untaken)
         }
     }
 
@@ -105,7 +109,7 @@ internal class BoatServer(
         if (!phone.attend() || !phone.isAnswered()) return
         val fix = boat.takeFix()
         val seen = fix?.let { PhoneReport.Fix(it.time.seconds, it.place.latitudeDeg, it.place.longitudeDeg) }
-        phone.tell(PhoneReport(tick, boat.time.seconds, boat.heading(), boat.yawRate, seen))
+        phone.tell(PhoneReport(tick, boat.time.seconds, boat.heading(), boat.yawRate, seen, sent))
     }
 
     /** Waits until the wall's time is that of the boat's [seconds]. */

@@ -17,6 +17,7 @@ import stillwater.drive.LogOnDisk
 import stillwater.drive.MissionMapFiles
 import stillwater.drive.Phone
 import stillwater.drive.PhoneChannel
+import stillwater.drive.PromptWire
 import stillwater.drive.Resumed
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
@@ -111,11 +112,12 @@ class DriveCommand : WorkCommand("drive") {
         val resumed = if (resume) recover(spec, directory) else null
         val file = resumed?.file ?: LogOnDisk.begin(directory)
         file.use {
-            val link = (phone as? BoardPhone)?.tap(wire) ?: wire
+            val prompt = PromptWire(wire)
+            val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
             val mixing = if (vectored) Mixing.VECTORED else Mixing.DIFFERENTIAL
             val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, resumed?.mission)
             val status = DriveStatus(terminal, wire, phone, quiet)
-            val run = DriveRun(mission, phone, wire, file, status)
+            val run = DriveRun(mission, phone, wire, prompt, file, status)
             attendPerson(run)
             val reason = run.sail()
             status.wipe()

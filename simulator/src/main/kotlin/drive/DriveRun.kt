@@ -25,12 +25,14 @@ interface DriveWatcher {
  * its motors and to disarm, as far as there is a wire.
  *
  * @param mission to be stepped. @param phone where time, fixes and heading come from. @param wire to the board.
+ * @param prompt the same, as the mission reads it.
  * @param file the mission's log. All four are retained and confined to the thread that calls [sail].
  */
 internal class DriveRun(
     private val mission: Mission,
     private val phone: Phone,
     private val wire: ReconnectingWire,
+    private val prompt: PromptWire,
     private val file: LogOnDisk,
     private val watcher: DriveWatcher,
 ) {
@@ -75,6 +77,7 @@ internal class DriveRun(
 
     private fun step(): BoatTime {
         val moment = phone.await()
+        moment.sent?.let(prompt::await)
         if (startWanted && !startTold && moment.time.seconds >= BOOTING) mission.start().also { startTold = true }
         if (stopWanted && !stopTold) mission.stop().also { stopTold = true }
         for (fix in moment.fixes) mission.fix(fix.time, fix.place)

@@ -18,8 +18,15 @@ data class PhoneFix(val time: BoatTime, val place: LatLon)
  * @property fixes since the moment before, in order.
  * @property heading rad, counter-clockwise from east; NaN where nothing new is known.
  * @property yawRate rad/s; NaN where not known.
+ * @property sent bytes that the board has sent since its wire was opened; null where nobody counts.
  */
-data class Moment(val time: BoatTime, val fixes: List<PhoneFix>, val heading: Double, val yawRate: Double)
+data class Moment(
+    val time: BoatTime,
+    val fixes: List<PhoneFix>,
+    val heading: Double,
+    val yawRate: Double,
+    val sent: Long? = null,
+)
 
 /**
  * Stands where the phone is aboard: tells the mission the time, where it is and which way it looks. Confined to one

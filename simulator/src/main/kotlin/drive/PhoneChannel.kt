@@ -71,7 +71,7 @@ internal class PhoneChannel(private val wire: ReconnectingWire) : Phone {
         if (isAnew) shift = last + STEP - report.time
         last = report.time + shift
         val fix = report.fix?.let { PhoneFix(BoatTime(it.time + shift), LatLon(it.latitude, it.longitude)) }
-        return Moment(BoatTime(last), listOfNotNull(fix), report.heading, report.yawRate)
+        return Moment(BoatTime(last), listOfNotNull(fix), report.heading, report.yawRate, report.sent)
     }
 
     private fun byItself(seconds: Double): Moment {

@@ -16,6 +16,7 @@ import kotlinx.serialization.json.Json
  * @property heading rad, counter-clockwise from east.
  * @property yawRate rad/s, counter-clockwise.
  * @property fix that came since the report before; null where none did.
+ * @property sent bytes that the board has put on its wire since that was opened; null where nobody counts.
  */
 @Serializable
 data class PhoneReport(
@@ -24,6 +25,7 @@ data class PhoneReport(
     @SerialName("heading_rad") val heading: Double,
     @SerialName("yaw_rate_rad_s") val yawRate: Double,
     val fix: Fix? = null,
+    val sent: Long? = null,
 ) {
     init {
         require(tick > 0) { "tick ($tick) must be above 0" }
