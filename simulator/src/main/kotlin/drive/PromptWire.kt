@@ -65,7 +65,7 @@ internal class PromptWire(private val link: ByteLink) : ByteLink {
 
     companion object {
         /** Wall time for which bytes are waited for, ns. */
-        const val PATIENCE_NANOS = 50_000_000L
+        const val PATIENCE_NANOS = 250_000_000L
         private const val PAUSE_NANOS = 50_000L
         private const val BUFFER = 4096
     }
