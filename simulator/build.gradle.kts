@@ -25,6 +25,8 @@ dependencies {
     api(libs.lets.plot.kotlin)
     api(libs.lets.plot.awt)
     api(libs.jsvg)
+    api(libs.jserialcomm)
+    api(libs.jna)
     runtimeOnly(libs.slf4j.nop)
 
     testImplementation(libs.junit.jupiter)

@@ -9,6 +9,7 @@ import stillwater.wire.ByteLink
 import stillwater.wire.Command
 import stillwater.wire.CommandEncoder
 import stillwater.wire.LineFramer
+import stillwater.wire.LineSink
 import stillwater.wire.Malformed
 import stillwater.wire.Message
 import stillwater.wire.MessageSink
@@ -25,15 +26,20 @@ import stillwater.wire.PlatypusEncoder
  * @param mixing how a drive becomes thrust.
  * @param sink where messages go. Retained.
  * @param encoder turns commands into bytes.
+ * @param lines takes every line before it is read, whatever it holds. Retained.
  */
 public class BoardPort(
     private val link: ByteLink,
     private val mixing: Mixing,
     private val sink: MessageSink,
     private val encoder: CommandEncoder = PlatypusEncoder,
+    private val lines: LineSink = LineSink { _, _, _ -> },
 ) {
     private val codec = PlatypusCodec(::heard)
-    private val framer = LineFramer(codec)
+    private val framer = LineFramer({ bytes, start, end ->
+        lines.line(bytes, start, end)
+        codec.line(bytes, start, end)
+    })
     private val buffer = ByteArray(BUFFER)
     private var now = BoatTime(0.0)
     private var heardAt = Double.NEGATIVE_INFINITY

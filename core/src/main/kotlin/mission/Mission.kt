@@ -67,7 +67,8 @@ public class Mission(
             override fun passed(time: BoatTime, place: Position) = log.pass(now, time, place)
         },
     )
-    private val port = BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) })
+    private val port =
+        BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) }, lines = log::heard)
     private val use = BudgetUse(spec.budget)
     private val fence = Fence(water.outlines[0], water.outlines.drop(1))
     private val navigator = Navigator(spec, water, fence, pose.track, use, mixing)
@@ -120,11 +121,13 @@ public class Mission(
 
     /** A person wants the mission to begin; without effect unless it is idle. */
     public fun start() {
+        log.order("start")
         if (state == MissionState.Idle) state = MissionState.Preflight(null)
     }
 
     /** A person wants the boat to stop: motors rest from the next step on, and the mission is over. */
     public fun stop() {
+        log.order("stop")
         stopWanted = true
     }
 
@@ -134,10 +137,16 @@ public class Mission(
     }
 
     /** The phone's fix of [place] at [time]. */
-    public fun fix(time: BoatTime, place: LatLon): Unit = pose.fix(time, place)
+    public fun fix(time: BoatTime, place: LatLon) {
+        log.fix(time, place)
+        pose.fix(time, place)
+    }
 
     /** The phone's [heading] at [time], rad, counter-clockwise from east, and [yawRate], rad/s, NaN where unknown. */
-    public fun compass(time: BoatTime, heading: Double, yawRate: Double): Unit = pose.compass(time, heading, yawRate)
+    public fun compass(time: BoatTime, heading: Double, yawRate: Double) {
+        log.compass(time, heading, yawRate)
+        pose.compass(time, heading, yawRate)
+    }
 
     /** Does all that is due at [time], on the boat's clock. Answers the state afterwards. */
     public fun step(time: BoatTime): MissionState {

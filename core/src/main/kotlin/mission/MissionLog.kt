@@ -49,9 +49,10 @@ public data class StepRecord(
 /**
  * Writes a mission down, line by line: a superset of the Platypus 4.2 log, `<ms>` tab `I` tab `{json}`.
  *
- * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step), `reading` (what the map
- * took, exactly) or `pass` (a cell left without a reading); the first line has the whole mission. Numbers are written so
- * that they are read back to the last bit; what is not finite is `null`. [MissionRecovery] reads it back.
+ * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step) and `in` (all that came
+ * in since the step before, for a replay), `reading` (what the map took, exactly) or `pass` (a cell left without a
+ * reading); the first line has the whole mission. Numbers are written so that they are read back to the last bit; what
+ * is not finite is `null`. [MissionRecovery] reads it back.
  *
  * A mission that goes on after a restart appends to the same log; the new first line then says so to any reader.
  *
@@ -63,8 +64,21 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
     private val header = start
     private val frame = LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude))
     private val zone = Utm.zoneOf(frame.origin)
+    private val inputs = InputRecord()
     private var begun = Double.NaN
     private var lastMillis = -1L
+
+    /** Keeps a person's [word], `start` or `stop`, for the step's record. */
+    internal fun order(word: String) = inputs.order(word)
+
+    /** Keeps the phone's fix for the step's record. */
+    internal fun fix(time: BoatTime, place: LatLon) = inputs.fix(time, place)
+
+    /** Keeps the phone's heading for the step's record. */
+    internal fun compass(time: BoatTime, heading: Double, yawRate: Double) = inputs.compass(time, heading, yawRate)
+
+    /** Keeps a line that the board sent for the step's record. */
+    internal fun heard(bytes: ByteArray, start: Int, end: Int) = inputs.heard(bytes, start, end)
 
     /** Writes the end of a step; the first writes the log's first line before it. */
     public fun step(record: StepRecord) {
@@ -81,7 +95,7 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
             record.time,
             """$pose"mission":{"t_s":${number(record.time.seconds)},"state":"${state.word}"$why,""" +
                 """"drive":[${number(record.drive.forward)},${number(record.drive.turn)}],""" +
-                """"used":${number(record.used)},"left_out":${record.leftOut}}""",
+                """"used":${number(record.used)},"left_out":${record.leftOut}}${inputs.take()}""",
         )
     }
 

@@ -28,6 +28,9 @@ fun main(args: Array<String>) {
         CorrectCommand(),
         DiagnoseCommand(),
         SimulateCommand(),
+        VirtualBoatCommand(),
+        DriveCommand(),
+        ReplayCommand(),
     )
     try {
         command.parse(args)

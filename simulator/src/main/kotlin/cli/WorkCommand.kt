@@ -4,6 +4,7 @@ import com.github.ajalt.clikt.core.CliktCommand
 import com.github.ajalt.clikt.core.CliktError
 import com.github.ajalt.clikt.core.context
 import stillwater.io.LogProblem
+import stillwater.io.MissionProblem
 import stillwater.report.OutputException
 
 /** A command whose every way to fail is one line that begins with its name, and exit code [BAD_INPUT]. */
@@ -12,7 +13,10 @@ abstract class WorkCommand(name: String) : CliktCommand(name) {
         context { helpFormatter = { OneLineErrors(it) } }
     }
 
-    /** What the command does. May throw [BadFlag], [LogProblem] and [OutputException] besides [failure]. */
+    /**
+     * What the command does. May throw [BadFlag], [LogProblem], [MissionProblem] and [OutputException] besides
+     * [failure].
+     */
     protected abstract fun work()
 
     final override fun run() {
@@ -21,6 +25,8 @@ abstract class WorkCommand(name: String) : CliktCommand(name) {
         } catch (wrong: BadFlag) {
             throw wrong.of(currentContext)
         } catch (problem: LogProblem) {
+            throw failure(problem.message.orEmpty())
+        } catch (problem: MissionProblem) {
             throw failure(problem.message.orEmpty())
         } catch (problem: OutputException) {
             throw failure(problem.message.orEmpty())

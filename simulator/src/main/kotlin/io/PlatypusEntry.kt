@@ -2,8 +2,11 @@ package stillwater.io
 
 /** What one line of a Platypus log says. */
 internal sealed interface PlatypusEntry {
-    /** Where the boat was, as logged: [easting] and [northing] in m, [zone] such as "17North". */
-    data class Pose(val easting: Double, val northing: Double, val zone: String) : PlatypusEntry
+    /**
+     * Where the boat was, as logged: [easting] and [northing] in m, [zone] such as "17North", [heading] in rad,
+     * counter-clockwise from east, NaN where it cannot be read.
+     */
+    data class Pose(val easting: Double, val northing: Double, val zone: String, val heading: Double) : PlatypusEntry
 
     /** Numbers that the sensor [type] on [channel] (-1 where the line names none) gave; "" type in broken lines. */
     class Sensor(val type: String, val channel: Int, val data: List<Double>) : PlatypusEntry

@@ -10,6 +10,7 @@ import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.intOrNull
 import kotlin.math.abs
+import kotlin.math.atan2
 
 /**
  * Takes the lines of a Platypus log of one [version] apart.
@@ -58,8 +59,9 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         val key = if (colon > 0) payload.substring(0, colon) else return PlatypusEntry.Unreadable("KEY: text")
         val text = payload.substring(colon + 2)
         return when {
-            key == "POSE" -> POSE_TEXT.matchEntire(text.trim())?.destructured?.let { (easting, northing, zone) ->
-                pose(DecimalText.parse(easting), DecimalText.parse(northing), zone)
+            key == "POSE" -> POSE_TEXT.matchEntire(text.trim())?.groupValues?.let { found ->
+                val yaw = DecimalText.parse(found[YAW])
+                pose(DecimalText.parse(found[EASTING]), DecimalText.parse(found[NORTHING]), found[ZONE], yaw)
             } ?: PlatypusEntry.Unreadable("POSE: {E, N, alt, Q[roll,pitch,yaw]} @ zone")
             key == "ES2" -> numbers(text.trim().removePrefix("[").removePrefix("e,").removeSuffix("]"), ",")
                 ?.takeIf { it.size == 2 && text.trim().endsWith("]") }
@@ -95,15 +97,18 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         val place = (json as? JsonObject)?.get("p")?.numbers()
         val zone = (json as? JsonObject)?.text("zone")
         return if (place != null && place.size >= 2 && zone != null) {
-            pose(place[0], place[1], zone)
+            // The boats write the yaw into index 2.
+            val q = json["q"]?.numbers()
+            val heading = if (q != null && q.size == QUATERNION) 2 * atan2(q[2], q[0]) else Double.NaN
+            pose(place[0], place[1], zone, heading)
         } else {
             PlatypusEntry.Unreadable("""a pose {"p":[E,N,alt],"q":[...],"zone":"..."}""")
         }
     }
 
-    private fun pose(easting: Double, northing: Double, zone: String): PlatypusEntry =
+    private fun pose(easting: Double, northing: Double, zone: String, heading: Double): PlatypusEntry =
         if (easting.isFinite() && northing.isFinite()) {
-            PlatypusEntry.Pose(easting, northing, zone)
+            PlatypusEntry.Pose(easting, northing, zone, heading)
         } else {
             PlatypusEntry.Unreadable("finite easting and northing")
         }
@@ -150,9 +155,16 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         /** Some 30 000 years, ms. */
         private const val LATEST_EPOCH = 1e15
         private const val LEVEL_LENGTH = 3
+        private const val QUATERNION = 4
+
+        /** Groups of [POSE_TEXT]. */
+        private const val EASTING = 1
+        private const val NORTHING = 2
+        private const val YAW = 3
+        private const val ZONE = 4
         private const val CLOCK_PARTS = 4
         private const val SENSOR_LENGTH = 6
-        private val POSE_TEXT = Regex("""\{([^,]+), ([^,]+), [^,]+, Q\[[^]]*]} @ (\S+)""")
+        private val POSE_TEXT = Regex("""\{([^,]+), ([^,]+), [^,]+, Q\[(?:[^],]*,)*([^],]*)]} @ (\S+)""")
         private val SHAPES = mapOf(
             PlatypusVersion.TEXT to "<ms> HH:MM:SS,m KEY: text",
             PlatypusVersion.CLOCK_JSON to "<ms> HH:MM:SS,m {json}",

@@ -177,7 +177,8 @@ internal class PlatypusLog private constructor(
         private const val PLACEHOLDER_ZONE = "17North"
         private const val PLACEHOLDER_TOLERANCE = 1.0
 
-        private fun isPlaceholder(pose: PlatypusEntry.Pose) = pose.zone == PLACEHOLDER_ZONE &&
+        /** Whether [pose] is what the boats log before their first GPS fix. */
+        fun isPlaceholder(pose: PlatypusEntry.Pose) = pose.zone == PLACEHOLDER_ZONE &&
             abs(pose.easting - PLACEHOLDER_EASTING) <= PLACEHOLDER_TOLERANCE &&
             abs(pose.northing - PLACEHOLDER_NORTHING) <= PLACEHOLDER_TOLERANCE
 

@@ -61,7 +61,12 @@ class JarTest {
     }
 
     @ParameterizedTest
-    @CsvSource("benchmark, stillwater benchmark --preset noisy", "map, stillwater map survey.csv")
+    @CsvSource(
+        "benchmark, stillwater benchmark --preset noisy",
+        "map, stillwater map survey.csv",
+        "drive, stillwater drive pond.json --port /dev/ttyACM0",
+        "virtual-boat, stillwater virtual-boat pond.json --pty",
+    )
     fun everyCommandHasHelpWithExamples(command: String, example: String) {
         val help = stillwater(command, "--help")
         assertFine(help)

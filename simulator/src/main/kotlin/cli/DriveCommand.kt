@@ -1,0 +1,179 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.ProgramResult
+import com.github.ajalt.clikt.core.terminal
+import com.github.ajalt.clikt.parameters.arguments.argument
+import com.github.ajalt.clikt.parameters.arguments.help
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.option
+import com.github.ajalt.clikt.parameters.options.required
+import stillwater.control.Mixing
+import stillwater.drive.BoardPhone
+import stillwater.drive.DriveRun
+import stillwater.drive.DriveStatus
+import stillwater.drive.LogOnDisk
+import stillwater.drive.MissionMapFiles
+import stillwater.drive.Phone
+import stillwater.drive.PhoneChannel
+import stillwater.drive.PromptWire
+import stillwater.drive.Resumed
+import stillwater.io.LogProblem
+import stillwater.io.MissionFile
+import stillwater.link.ReconnectingWire
+import stillwater.link.WireAddress
+import stillwater.link.WireProblem
+import stillwater.mission.LogStart
+import stillwater.mission.Mission
+import stillwater.mission.MissionLog
+import stillwater.mission.MissionSpec
+import stillwater.mission.StopReason
+import stillwater.report.OutputDirectory
+import java.nio.file.Path
+import java.time.ZonedDateTime
+import java.time.format.DateTimeFormatter
+
+/** `stillwater drive`: a mission on a real wire, with a real boat or a virtual one at its other end. */
+class DriveCommand : WorkCommand("drive") {
+    private val missionFile by argument("MISSION").help("mission (JSON)")
+    private val port by option(
+        "--port",
+        metavar = "PORT",
+        help = "the board: /dev/ttyACM0, COM3 or tcp:HOST:PORT",
+    ).required()
+    private val baud by option("--baud", metavar = "N", help = "of a serial port, bits/s")
+        .wholeNumber("a whole number within 300..4000000") { it in SLOWEST_BAUD..FASTEST_BAUD }.default(USUAL_BAUD)
+    private val phoneAddress by option(
+        "--phone",
+        metavar = "tcp:HOST:PORT",
+        help = "a virtual boat's phone channel, for time, fixes and compass; without it time is this machine's, and " +
+            "fixes and heading are those of the GPS receiver and the inertial unit on the board",
+    )
+    private val declination by option(
+        "--declination",
+        metavar = "DEG",
+        help = "of the magnetic from the true north where the boat is, degrees, east positive; without --phone only",
+    ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }.default(0.0)
+    private val vectored by option("--vectored", help = "one thruster that swivels in place of two that do not").flag()
+    private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
+        .default("stillwater-drive")
+    private val resume by option("--resume", help = "go on with the unfinished mission in DIR, disarmed at first")
+        .flag()
+    private val yes by option("--yes", help = "begin without asking: motors will run").flag()
+    private val numbersOnly by option("--numbers-only", help = "no figure").flag()
+    private val quiet by option("--quiet", help = "print nothing but problems").flag()
+
+    override fun help(context: Context) = "Sail a mission with the boat on a serial or TCP port."
+
+    override fun helpEpilog(context: Context) = helpEnd(
+        "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the " +
+            "log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
+            "code 0 when the mission was completed, 1 when it ended otherwise.",
+        listOf(
+            "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
+            "stillwater drive pond.json --port /dev/pts/3 --phone tcp:127.0.0.1:4002 --yes",
+            "stillwater drive pond.json --port /dev/ttyACM0 --out pond --resume",
+        ),
+    )
+
+    override fun work() {
+        val spec = MissionFile.read(Path.of(missionFile))
+        val address = WireAddress.parse(port, baud) ?: throw BadFlag("--port", WireAddress.EXPECTED, "'$port'")
+        val channel = phoneAddress?.let {
+            WireAddress.parse(it, baud) as? WireAddress.Tcp ?: throw BadFlag("--phone", "tcp:HOST:PORT", "'$it'")
+        }
+        val directory = Path.of(out)
+        refuseOtherLogs(directory)
+        try {
+            ReconnectingWire(address.opener(), address.opener().open()).use { wire ->
+                // A virtual boat's time begins with its phone: the wire is open by then.
+                val phone = channel?.let { PhoneChannel.open(it) } ?: BoardPhone(declination)
+                phone.use { sail(spec, wire, it, directory) }
+            }
+        } catch (problem: WireProblem) {
+            throw failure(problem.message.orEmpty())
+        }
+    }
+
+    private fun refuseOtherLogs(directory: Path) {
+        val unfinished = LogOnDisk.unfinished(directory)
+        val finished = LogOnDisk.finished(directory)
+        when {
+            resume && unfinished == null ->
+                throw failure("--resume: expected an unfinished mission in $out, found none")
+            !resume && unfinished != null ->
+                throw failure("--out: $unfinished is unfinished; --resume goes on with it, another --out begins anew")
+            finished != null -> throw failure("--out: expected a directory without a mission, found $finished")
+        }
+    }
+
+    private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path) {
+        val resumed = if (resume) recover(spec, directory) else null
+        val file = resumed?.file ?: LogOnDisk.begin(directory)
+        file.use {
+            val prompt = PromptWire(wire)
+            val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
+            val mixing = if (vectored) Mixing.VECTORED else Mixing.DIFFERENTIAL
+            val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, resumed?.mission)
+            val status = DriveStatus(terminal, wire, phone, quiet)
+            val run = DriveRun(mission, phone, wire, prompt, file, status)
+            attendPerson(run)
+            val reason = run.sail()
+            status.wipe()
+            finish(mission, file, directory, reason)
+        }
+    }
+
+    private fun recover(spec: MissionSpec, directory: Path): Resumed {
+        val path = checkNotNull(LogOnDisk.unfinished(directory))
+        val resumed = LogOnDisk.resume(path) { found ->
+            if (found.spec == spec) return@resume
+            throw LogProblem(path, null, null, "the mission of $missionFile", "another one, ${found.spec.name}")
+        }
+        val found = resumed.mission
+        tell(
+            "recovered ${found.readings} readings, ${found.unreadable} lines unreadable, " +
+                "${resumed.tornBytes} bytes of a cut line taken off; the mission was ${found.lastState}",
+        )
+        return resumed
+    }
+
+    private fun attendPerson(run: DriveRun) {
+        onInterrupt { run.stop() }
+        if (yes) return run.start()
+        tell("Enter begins the mission, stop and Enter or Ctrl-C ends it")
+        val listener = Thread({
+            for (line in generateSequence { readlnOrNull() }) if (line.trim() == "stop") run.stop() else run.start()
+        }, "hear the person")
+        listener.isDaemon = true
+        listener.start()
+    }
+
+    private fun finish(mission: Mission, file: LogOnDisk, directory: Path, reason: StopReason?) {
+        val log = file.complete()
+        val warnings = OutputDirectory(directory).use {
+            val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)
+            it.commit()
+            missing
+        }
+        for (warning in warnings) echo("warning: $warning", err = true)
+        val why = reason?.name?.lowercase() ?: "stopped before it began"
+        tell("$why; ${mission.readings.passed} readings, ${mission.readings.leftOut} left out; log $log")
+        if (reason != StopReason.COMPLETED) throw ProgramResult(1)
+    }
+
+    private fun tell(text: String) {
+        if (!quiet) echo(text)
+    }
+
+    private fun now() = ZonedDateTime.now().let {
+        LogStart(it.toInstant().toEpochMilli(), it.format(DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm:ss ZZZZZ")))
+    }
+
+    private companion object {
+        const val USUAL_BAUD = 115_200
+        const val SLOWEST_BAUD = 300
+        const val FASTEST_BAUD = 4_000_000
+    }
+}

@@ -1,0 +1,82 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.parameters.arguments.argument
+import com.github.ajalt.clikt.parameters.arguments.help
+import com.github.ajalt.clikt.parameters.options.default
+import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.option
+import stillwater.io.LogContent
+import stillwater.io.LogProblem
+import stillwater.io.MissionFile
+import stillwater.io.PlatypusVersion
+import stillwater.replay.OwnLogReplay
+import stillwater.replay.PlatypusReplay
+import stillwater.replay.ReplayFiles
+import stillwater.replay.Replayed
+import stillwater.report.OutputDirectory
+import java.nio.file.Path
+
+/** `stillwater replay`: a recorded log through the mission once more. */
+class ReplayCommand : WorkCommand("replay") {
+    private val log by argument("LOG").help("log of a mission, or a Platypus log (4.0.0, 4.1.0, 4.2.0)")
+    private val mission by option(
+        "--mission",
+        metavar = "FILE",
+        help = "mission (JSON) to replay in place of the log's own; a Platypus log has none, and without this flag " +
+            "one is made around it",
+    )
+    private val out by option("--out", metavar = "DIR", help = "directory for the results").default("stillwater-replay")
+    private val numbersOnly by option("--numbers-only", help = "no figure").flag()
+    private val quiet by option("--quiet", help = "no summary").flag()
+    private val json by option("--json", help = "print replay.json instead of a summary").flag()
+
+    override fun help(context: Context) = "Feed a recorded log through the mission: same estimator, same safety gate."
+
+    override fun helpEpilog(context: Context) = helpEnd(
+        "Writes cells.csv (the map, exact), decisions.csv (every change of state), replay.json (with a count of " +
+            "every line not understood), mission.json (what was replayed), mission.txt (the replay's own log) and a " +
+            "figure. A mission's own log is replayed bit for bit.",
+        listOf(
+            "stillwater replay stillwater-drive/mission.txt",
+            "stillwater replay pond/mission.txt --mission other-estimator.json --out what-if",
+            "stillwater replay platypus_20160519_013623.txt --out platypus",
+        ),
+    )
+
+    override fun work() {
+        val spec = mission?.let { MissionFile.read(Path.of(it)) }
+        val content = LogContent.of(Path.of(log))
+        val version = content.platypus ?: throw LogProblem(
+            content.file,
+            null,
+            null,
+            "a mission's log or a Platypus log",
+            "neither",
+        )
+        OutputDirectory(Path.of(out)).use { directory ->
+            val isOwn = version == PlatypusVersion.LEVEL_JSON && content.head.any { SPEC in it }
+            val replayed: Replayed = if (isOwn) {
+                OwnLogReplay(content.file, spec).run()
+            } else {
+                PlatypusReplay(content, version, spec).run()
+            }
+            val files = ReplayFiles(replayed)
+            val warnings = replayed.warnings + files.write(directory, !numbersOnly)
+            val written = directory.commit()
+            when {
+                json -> echo(files.json().trimEnd())
+                !quiet -> {
+                    files.lines().forEach { echo(it) }
+                    for (warning in warnings) echo("warning: $warning", err = true)
+                    echo("wrote ${written.size} files into $out", err = true)
+                }
+            }
+        }
+    }
+
+    private companion object {
+        /** In the first line of a mission's own log. */
+        const val SPEC = "\"spec\":{"
+    }
+}

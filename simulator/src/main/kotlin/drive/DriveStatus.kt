@@ -1,0 +1,92 @@
+package stillwater.drive
+
+import com.github.ajalt.mordant.terminal.Terminal
+import stillwater.link.ReconnectingWire
+import stillwater.mission.Mission
+import stillwater.mission.MissionState
+import stillwater.model.BoatTime
+import stillwater.report.SignificantDigits
+import stillwater.wire.Malformed
+
+/**
+ * Shows a mission under way: a line that stays up to date where somebody watches the terminal, else a line at each
+ * change of state and every minute of the boat's time.
+ */
+internal class DriveStatus(
+    private val terminal: Terminal,
+    private val wire: ReconnectingWire,
+    private val phone: Phone,
+    private val isQuiet: Boolean,
+) : DriveWatcher {
+    private val isLive = terminal.terminalInfo.outputInteractive
+    private var shownAt = 0L
+    private var shownTime = 0.0
+
+    override fun changed(mission: Mission, time: BoatTime) {
+        if (isQuiet) return
+        wipe()
+        terminal.println(line(mission, time))
+        shownTime = time.seconds
+    }
+
+    override fun stepped(mission: Mission, time: BoatTime) {
+        if (isQuiet) return
+        val now = System.nanoTime()
+        if (isLive) {
+            if (now - shownAt < LIVE_NANOS) return
+            shownAt = now
+            wipe()
+            terminal.rawPrint(line(mission, time).take(terminal.size.width - 1))
+        } else if (time.seconds - shownTime >= MINUTE) {
+            changed(mission, time)
+        }
+    }
+
+    /** Leaves the line that stays up to date. */
+    fun wipe() {
+        if (isLive && !isQuiet) terminal.rawPrint("\r\u001b[K")
+    }
+
+    private fun line(mission: Mission, time: BoatTime): String {
+        val state = mission.state
+        val why = when (state) {
+            is MissionState.Holding -> " (${words(state.danger.name)})"
+            is MissionState.Returning -> " (${words(state.danger.name)})"
+            is MissionState.Stopped -> " (${words(state.reason.name)})"
+            is MissionState.Preflight -> state.missing?.let { " (${words(it.name)})" }.orEmpty()
+            else -> ""
+        }
+        val map = mission.map
+        val known = (0 until map.grid.size).count { map.readings(it) > 0 }
+        val parts = listOf(
+            "%7.1f s  %s%s".format(time.seconds, state.word, why),
+            mission.position?.let { "at %.1f, %.1f m".format(it.x, it.y) } ?: "place unknown",
+            "$known of ${map.grid.size} cells, ${mission.readings.passed} readings",
+            if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
+            trouble(mission),
+            phone.trouble(),
+        )
+        return parts.filter { it.isNotEmpty() }.joinToString(", ")
+    }
+
+    private fun trouble(mission: Mission): String {
+        val board = mission.board
+        val bad = Malformed.entries.filter { board.malformed(it) > 0 }
+            .joinToString(" ") { "${words(it.name)} ${board.malformed(it)}" }
+        return listOf(
+            if (wire.isOpen) "" else "wire lost",
+            if (wire.losses > 0) "lost ${wire.losses} times" else "",
+            if (bad.isEmpty()) "" else "unreadable: $bad",
+            if (board.refusals > 0) "${board.refusals} commands refused" else "",
+            if (board.unsent > 0) "${board.unsent} writes not sent" else "",
+        ).filter { it.isNotEmpty() }.joinToString(", ")
+    }
+
+    private fun words(name: String) = name.lowercase().replace('_', ' ')
+
+    private companion object {
+        const val LIVE_NANOS = 250_000_000L
+        const val MINUTE = 60.0
+        val VOLTS = SignificantDigits(3)
+    }
+}

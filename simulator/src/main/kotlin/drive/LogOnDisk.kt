@@ -1,0 +1,151 @@
+package stillwater.drive
+
+import stillwater.io.LogProblem
+import stillwater.mission.LogSink
+import stillwater.mission.MissionRecovery
+import stillwater.mission.RecoveredMission
+import stillwater.report.OutputException
+import java.io.FilterInputStream
+import java.io.IOException
+import java.io.InputStream
+import java.io.RandomAccessFile
+import java.nio.ByteBuffer
+import java.nio.channels.FileChannel
+import java.nio.file.Files
+import java.nio.file.Path
+import java.nio.file.StandardCopyOption.ATOMIC_MOVE
+import java.nio.file.StandardOpenOption.APPEND
+import java.nio.file.StandardOpenOption.CREATE_NEW
+import kotlin.io.path.exists
+import kotlin.io.path.name
+
+/**
+ * A mission's log on disk: `mission.txt.incomplete` until it is closed, then `mission.txt`.
+ *
+ * Lines are only ever appended. [flush] hands them to the disk itself, not just to the system: a flat battery loses
+ * what came after it. Confined to one thread.
+ *
+ * @throws OutputException from every call if the disk refuses.
+ */
+internal class LogOnDisk private constructor(private val path: Path, private val channel: FileChannel) :
+    LogSink,
+    AutoCloseable {
+    private val waiting = StringBuilder()
+    private var flushedAt = System.nanoTime()
+
+    override fun line(line: String) {
+        waiting.append(line).append('\n')
+    }
+
+    /** Hands what is waiting to the disk, if the last time was [FLUSH_NANOS] ago. */
+    fun flushWhenDue() {
+        if (System.nanoTime() - flushedAt >= FLUSH_NANOS) flush()
+    }
+
+    private fun flush() = guarded(path) {
+        val bytes = ByteBuffer.wrap(waiting.toString().toByteArray())
+        while (bytes.hasRemaining()) channel.write(bytes)
+        channel.force(false)
+        waiting.setLength(0)
+        flushedAt = System.nanoTime()
+    }
+
+    /** Closes a log that is whole and gives it its final name, which it answers. */
+    fun complete(): Path {
+        flush()
+        channel.close()
+        val whole = path.resolveSibling(path.name.removeSuffix(INCOMPLETE))
+        guarded(path) { Files.move(path, whole, ATOMIC_MOVE) }
+        return whole
+    }
+
+    /** Closes it as it is; without [complete] it stays incomplete. */
+    override fun close() {
+        if (channel.isOpen) {
+            channel.use { flush() }
+        }
+    }
+
+    companion object {
+        /** What a log's name ends in until it is closed. */
+        const val INCOMPLETE = ".incomplete"
+        const val NAME = "mission.txt"
+
+        /** Well below a second. */
+        private const val FLUSH_NANOS = 400_000_000L
+
+        /** Begins a log in [directory], where no finished one may be. */
+        fun begin(directory: Path): LogOnDisk = guarded(directory) {
+            Files.createDirectories(directory)
+            val path = directory.resolve(NAME + INCOMPLETE)
+            LogOnDisk(path, FileChannel.open(path, CREATE_NEW, APPEND))
+        }
+
+        /** The unfinished log in [directory]; null where there is none. */
+        fun unfinished(directory: Path): Path? = directory.resolve(NAME + INCOMPLETE).takeIf { it.exists() }
+
+        /** The finished log in [directory]; null where there is none. */
+        fun finished(directory: Path): Path? = directory.resolve(NAME).takeIf { it.exists() }
+
+        /**
+         * Goes on with the unfinished log at [path], unless [check] throws: then it is left as it is. A last line that
+         * was cut when the program died is taken off it.
+         *
+         * @throws LogProblem if it has no mission.
+         */
+        fun resume(path: Path, check: (RecoveredMission) -> Unit): Resumed = guarded(path) {
+            RandomAccessFile(path.toFile(), "rw").use { file ->
+                val end = endOfLines(file)
+                val recovery = MissionRecovery()
+                // A broken disk's bytes are no reason to give up the lines around them.
+                val whole = BoundedStream(Files.newInputStream(path), end)
+                whole.bufferedReader(Charsets.UTF_8).useLines { lines -> lines.forEach(recovery::line) }
+                val found = recovery.recovered()
+                    ?: throw LogProblem(path, null, null, "a mission's log", "no mission that can be read")
+                check(found)
+                val torn = file.length() - end
+                if (torn > 0) file.setLength(end)
+                Resumed(LogOnDisk(path, FileChannel.open(path, APPEND)), found, torn)
+            }
+        }
+
+        /** How many bytes of [file] are whole lines. */
+        private fun endOfLines(file: RandomAccessFile): Long {
+            var end = file.length()
+            while (end > 0) {
+                file.seek(end - 1)
+                if (file.read() == '\n'.code) break
+                end--
+            }
+            return end
+        }
+
+        private fun <T> guarded(path: Path, block: () -> T): T = try {
+            block()
+        } catch (failed: IOException) {
+            val why = failed.message ?: failed.javaClass.simpleName
+            throw OutputException("cannot write the log $path: $why", failed)
+        }
+    }
+}
+
+/**
+ * An unfinished log that is gone on with.
+ *
+ * @property file where it goes on.
+ * @property mission what it tells.
+ * @property tornBytes of a last line that was cut.
+ */
+internal class Resumed(val file: LogOnDisk, val mission: RecoveredMission, val tornBytes: Long)
+
+/** The first [left] bytes of [stream]. */
+private class BoundedStream(stream: InputStream, private var left: Long) : FilterInputStream(stream) {
+    override fun read(): Int = if (left > 0) super.read().also { left-- } else -1
+
+    override fun read(into: ByteArray, offset: Int, length: Int): Int {
+        if (left <= 0) return -1
+        val count = super.read(into, offset, minOf(length.toLong(), left).toInt())
+        if (count > 0) left -= count
+        return count
+    }
+}

@@ -1,0 +1,101 @@
+package stillwater.drive
+
+import stillwater.link.BoardWire
+import stillwater.link.PhoneReport
+import stillwater.link.ReconnectingWire
+import stillwater.link.WireAddress
+import stillwater.model.BoatTime
+import stillwater.model.LatLon
+import stillwater.wire.LineFramer
+import java.util.concurrent.locks.LockSupport
+
+/**
+ * The simulated phone of a virtual boat, over TCP: the boat's time comes from there, with fixes and compass.
+ *
+ * So one clock holds on both sides however fast the boat's time runs, and a pause of either program stops it rather
+ * than being taken for a lost link. Where nothing is heard for [PATIENCE] s of wall time, time goes on here by itself,
+ * so that the mission sees that its link is gone; when the boat comes back, perhaps with its clock at 0, time goes on
+ * from there.
+ */
+internal class PhoneChannel(private val wire: ReconnectingWire) : Phone {
+    private val buffer = ByteArray(BUFFER)
+    private val framer = LineFramer({ bytes, start, end -> heard(String(bytes, start, end - start, Charsets.UTF_8)) })
+    private var report: PhoneReport? = null
+    private var answering = 0L
+    private var shift = 0.0
+    private var lastTheirs = 0.0
+    private var last = 0.0
+    private var unreadable = 0L
+    private var alone = 0L
+
+    override fun await(): Moment {
+        val from = System.nanoTime()
+        while (report == null) {
+            val count = wire.read(buffer)
+            if (count > 0) {
+                framer.accept(buffer, 0, count)
+            } else {
+                if (count < 0) framer.reset()
+                val waited = System.nanoTime() - from
+                if (waited >= if (alone > 0) STEP_NANOS else PATIENCE_NANOS) return byItself(waited / NANOS)
+                // Busy at first: at sixty times wall time the next report is a fraction of a millisecond away.
+                if (waited > BUSY_NANOS) LockSupport.parkNanos(PAUSE_NANOS) else Thread.onSpinWait()
+            }
+        }
+        return told(checkNotNull(report))
+    }
+
+    override fun done() {
+        if (answering > 0) wire.write(PhoneReport.done(answering).toByteArray())
+        answering = 0
+    }
+
+    override fun trouble(): String = listOfNotNull(
+        "phone's channel lost".takeIf { !wire.isOpen },
+        "$unreadable of the phone's lines unreadable".takeIf { unreadable > 0 },
+    ).joinToString(", ")
+
+    override fun close() = wire.close()
+
+    private fun heard(line: String) {
+        val found = PhoneReport.parse(line)
+        if (found == null) unreadable++ else report = found
+    }
+
+    private fun told(report: PhoneReport): Moment {
+        this.report = null
+        answering = report.tick
+        alone = 0
+        val isAnew = report.time <= lastTheirs || report.time + shift <= last
+        lastTheirs = report.time
+        if (isAnew) shift = last + STEP - report.time
+        last = report.time + shift
+        val fix = report.fix?.let { PhoneFix(BoatTime(it.time + shift), LatLon(it.latitude, it.longitude)) }
+        return Moment(BoatTime(last), listOfNotNull(fix), report.heading, report.yawRate, report.sent)
+    }
+
+    private fun byItself(seconds: Double): Moment {
+        alone++
+        last += seconds
+        return Moment(BoatTime(last), emptyList(), Double.NaN, Double.NaN)
+    }
+
+    companion object {
+        /** Without a report for so long, s of wall time, the mission's time goes on by itself. */
+        const val PATIENCE = 0.5
+        private const val STEP = 0.1
+        private const val NANOS = 1e9
+        private const val PATIENCE_NANOS = (PATIENCE * NANOS).toLong()
+        private const val STEP_NANOS = (STEP * NANOS).toLong()
+        private const val BUSY_NANOS = 50_000L
+        private const val PAUSE_NANOS = 50_000L
+        private const val BUFFER = 4096
+
+        /** Opens the channel at [address]; throws [stillwater.link.WireProblem] where nobody listens. */
+        fun open(address: WireAddress.Tcp): PhoneChannel {
+            val opener = address.opener()
+            val first: BoardWire = opener.open()
+            return PhoneChannel(ReconnectingWire(opener, first))
+        }
+    }
+}

@@ -1,0 +1,72 @@
+package stillwater.drive
+
+import stillwater.wire.ByteLink
+import java.util.concurrent.locks.LockSupport
+
+/**
+ * A wire of which it is known how many bytes were sent on it: [await] waits for those that the system still holds back.
+ *
+ * At sixty times wall time the few milliseconds that a pseudo-terminal may take are tenths of a second to the boat, and an
+ * estimator that undoes a sensor's lag is sensitive to readings that come at odd times. Bytes that do not come within
+ * [PATIENCE_NANOS] are taken for lost and not waited for again. Confined to one thread.
+ *
+ * @param link to the board. Retained.
+ */
+internal class PromptWire(private val link: ByteLink) : ByteLink {
+    private var held = ByteArray(0)
+    private var taken = 0
+    private val buffer = ByteArray(BUFFER)
+    private var received = 0L
+    private var lost = 0L
+    private var isLost = false
+
+    /** Waits until as many bytes have come as were [sent] since the wire was opened. */
+    fun await(sent: Long) {
+        // A wire that was opened anew counts from 0 again.
+        if (sent < received + lost) {
+            received = 0
+            lost = 0
+        }
+        val from = System.nanoTime()
+        while (received + lost < sent && !isLost) {
+            val count = link.read(buffer)
+            if (count == ByteLink.LOST) isLost = true
+            if (count > 0) keep(count)
+            if (count != 0) continue
+            if (System.nanoTime() - from > PATIENCE_NANOS) {
+                lost = sent - received
+            } else {
+                LockSupport.parkNanos(PAUSE_NANOS)
+            }
+        }
+    }
+
+    override fun read(into: ByteArray): Int {
+        if (taken < held.size) {
+            val count = minOf(into.size, held.size - taken)
+            held.copyInto(into, 0, taken, taken + count)
+            taken += count
+            return count
+        }
+        if (isLost) {
+            isLost = false
+            return ByteLink.LOST
+        }
+        return link.read(into).also { if (it > 0) received += it }
+    }
+
+    override fun write(bytes: ByteArray): Boolean = link.write(bytes)
+
+    private fun keep(count: Int) {
+        held = held.copyOfRange(taken, held.size) + buffer.copyOf(count)
+        taken = 0
+        received += count
+    }
+
+    companion object {
+        /** Wall time for which bytes are waited for, ns. */
+        const val PATIENCE_NANOS = 250_000_000L
+        private const val PAUSE_NANOS = 50_000L
+        private const val BUFFER = 4096
+    }
+}

@@ -1,0 +1,152 @@
+package stillwater.replay
+
+import stillwater.io.LogContent
+import stillwater.io.PlatypusClock
+import stillwater.io.PlatypusEntry
+import stillwater.io.PlatypusLine
+import stillwater.io.PlatypusLog
+import stillwater.io.PlatypusVersion
+import stillwater.io.UtmZone
+import stillwater.mission.LogStart
+import stillwater.mission.Mission
+import stillwater.mission.MissionLog
+import stillwater.mission.MissionSpec
+import stillwater.model.BoatTime
+import stillwater.model.LatLon
+import stillwater.model.Utm
+import java.io.BufferedReader
+
+/**
+ * Feeds a Platypus boat's log through a mission: its poses as fixes and compass, its sensors' readings as a board's
+ * lines.
+ *
+ * Steps are taken ten times a second of the log's time; a gap of more than [LONGEST_GAP] s is passed over after that
+ * time. The boat went where it was then steered, so the mission's waypoints are not reached: what is shown is what it
+ * would have made of the readings, and when it would have held, gone home or stopped.
+ *
+ * @param content the log. @param version of its format. @param wanted mission to replay; null for one made around the
+ *   log.
+ */
+internal class PlatypusReplay(
+    private val content: LogContent,
+    private val version: PlatypusVersion,
+    private val wanted: MissionSpec?,
+) {
+    private val lines = LinkedHashMap<String, Long>()
+    private val notUnderstood = LinkedHashMap<String, Long>()
+    private val warnings = ArrayList<String>()
+    private val log = ArrayList<String>()
+    private val decisions = Decisions()
+    private val board = RecordedBoard()
+    private var gaps = 0
+    private var now = 0.0
+    private var lastPlace: LatLon? = null
+    private var lastFix = Double.NEGATIVE_INFINITY
+
+    /** Replays it all. */
+    fun run(): Replayed {
+        val spec = wanted ?: MadeUpMission(content, version).spec(warnings)
+        val start = LogStart(0, "replay of ${content.file.fileName}")
+        val mission = Mission(spec, board.link, MissionLog(log::add, start, spec))
+        mission.start()
+        val parser = PlatypusLine(version)
+        val clock = PlatypusClock()
+        var zero = Double.NaN
+        BufferedReader(content.reader {}).useLines { all ->
+            for (line in all) {
+                if (line.isBlank()) continue
+                val entry = parser.parse(line)
+                if (entry is PlatypusEntry.Unreadable) {
+                    notUnderstood.count(entry.expected)
+                    continue
+                }
+                if (entry is PlatypusEntry.Start) clock.start(entry.epochMillis, parser.millis)
+                val seconds = clock.secondsAt(parser.millis, parser.clock)
+                if (seconds.isNaN()) {
+                    notUnderstood.count("a time not before the last one")
+                    continue
+                }
+                if (zero.isNaN()) zero = seconds
+                stepUntil(mission, seconds - zero)
+                feed(mission, entry, BoatTime(seconds - zero))
+            }
+        }
+        stepUntil(mission, now + STEP)
+        if (gaps > 0) warnings += "$gaps gaps of more than $LONGEST_GAP s passed over"
+        val format = "Platypus log ${version.release}"
+        return Replayed(spec, format, mission, decisions, log, lines, notUnderstood, null, warnings)
+    }
+
+    private fun stepUntil(mission: Mission, seconds: Double) {
+        val from = now
+        while (now + STEP <= seconds + ROUNDING) {
+            if (now - from > LONGEST_GAP) {
+                gaps++
+                now = seconds
+                return
+            }
+            now += STEP
+            board.beat()
+            mission.step(BoatTime(now))
+            decisions.note(mission, BoatTime(now))
+        }
+    }
+
+    private fun feed(mission: Mission, entry: PlatypusEntry, time: BoatTime) {
+        when (entry) {
+            is PlatypusEntry.Pose -> pose(mission, entry, time)
+            is PlatypusEntry.Sensor ->
+                if (board.say(entry)) {
+                    lines.count("sensor ${entry.type}")
+                } else {
+                    notUnderstood.count("numbers of a sensor known here, not '${entry.type}'")
+                }
+            is PlatypusEntry.Start -> lines.count("beginnings")
+            else -> lines.count("commands, gains and others that a mission does not need")
+        }
+    }
+
+    private fun pose(mission: Mission, pose: PlatypusEntry.Pose, time: BoatTime) {
+        if (pose.heading.isFinite()) mission.compass(time, pose.heading, Double.NaN)
+        val place = if (PlatypusLog.isPlaceholder(pose)) null else placeOf(pose)
+        when {
+            PlatypusLog.isPlaceholder(pose) -> lines.count("poses before the first fix")
+            place == null -> notUnderstood.count("a place on the globe")
+            isNews(place, time) -> {
+                lines.count("poses")
+                mission.fix(time, place)
+            }
+            else -> lines.count("poses said again")
+        }
+    }
+
+    /**
+     * The boats log ten poses a second of a receiver that has one fix a second: the same place again is no second fix.
+     */
+    private fun isNews(place: LatLon, time: BoatTime): Boolean {
+        if (place == lastPlace && time.seconds - lastFix < FIX_PERIOD) return false
+        lastPlace = place
+        lastFix = time.seconds
+        return true
+    }
+
+    companion object {
+        /** Longest stretch without a line that is stepped through, s. */
+        const val LONGEST_GAP = 60.0
+        private const val STEP = 0.1
+
+        /** A little under a second: stamps are late by some ms now and then. */
+        private const val FIX_PERIOD = 0.95
+        private const val ROUNDING = 1e-9
+
+        /** Where [pose] is; null where that is nowhere. */
+        fun placeOf(pose: PlatypusEntry.Pose): LatLon? {
+            val zone = UtmZone.parse(pose.zone) ?: return null
+            if (pose.easting !in EASTINGS || pose.northing !in NORTHINGS) return null
+            return Utm(pose.easting, pose.northing, zone.number, zone.north).toLatLon()
+        }
+
+        private val EASTINGS = 0.0..1e6
+        private val NORTHINGS = 0.0..1e7
+    }
+}

@@ -1,0 +1,105 @@
+package stillwater.replay
+
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonNull
+import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.buildJsonObject
+import kotlinx.serialization.json.put
+import kotlinx.serialization.json.putJsonObject
+import stillwater.drive.MissionMapFiles
+import stillwater.report.CsvTable
+import stillwater.report.OutputDirectory
+import stillwater.wire.Malformed
+
+/**
+ * Writes what a replay came to: `cells.csv`, `decisions.csv`, `replay.json`, `mission.json`, `mission.txt` and the
+ * figure.
+ */
+internal class ReplayFiles(private val replayed: Replayed) {
+    /**
+     * Writes them into [directory]; the figure only where it [isDrawn]. Answers a warning where something is missing.
+     */
+    fun write(directory: OutputDirectory, isDrawn: Boolean): List<String> {
+        directory.stream("decisions.csv") { out ->
+            CsvTable(out, listOf("time_s", "state", "why", "x_m", "y_m")).use { table ->
+                for (it in replayed.decisions.changes) {
+                    table.row(it.time, it.state, it.why.ifEmpty { null }, it.position?.x, it.position?.y)
+                }
+            }
+        }
+        directory.write("replay.json", json())
+        directory.write("mission.json", PRETTY.encodeToString(JsonObject.serializer(), specJson()) + "\n")
+        directory.stream("mission.txt") { out ->
+            for (line in replayed.log) out.write((line + "\n").toByteArray())
+        }
+        return MissionMapFiles.write(directory, replayed.spec, replayed.map, isDrawn)
+    }
+
+    /** The summary for machines. */
+    fun json(): String {
+        val json = buildJsonObject {
+            put("format", replayed.format)
+            put("mission", replayed.spec.name)
+            put("estimator", replayed.spec.estimator.name.lowercase().replace('_', '-'))
+            put("ended", replayed.mission.state.word)
+            put("why", Decisions.why(replayed.mission.state))
+            put("steps", replayed.decisions.steps)
+            put("steps_with_motors_running", replayed.decisions.driven)
+            putJsonObject("seconds_in_state") { replayed.decisions.secondsIn.forEach { (name, s) -> put(name, s) } }
+            putJsonObject("lines") { replayed.lines.forEach { (name, count) -> put(name, count) } }
+            putJsonObject("lines_not_understood") {
+                replayed.notUnderstood.forEach { (expected, count) -> put(expected, count) }
+            }
+            putJsonObject("board_lines_not_understood") { malformed().forEach { (name, count) -> put(name, count) } }
+            val gate = replayed.mission.readings
+            putJsonObject("readings") {
+                put("taken", gate.passed)
+                put("out_of_range", gate.outOfRange)
+                put("alone", gate.lone)
+                put("without_value_or_place", gate.withoutValueOrPlace)
+            }
+            put("fixes_refused", replayed.mission.refusedFixes)
+            val compared = replayed.asRecorded
+            put("steps_otherwise_than_recorded", compared?.let { JsonPrimitive(it.differingSteps) } ?: JsonNull)
+            put("same_map_as_recorded", compared?.let { JsonPrimitive(it.isSameMap) } ?: JsonNull)
+        }
+        return PRETTY.encodeToString(JsonObject.serializer(), json) + "\n"
+    }
+
+    /** The summary for people, line by line. */
+    fun lines(): List<String> {
+        val decisions = replayed.decisions
+        val gate = replayed.mission.readings
+        val unread = replayed.notUnderstood.map { (name, count) -> "$count (expected $name)" } +
+            malformed().map { (name, count) -> "$count of the board ($name)" }
+        val why = Decisions.why(replayed.mission.state)
+        return listOfNotNull(
+            "${replayed.format}, ${decisions.steps} steps; at its end ${replayed.mission.state.word} $why".trimEnd(),
+            "lines: " + replayed.lines.entries.joinToString(", ") { "${it.value} ${it.key}" },
+            "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
+            "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(it.key, it.value) } +
+                "; ${decisions.changes.size} changes, motors running in ${decisions.driven} steps",
+            "readings: ${gate.passed} taken, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
+                "${gate.withoutValueOrPlace} without a place; ${replayed.mission.refusedFixes} fixes refused",
+            replayed.asRecorded?.let { same ->
+                val steps = if (same.differingSteps == 0L) {
+                    "every step as recorded"
+                } else {
+                    "${same.differingSteps} steps otherwise than recorded, the first at ${same.firstDifference} s"
+                }
+                "$steps; the map is ${if (same.isSameMap) "" else "not "}that of the recorded readings, bit for bit"
+            },
+        )
+    }
+
+    private fun malformed() = Malformed.entries.associate { kind ->
+        kind.name.lowercase().replace('_', '-') to replayed.mission.board.malformed(kind)
+    }.filterValues { it > 0 }
+
+    private fun specJson() = Json.parseToJsonElement(replayed.spec.toJson()) as JsonObject
+
+    private companion object {
+        val PRETTY = Json { prettyPrint = true }
+    }
+}

@@ -1,0 +1,148 @@
+package stillwater.cli
+
+import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
+import kotlinx.serialization.json.long
+import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import org.junit.jupiter.params.ParameterizedTest
+import org.junit.jupiter.params.provider.CsvSource
+import stillwater.mission.Mission
+import java.nio.file.Path
+import kotlin.io.path.exists
+import kotlin.io.path.readLines
+import kotlin.io.path.readText
+import kotlin.io.path.writeText
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class ReplayCommandTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private fun write(name: String, lines: List<String>) =
+        directory.resolve(name).apply { writeText(lines.joinToString("") { "$it\n" }) }
+
+    private fun replay(log: Path, out: String, vararg flags: String): JsonObject {
+        val into = directory.resolve(out).toString()
+        val result = runBoatCommand("replay", log.toString(), "--out", into, "--numbers-only", "--json", *flags)
+        assertEquals(0, result.statusCode, result.output)
+        return Json.parseToJsonElement(result.stdout).jsonObject
+    }
+
+    private fun JsonObject.word(key: String) = getValue(key).jsonPrimitive.content
+
+    private fun JsonObject.count(vararg path: String): Long {
+        val parent = path.dropLast(1).fold(this) { json, key -> json.getValue(key).jsonObject }
+        return parent[path.last()]?.jsonPrimitive?.long ?: 0
+    }
+
+    private fun assertSameMap(mission: Mission, cells: Path) {
+        for ((cell, line) in cells.readLines().drop(1).withIndex()) {
+            val fields = line.split(',')
+            val map = mission.map
+            val numbers = listOf(map.value(cell), map.lower(cell), map.upper(cell))
+            assertEquals(numbers.map { if (it.isNaN()) "" else it.toString() }, fields.subList(3, 6), "cell $cell")
+            assertEquals(listOf(map.visits(cell), map.readings(cell)).map { "$it" }, fields.subList(6, 8), "cell $cell")
+        }
+    }
+
+    @Test
+    fun anOwnLogIsReplayedBitForBitThoughTheLinkWasBad() {
+        for (seed in 41L..43L) {
+            val (lines, mission) = sailed(seed, 200)
+            val summary = replay(write("log.txt", lines), "out$seed")
+            assertSameMap(mission, directory.resolve("out$seed/cells.csv"))
+            assertEquals(lines, directory.resolve("out$seed/mission.txt").readLines(), "seed $seed")
+            assertEquals("true", summary.word("same_map_as_recorded"))
+            assertEquals(0, summary.count("steps_otherwise_than_recorded"))
+            assertEquals(mission.readings.passed, summary.count("readings", "taken"))
+            assertEquals(emptyMap(), summary.getValue("lines_not_understood").jsonObject.toMap())
+            assertTrue(summary.getValue("board_lines_not_understood").jsonObject.isNotEmpty(), "seed $seed: $summary")
+        }
+    }
+
+    @Test
+    fun linesThatAreNoneAreCountedAndTheRestIsReplayed() {
+        val (lines, mission) = sailed(44, 60)
+        val others = listOf("1\tI\t{\"what\":1}", "2\tI\t{\"mission\":{}}", lines.last().take(30))
+        val rest = lines.flatMapIndexed { i, line -> listOfNotNull("rubbish $i".takeIf { i % 100 == 50 }, line) }
+        val broken = rest + others
+        val summary = replay(write("log.txt.incomplete", broken), "out")
+        assertSameMap(mission, directory.resolve("out/cells.csv"))
+        // Lines without a frame, and the last one, which was cut.
+        val rubbish = broken.count { it.startsWith("rubbish") } + 1L
+        assertEquals(rubbish, summary.count("lines_not_understood", "<ms> TAB I TAB {json}"))
+        assertEquals(1, summary.count("lines_not_understood", "spec, mission, reading, sensor or pass"))
+        assertEquals(1, summary.count("lines_not_understood", "a step's t_s"))
+    }
+
+    @Test
+    fun anotherMissionOnTheSameWayMakesAnotherMap() {
+        val (lines, _) = sailed(45, 150)
+        val other = directory.resolve("other.json").apply { writeText(POND.replace("self-calibrating", "averaging")) }
+        val summary = replay(write("log.txt", lines), "out", "--mission", other.toString())
+        assertEquals("averaging", summary.word("estimator"))
+        assertEquals("null", summary.word("same_map_as_recorded"))
+        assertTrue(summary.count("readings", "taken") > 100)
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+        // Lines of the log, those before a fix, and readings of the probe that have a place.
+        "airboat_20130807_063622.txt, 4.0.0, 23, 18, surveying",
+        "airboat_20151220_043848.txt, 4.0.0, 15, 0, preflight",
+        "platypus_20160426_024734.txt, 4.1.0, 0, 21, surveying",
+        "platypus_20160519_013623.txt, 4.2.0, 29, 31, surveying",
+    )
+    fun platypusLogsAreReplayedAndTheirReplayIsALogAgain(
+        name: String,
+        version: String,
+        placeholders: Long,
+        readings: Long,
+        ended: String,
+    ) {
+        val data = System.getenv("STILLWATER_DATA")
+        assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")
+        val log = Path.of(data, "platypus_logs", name)
+        val summary = replay(log, "first")
+        assertEquals("Platypus log $version", summary.word("format"))
+        assertEquals(placeholders, summary.count("lines", "poses before the first fix"))
+        assertEquals(readings, summary.count("readings", "taken"))
+        assertEquals(ended, summary.word("ended"))
+        // Every line is accounted for.
+        val known = summary.getValue("lines").jsonObject.values.sumOf { it.jsonPrimitive.long }
+        val unknown = summary.getValue("lines_not_understood").jsonObject.values.sumOf { it.jsonPrimitive.long }
+        assertEquals(log.readLines().count { it.isNotBlank() }.toLong(), known + unknown)
+        val again = replay(directory.resolve("first/mission.txt"), "second")
+        assertEquals("true", again.word("same_map_as_recorded"))
+        for (file in listOf("cells.csv", "mission.txt", "decisions.csv")) {
+            assertEquals(
+                directory.resolve("first/$file").readText(),
+                directory.resolve("second/$file").readText(),
+                file,
+            )
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource(
+        "a survey, 'time_s,do\n1,2\n', 'expected a mission''s log or a Platypus log, found neither'",
+        "no readable mission, '0\tI\t{\"spec\":{\"name\":1}}\n', found no mission that can be read",
+        "nothing, '', 'expected a log, found an empty file'",
+    )
+    fun whatIsNoLogIsRefusedInOneLineAndNothingIsWritten(case: String, text: String, message: String) {
+        val log = directory.resolve("log.txt").apply { writeText(text) }
+        val out = directory.resolve("out")
+        val result = runBoatCommand("replay", log.toString(), "--out", out.toString())
+        assertEquals(2, result.statusCode, case)
+        assertContains(result.stderr, message, message = case)
+        assertEquals(1, result.stderr.trimEnd().lines().size, result.stderr)
+        assertFalse(out.exists(), case)
+    }
+}
