@@ -1,13 +1,14 @@
 package stillwater.diagnose
 
 import kotlin.math.ln
-import kotlin.math.sqrt
 
 /**
  * A cause tried on top of a model.
  *
  * @property term what was tried. @property fit the model with it. @property ratio twice the gain in log-likelihood,
- * divided by what the scores' correlation inflates it. @property degrees numbers more than without it.
+ * divided by [inflation], which the scores' correlation inflates it by. @property degrees numbers more than without it.
+ * @property cost what as many meaningless numbers and places would gain, as twice a log-likelihood.
+ * @property worth what it gains beyond [cost].
  * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
  * blocks.
  */
@@ -15,13 +16,13 @@ internal class Trial(
     val term: Term,
     val fit: ModelFit,
     val ratio: Double,
+    val inflation: Double,
     val degrees: Int,
+    val cost: Double,
+    val worth: Double,
     val pValue: Double,
     val heldOut: HeldOutScore,
-) {
-    /** The likelihood ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
-    val worth: Double get() = ratio - 2 * degrees
-}
+)
 
 /** Tries causes one by one on top of a fitted model, adds the best, and drops what then is no longer needed. */
 internal class CauseSearch(
@@ -63,11 +64,15 @@ internal class CauseSearch(
         val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
         // The best of so many places gains twice the logarithm of their number by chance.
         val searched = if (places > 0) places * 2 * ln(minOf(PLACES, series.size / 10).toDouble()) else 0.0
-        val ratio = maxOf((best.score - base.score) / inflation - searched, 0.0)
+        val gain = best.score - base.score
+        val ratio = maxOf(gain / inflation - searched, 0.0)
+        // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
+        // differs by chance.
+        val cost = searched + 2 * degrees
         val p = minOf(1.0, Evidence.pValue(ratio, degrees))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
-        return Trial(best.model.terms.last(), best, ratio, degrees, p, heldOut)
+        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, gain - cost, p, heldOut)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {
@@ -78,22 +83,34 @@ internal class CauseSearch(
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
             .maxBy { it.score }
         val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
-        return if (fine.score >= rough.score) fine else rough
+        return inOrder(if (fine.score >= rough.score) fine else rough)
+    }
+
+    /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */
+    private fun inOrder(fit: ModelFit): ModelFit {
+        val term = fit.model.terms.firstOrNull { it.cause == Cause.SECOND_ORDER_RESPONSE } ?: return fit
+        val second = fit.model.slot(term)
+        val isPlain = fit.model.terms.none { it.cause in LAG_CHANGES }
+        if (!isPlain || !fit.free[ResponseModel.TIME_CONSTANT]) return fit
+        val numbers = fit.numbers.copyOf()
+        if (numbers[second] <= numbers[ResponseModel.TIME_CONSTANT]) return fit
+        numbers[second] = fit.numbers[ResponseModel.TIME_CONSTANT]
+        numbers[ResponseModel.TIME_CONSTANT] = fit.numbers[second]
+        return Fitting.fit(fit.model, numbers, fit.free, used, longest, noise = fit.noise)
     }
 
     /** [base] with the jumps that serve it best, one after the other while each is worth it. */
     private fun jumps(base: ModelFit): ModelFit {
-        var fit = base
-        var best: ModelFit? = null
         val times = ArrayList(base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty())
-        repeat(MOST_JUMPS) {
-            times += place(fit) ?: return best ?: fit
-            val next = extended(fit, Term(Cause.OFFSET_STEPS, times = times.sorted()))
-            if (best != null && next.score - fit.score < JUMP_WORTH) return best as ModelFit
+        times += place(base) ?: return base
+        var best = extended(base, Term(Cause.OFFSET_STEPS, times = times.sorted()))
+        repeat(MOST_JUMPS - 1) {
+            times += place(best) ?: return best
+            val next = extended(best, Term(Cause.OFFSET_STEPS, times = times.sorted()))
+            if (next.score - best.score < JUMP_WORTH) return best
             best = next
-            fit = next
         }
-        return best ?: fit
+        return best
     }
 
     /** Where a jump would explain most of [fit]'s residuals, s after the first row. */
@@ -153,17 +170,15 @@ internal class CauseSearch(
         return Fitting.fit(model, start, free, used, longest, guess = fit.noise)
     }
 
-    /** Distance between what two fits predict, in standard deviations of the noise: what this track can tell apart. */
-    fun distance(a: ModelFit, b: ModelFit): Double {
-        val difference = DoubleArray(series.size) { a.residuals[it] - b.residuals[it] }
-        val z = DoubleArray(series.size)
-        a.noise.whiten(difference, z)
-        return sqrt(squares(z) / maxOf(a.variance, 1e-300))
-    }
-
     private companion object {
         const val PLACES = 60
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 25.0
+        val LAG_CHANGES = setOf(
+            Cause.ASYMMETRIC_RESPONSE,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.TWO_PATH_RESPONSE,
+        )
     }
 }

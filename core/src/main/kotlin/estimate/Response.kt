@@ -39,6 +39,16 @@ public data class Response(
     /** Mean delay, s: dead time and time constants added up, rising and falling at the mean. */
     public val meanDelay: Double get() = deadTime + lags.sumOf { (it.rising + it.falling) / 2 }
 
+    /** This response with [time], s, less delay: of the dead time first, then of the longest lag. */
+    public fun sooner(time: Double): Response {
+        val left = time - deadTime
+        if (left <= 0) return copy(deadTime = deadTime - time)
+        val longest = lags.maxByOrNull { it.rising + it.falling } ?: return copy(deadTime = 0.0)
+        val factor = maxOf(1 - 2 * left / (longest.rising + longest.falling), SHORTEST_PART)
+        val shorter = ResponseLag(longest.rising * factor, longest.falling * factor)
+        return copy(deadTime = 0.0, lags = lags.map { if (it === longest) shorter else it })
+    }
+
     /** The response as the stages of a [stillwater.sensor.SensorSpec]. */
     public fun stages(): List<SensorStage> = buildList {
         if (deadTime > 0) add(SensorStage.Delay(deadTime))
@@ -52,6 +62,7 @@ public data class Response(
     public companion object {
         /** Lags in a row that are undone together. */
         public const val MOST_LAGS: Int = 2
+        private const val SHORTEST_PART = 0.01
     }
 }
 

@@ -53,6 +53,7 @@ enum class SensorOrigin(val label: String) {
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
  * @property withoutReference readings left out because the reference is missing there.
+ * @property held whether the reference looks held over each step, as in a simulation: the sensor is that of such steps.
  */
 class CorrectedLog internal constructor(
     val log: SurveyLog,
@@ -68,6 +69,7 @@ class CorrectedLog internal constructor(
     val learnedOn: Int,
     val blocks: Int,
     val withoutReference: Int,
+    val held: Boolean,
 ) {
     /**
      * How well a sensor that is learned on some legs corrects the others; empty where the sensor was not learned from
@@ -97,6 +99,7 @@ class CorrectedLog internal constructor(
         val readings: Int,
         val blocks: Int,
         val withoutReference: Int = 0,
+        val held: Boolean = false,
     )
 
     companion object {
@@ -171,6 +174,7 @@ class CorrectedLog internal constructor(
                 learned.readings,
                 learned.blocks,
                 learned.withoutReference,
+                learned.held,
             )
         }
 
@@ -234,19 +238,27 @@ class CorrectedLog internal constructor(
             val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
             val part = series.at(usable)
             val reference = DoubleArray(usable.size) { references[usable[it]] }
-            val learner = ReferenceLearner(part, reference)
-            val choice = requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference) })
+            val held = ReferenceLearner.isHeld(part, reference)
+            val learner = ReferenceLearner(part, reference, held)
+            val choice =
+                requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
+            // What is undone is a response to water that changes all the time.
+            val likely = choice.likely().map { open ->
+                if (!held) return@map open
+                LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight)
+            }
             val response = choice.first.response
             val (gain, offset) = learner.calibration(response)
             val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
             return Learned(
                 SensorOrigin.REFERENCE,
                 choice,
-                choice.likely(),
+                likely,
                 stages,
                 part.size,
                 learner.groups,
                 series.size - known.size,
+                held,
             )
         }
 

@@ -73,18 +73,13 @@ internal class DetectableSize(
     /** √λ of [effect] at [strength]. */
     private fun reach(effect: HiddenEffect, strength: Double): Double = when (effect) {
         HiddenEffect.OUTLIERS -> outliers(strength)
-        HiddenEffect.QUANTISATION -> distance(rounded(strength * noise.spread))
+        HiddenEffect.QUANTISATION -> distance(rounded(clean, noise.spread, strength * noise.spread))
         else -> distance(readings(mapOf(effect to strength)))
     }
 
     private fun distance(shown: DoubleArray): Double {
         val difference = DoubleArray(clean.size) { shown[it] - clean[it] }
         return sqrt(off(noise.innovations(difference), imitable).sumOf { it * it })
-    }
-
-    /** The mean over the noise of what rounding to [step] shows. */
-    private fun rounded(step: Double) = DoubleArray(clean.size) { i ->
-        QUANTILES.sumOf { step * Math.rint((clean[i] + noise.spread * it) / step) } / QUANTILES.size
     }
 
     /** √ of twice the expected log-likelihood ratio of the mixture against the noise alone. */
@@ -103,19 +98,24 @@ internal class DetectableSize(
         return sqrt(maxOf(0.0, 2 * clean.size * sum))
     }
 
-    private companion object {
-        const val DETECTABLE = 6.36
-        const val HALVINGS = 22
-        const val SQRT_2_PI = 2.5066282746310002
-        val QUANTILES = List(24) { quantile((it + 0.5) / 24) }
-        val THRESHOLD = setOf(
+    companion object {
+        /** The mean over noise of [spread] of what rounding [clean] to [step] shows. */
+        fun rounded(clean: DoubleArray, spread: Double, step: Double) = DoubleArray(clean.size) { i ->
+            QUANTILES.sumOf { step * Math.rint((clean[i] + spread * it) / step) } / QUANTILES.size
+        }
+
+        private const val DETECTABLE = 6.36
+        private const val HALVINGS = 22
+        private const val SQRT_2_PI = 2.5066282746310002
+        private val QUANTILES = List(24) { quantile((it + 0.5) / 24) }
+        private val THRESHOLD = setOf(
             HiddenEffect.SLEW,
             HiddenEffect.HYSTERESIS,
             HiddenEffect.SATURATION,
             HiddenEffect.QUANTISATION,
             HiddenEffect.OUTLIERS,
         )
-        val LARGEST = mapOf(
+        private val LARGEST = mapOf(
             HiddenEffect.SECOND_ORDER to 60.0,
             HiddenEffect.DEAD_TIME to 60.0,
             HiddenEffect.TWO_PATH to 0.6,
@@ -130,7 +130,7 @@ internal class DetectableSize(
         )
 
         /** Quantile of the standard normal by bisection of its series. */
-        fun quantile(p: Double): Double {
+        private fun quantile(p: Double): Double {
             var low = -8.0
             var high = 8.0
             repeat(60) {

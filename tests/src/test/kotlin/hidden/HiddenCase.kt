@@ -20,7 +20,12 @@ internal data class HiddenTruth(
     val multiples: Map<HiddenEffect, Double>,
     val timeConstant: Double,
     val noise: Double,
-)
+    val numbers: Map<HiddenEffect, Double>,
+) {
+    /** Whether it is one effect of the list at the detectable size or above. */
+    val isStrong: Boolean
+        get() = effects.size == 1 && effects.keys.single().listed && multiples.values.single() >= 1
+}
 
 /**
  * A log with or without hidden effects, drawn from a seed. The finder sees the file that [write] makes and nothing
@@ -54,12 +59,11 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
     val truth =
         HiddenTruth(
             kind,
-            drawn.mapValues {
-                it.value.first
-            },
+            drawn.mapValues { it.value.first },
             drawn.mapValues { it.value.second },
             timeConstant,
             noise.spread,
+            drawn.mapValues { it.value.first }.let { effects -> effects.mapValues { sensor(effects).number(it.key) } },
         )
 
     private fun kinds() = if (withReference) {
@@ -135,6 +139,13 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         else -> true
     }
 
+    /**
+     * Root mean square of what a model with the true numbers leaves of the readings that [write] wrote, sensor units;
+     * NaN before, and where no model predicts the effect (outliers).
+     */
+    var leftByTruth = Double.NaN
+        private set
+
     /** Writes the log into [file]. */
     fun write(file: Path) {
         val clean = sensor(truth.effects).readings()
@@ -148,6 +159,7 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         }
         val fine = 10.0.pow(ceil(log10(noise.spread / 30)))
         val quantum = truth.effects[HiddenEffect.QUANTISATION]?.let { it * noise.spread } ?: fine
+        leftByTruth = left(clean, values, quantum, outlying != null)
         val header = "time_s,x_m,y_m,value,speed_mps,temperature_c,salinity,heading_rad" +
             if (withReference) ",reference" else ""
         val lines = ArrayList<String>()
@@ -174,6 +186,13 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
             lines += (numbers + known).joinToString(",") { "%.9g".format(Locale.ROOT, it) }
         }
         Files.write(file, lines)
+    }
+
+    private fun left(clean: DoubleArray, values: DoubleArray, quantum: Double, hasOutliers: Boolean): Double {
+        if (hasOutliers) return Double.NaN
+        val expected = DetectableSize.rounded(clean, noise.spread, quantum)
+        val squares = values.indices.sumOf { i -> (quantum * Math.rint(values[i] / quantum) - expected[i]).pow(2) }
+        return sqrt(squares / values.size)
     }
 }
 
