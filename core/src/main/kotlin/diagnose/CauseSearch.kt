@@ -43,14 +43,8 @@ internal class CauseSearch(
             val to = model.slotOrNull(old) ?: continue
             for (k in 0 until minOf(model.width(old), before.model.width(old))) free[to + k] = before.free[from + k]
         }
-        when (term.cause) {
-            Cause.TIME_CONSTANT -> free[ResponseModel.TIME_CONSTANT] = true
-            Cause.GAIN_OFFSET -> {
-                free[ResponseModel.GAIN] = true
-                free[ResponseModel.OFFSET] = true
-            }
-            else -> model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
-        }
+        for (i in term.cause.baseNumbers) free[i] = true
+        model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
         return free
     }
 
@@ -149,8 +143,8 @@ internal class CauseSearch(
         return Evidence.inflation(extra, best.whitened)
     }
 
-    /** [fit] without [term], fitted anew. */
-    fun without(fit: ModelFit, term: Term): ModelFit {
+    /** [fit] without [term], fitted anew; a number of the [base] that was wrong is as given again. */
+    fun without(fit: ModelFit, term: Term, base: ModelFit): ModelFit {
         val rest = fit.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, rest, fit.model.held, scales)
         val start = DoubleArray(model.parameters.size)
@@ -158,6 +152,10 @@ internal class CauseSearch(
         for (i in 0 until ResponseModel.BASE) {
             start[i] = fit.numbers[i]
             free[i] = fit.free[i]
+        }
+        for (i in term.cause.baseNumbers) {
+            start[i] = base.numbers[i]
+            free[i] = base.free[i]
         }
         for (old in rest) {
             val from = fit.model.slotOrNull(old) ?: continue

@@ -87,6 +87,11 @@ public class Candidate internal constructor(
 )
 
 /**
+ * A cause of the extended model. @property cause the cause. @property parameters its numbers beside those of the others.
+ */
+public data class NamedEffect(val cause: Cause, val parameters: List<Estimate>)
+
+/**
  * What a diagnosis found.
  *
  * @property verdict the answer. @property candidates every cause tried on the base, the likeliest first.
@@ -94,7 +99,7 @@ public class Candidate internal constructor(
  * @property baseSensor the base as a sensor. @property extendedSensor the extended one; null where nothing was named.
  * @property separatingManoeuvre what would tell ambiguous causes apart; null where nothing is ambiguous.
  * @property dependences what is left in the residuals of the last model. @property spikes rows taken for outliers.
- * @property warnings for the reader.
+ * @property warnings for the reader. @property effects what the extended model holds beyond the base, with a reference.
  */
 public class DiagnosisResult internal constructor(
     public val verdict: Verdict,
@@ -107,4 +112,5 @@ public class DiagnosisResult internal constructor(
     public val dependences: List<Dependence>,
     public val spikes: List<Int>,
     public val warnings: List<String>,
+    public val effects: List<NamedEffect> = emptyList(),
 )

@@ -49,7 +49,8 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         val errors = errors(fit)
         val indices = (if (withBase) 0 until ResponseModel.BASE - 1 else listOf(0)) +
             terms.flatMap { term ->
-                fit.model.slotOrNull(term)?.let { (it until it + fit.model.width(term)).toList() }.orEmpty()
+                val own = fit.model.slotOrNull(term)?.let { (it until it + fit.model.width(term)).toList() }.orEmpty()
+                if (withBase) own else term.cause.baseNumbers.filter { it != ResponseModel.TIME_CONSTANT } + own
             }
         // An end of the range that the sensor does not have is no number.
         return indices.filter { abs(fit.numbers[it]) < ResponseModel.NO_END }.map { i ->

@@ -26,9 +26,11 @@ internal class ForwardSearch(
         val worthy = worthy(first, baseHeldOut)
         val best = best(worthy) ?: return emptyList()
         val found = from(best)
-        if (found.size < 2 || best.term.cause in BASE_NUMBERS) return found
+        if (found.size < 2 || best.term.cause.baseNumbers.isNotEmpty()) return found
         val keys = found.map { it.term.key }
-        val others = worthy.filter { it.term.key !in keys }.sortedByDescending { it.worth }.take(OTHER_BEGINNINGS)
+        // That something is at work is certain here: what might be it need be likely only.
+        val others = first.filter { it.pValue < LIKELY && it.term.key !in keys }
+            .sortedByDescending { it.worth }.take(OTHER_BEGINNINGS)
         return (listOf(found) + others.map(::from)).maxBy(::worth)
     }
 
@@ -45,7 +47,7 @@ internal class ForwardSearch(
 
     /** A wrong number of the base makes everything else look significant: it comes first, if it is one. */
     private fun best(worthy: List<Trial>): Trial? =
-        worthy.filter { it.term.cause in BASE_NUMBERS }.ifEmpty { worthy }.maxByOrNull { it.worth }
+        worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }.ifEmpty { worthy }.maxByOrNull { it.worth }
 
     /** The search that begins with [beginning]. */
     private fun from(beginning: Trial): List<Trial> {
@@ -71,7 +73,7 @@ internal class ForwardSearch(
         if (chosen.size < 2) return chosen
         val full = chosen.last().fit
         val needless = chosen.dropLast(1).filter { trial ->
-            val without = search.without(full, trial.term)
+            val without = search.without(full, trial.term, base)
             Evidence.pValue(full.score - without.score, trial.degrees) * terms.size > settings.level
         }
         if (needless.isEmpty()) return chosen
@@ -91,7 +93,7 @@ internal class ForwardSearch(
         if (chosen.size == 1) return@map alike(trial, trial.worth, first)
         val others = chosen.filter { it !== trial }.map { it.term.key }
         val last = chosen.last().fit
-        val rest = search.without(last, trial.term)
+        val rest = search.without(last, trial.term, base)
         val likely = first.filter { it.pValue < LIKELY && it.term.key !in others && it.term.key != trial.term.key }
         val trials = likely.map { attempt(rest, baseHeldOut, it.term.copy(times = emptyList())) }
         alike(trial, last.score - rest.score - trial.cost, trials)
@@ -115,7 +117,6 @@ internal class ForwardSearch(
     }
 
     private companion object {
-        val BASE_NUMBERS = setOf(Cause.TIME_CONSTANT, Cause.GAIN_OFFSET)
         const val OTHER_BEGINNINGS = 2
         const val LIKELY = 0.01
     }

@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.sqrt
 
@@ -54,6 +55,7 @@ internal class Weighing(
             left,
             spikes,
             warnings(left.first(), named) + report.warnings + if (named) sensor.losses else emptyList(),
+            if (named) chosen.map { NamedEffect(it.term.cause, report.estimates(last, listOf(it.term))) } else emptyList(),
         )
     }
 
@@ -101,7 +103,12 @@ internal class Weighing(
         val all = sets + if (outliers) listOf(listOf(Cause.OUTLIERS)) else emptyList()
         val structured = left.adjusted < settings.structureLevel
         val least = chosen.minOfOrNull { it.ratio } ?: 0.0
+        val isTiming = structured || sets.flatten().any { it in TIMING }
         return when {
+            isTiming && series.isSparse && ReferenceGaps.reach(base) > MOST_UNKNOWN -> Verdict.InsufficientData(
+                "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
+                    "went in between might explain what is left",
+            )
             structured && left.ratio > LEFT * least -> Verdict.Unexplained(
                 "the residuals depend on ${left.description}",
             )
@@ -167,5 +174,21 @@ internal class Weighing(
         const val LEAST_SPREAD = 0.03
         const val LEAST_WARMTH = 0.05
         const val COARSE = 0.3
+
+        /** Standard errors by which what is not known of the truth may move a fit before its causes are in doubt. */
+        const val MOST_UNKNOWN = 2.0
+
+        /** Causes that show in how the reading follows the truth from row to row. */
+        val TIMING = setOf(
+            Cause.ASYMMETRIC_RESPONSE,
+            Cause.SECOND_ORDER_RESPONSE,
+            Cause.TWO_PATH_RESPONSE,
+            Cause.DEAD_TIME,
+            Cause.SLEW_LIMIT,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.HYSTERESIS,
+            Cause.POSITION_OFFSET,
+        )
     }
 }

@@ -1,6 +1,7 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
@@ -53,7 +54,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         "--numbers-only",
         help = "no figures, no report and no comparison of maps",
     ).flag()
-    private val quiet by option("--quiet", help = "no summary").flag()
+    private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
     private val json by option("--json", help = "print diagnosis.json instead of a summary").flag()
 
     override fun help(context: Context) = "Find out what the simulation gets wrong about a log, and name the cause."
@@ -82,7 +83,10 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
-            val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
+            val shown = !quiet && !json
+            val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
+                Diagnosis(read.series, DiagnosisSettings(base = given)) { progress.advance((it * WHOLE).toLong()) }.run()
+            }
             val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
@@ -117,6 +121,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     }
 
     private companion object {
+        /** Progress is told in per cent. */
+        const val WHOLE = 100L
+
         /** Fewer are no log. */
         const val FEWEST_ROWS = 5
     }
