@@ -61,7 +61,7 @@ public class MeasuredSeries(
     internal val gap: Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
 
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
-    internal val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
+    public val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
 
     /** Temperature of each row, °C, or null where there is no such condition. */
     internal val temperature: DoubleArray? = conditions[Conditions.TEMPERATURE]?.let(::filled)

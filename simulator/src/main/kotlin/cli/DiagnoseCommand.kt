@@ -5,10 +5,8 @@ import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
-import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
-import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import kotlinx.coroutines.runBlocking
 import stillwater.diagnose.Diagnosis
@@ -33,17 +31,10 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         metavar = "COLUMN",
         help = "column with the truth up to noise: a fast sensor, or known samples on a bench",
     )
-    private val conditions by option(
-        "--condition",
-        metavar = "NAME=COLUMN",
-        help = "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own " +
-            "causes. Repeatable",
-    ).convert { text ->
-        val name = text.substringBefore('=').trim()
-        val column = text.substringAfter('=', "").trim()
-        if (name.isEmpty() || column.isEmpty()) throw BadFlag(this.name, "NAME=COLUMN", "'$text'")
-        name to column
-    }.multiple()
+    private val conditions by conditions(
+        "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own causes. " +
+            "Repeatable",
+    )
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
@@ -70,8 +61,6 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     )
 
     override fun work() {
-        val twice = conditions.map { it.first }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }
-        if (twice != null) throw BadFlag("--condition", "each name once", "'${twice.key}' several times")
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
         val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))

@@ -53,6 +53,7 @@ data class MapSettings(
  * @property epsilonGiven whether the user gave the bounded filter's epsilon.
  * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
  * @property unit unit of the quantity as the user gave it, or null.
+ * @property correction what was mapped in place of the readings, or null.
  */
 class SurveyMap internal constructor(
     val log: SurveyLog,
@@ -74,6 +75,7 @@ class SurveyMap internal constructor(
     val stepSlope: Double,
     val unit: String?,
     val learned: SelfCalibratingEstimator?,
+    val correction: GivenCorrection?,
 ) {
     companion object {
         private const val PRIOR_MARGIN = 0.1
@@ -81,14 +83,22 @@ class SurveyMap internal constructor(
         /**
          * Reads [log] twice: once to see what it is, once into the filters.
          *
-         * @param progress told how many bytes of the two readings are done.
+         * @param correction what to map in place of the readings, or null. @param progress told how many bytes of the two
+         *   readings are done.
          * @throws LogProblem if the log cannot be used.
          */
-        fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap {
+        fun of(
+            log: SurveyLog,
+            settings: MapSettings,
+            correction: GivenCorrection? = null,
+            progress: (Long) -> Unit = {},
+        ): SurveyMap {
             val scan = SurveyScan()
             val epsilon = EpsilonSearch(settings)
             var bytes = 0L
-            val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, value, conditions ->
+            var row = 0
+            val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, read, conditions ->
+                val value = correction?.at(row++) ?: read
                 scan.take(time, x, y, value, conditions)
                 epsilon.add(time.seconds, value)
             }
@@ -112,7 +122,9 @@ class SurveyMap internal constructor(
             val passes = CellPasses(grid)
             val gaps = Gaps(statistics.gapLimit)
             var outsideRange = 0L
-            val pass = log.read({ progress(bytes + it) }) { time, x, y, value, _ ->
+            row = 0
+            val pass = log.read({ progress(bytes + it) }) { time, x, y, read, _ ->
+                val value = correction?.at(row++) ?: read
                 for (estimator in running) estimator.update(time, x, y, value, Conditions.NONE)
                 passes.add(x, y, value)
                 gaps.add(time.seconds, x, y)
@@ -140,6 +152,7 @@ class SurveyMap internal constructor(
                 stepSlope,
                 settings.unit,
                 estimators.values.firstNotNullOfOrNull(::learner),
+                correction,
             )
         }
 
@@ -173,6 +186,12 @@ class SurveyMap internal constructor(
             return Interval(statistics.lowest - margin, statistics.highest + margin)
         }
     }
+}
+
+/** Readings as [sensor], a sensor that was given, must have seen the water; [values] in the order of the log's rows. */
+class GivenCorrection(val sensor: String, private val values: DoubleArray) {
+    /** The water at reading [row]. */
+    internal fun at(row: Int): Double = values[row]
 }
 
 /** Finds epsilon on the first reading of a log where [settings] ask for it. */
