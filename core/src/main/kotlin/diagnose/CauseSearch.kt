@@ -125,7 +125,9 @@ internal class CauseSearch(
 
         val stride = maxOf(n / (2 * PLACES), 1)
         val edge = maxOf(n / 50, 3)
-        val rows = (edge until n - edge step stride).filter { row ->
+        // Under noise that wanders a jump shows at its own row alone: those that surprise most are looked at, too.
+        val striking = (edge until n - edge).sortedByDescending { kotlin.math.abs(fit.whitened[it]) }.take(STRIKING)
+        val rows = ((edge until n - edge step stride) + striking).filter { row ->
             taken.all { kotlin.math.abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
         }
         val coarse = rows.maxByOrNull(::gain) ?: return null
@@ -170,6 +172,7 @@ internal class CauseSearch(
 
     private companion object {
         const val PLACES = 60
+        const val STRIKING = 40
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 25.0
         val LAG_CHANGES = setOf(

@@ -27,12 +27,17 @@ public class Diagnosis(
     public fun run(): DiagnosisResult {
         if (series.reference == null) return BlindDiagnosis(series, settings).run()
         val first = weighing(null)
-        val last = first.last
-        // Whether steps are held shows only once the response is right: the other way is tried with what was named.
-        val other = ResponseModel(series, last.model.terms, !last.model.held, scales)
-        val turned = Fitting.fit(other, last.numbers, last.free, used, search.longest, guess = last.noise)
-        val better = first.chosen.isNotEmpty() && turned.score > last.score + HELD
-        return (if (better) weighing(other.held) else first).result().also { progress(1.0) }
+        // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
+        // with the first of it, because what came after may make up for the wrong way.
+        val better = first.chosen.isNotEmpty() &&
+            listOf(first.chosen.first().fit, first.last).any { turned(it).score > it.score + HELD }
+        return (if (better) weighing(!first.last.model.held) else first).result().also { progress(1.0) }
+    }
+
+    /** [fit] with steps held if they are not, and the other way round. */
+    private fun turned(fit: ModelFit): ModelFit {
+        val other = ResponseModel(series, fit.model.terms, !fit.model.held, scales)
+        return Fitting.fit(other, fit.numbers, fit.free, used, search.longest, guess = fit.noise)
     }
 
     private fun weighing(held: Boolean?): Weighing {

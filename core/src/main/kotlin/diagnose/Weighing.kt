@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import stillwater.model.Interval
 import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.sqrt
@@ -25,6 +26,11 @@ internal class Weighing(
     private val terms = terms()
     private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings) { told(terms.size) }
 
+    private val water = ChangingWater(series, requireNotNull(series.reference) { "weighing needs a reference" })
+
+    /** All that is tried, outliers and a change of the water included. */
+    private val tried = terms.size + 2
+
     /** What was chosen, one after the other. */
     val chosen: List<Trial> = forward.chosen()
 
@@ -34,9 +40,14 @@ internal class Weighing(
     /** The answer. */
     fun result(): DiagnosisResult {
         val loose = LooseReadings(last)
-        val outliers = loose.pValue * (terms.size + 1) < settings.level
+        val outliers = loose.pValue * tried < settings.level
+        val changing = water.pValue * tried < settings.level
         val left = Structure(last, used, search.longest).dependences()
-        val verdict = verdict(forward.alike(chosen), outliers, left.first())
+        val certain = listOfNotNull(
+            Cause.OUTLIERS.takeIf { outliers },
+            Cause.TIME_VARYING_FIELD.takeIf { changing },
+        )
+        val verdict = verdict(forward.alike(chosen), certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
         val sensor = ExtendedSensor(last, size)
@@ -54,9 +65,18 @@ internal class Weighing(
             (verdict as? Verdict.Ambiguous)?.let { v -> Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet()) },
             left,
             spikes,
-            warnings(left.first(), named) + report.warnings + if (named) sensor.losses else emptyList(),
-            if (named) chosen.map { NamedEffect(it.term.cause, report.estimates(last, listOf(it.term))) } else emptyList(),
+            warnings(left.first(), named) + report.warnings + if (named) sensor.losses + lost(changing) else emptyList(),
+            if (named) effects() else emptyList(),
+            water.revisits(),
         )
+    }
+
+    private fun effects() = chosen.map { NamedEffect(it.term.cause, report.estimates(last, listOf(it.term))) }
+
+    private fun lost(changing: Boolean) = if (changing) {
+        listOf("A change of the water belongs to the field, not to the sensor: the sensor file does not hold it.")
+    } else {
+        emptyList()
     }
 
     private fun warnings(most: Dependence, named: Boolean): List<String> = buildList {
@@ -98,9 +118,9 @@ internal class Weighing(
         if (moving && spread > LEAST_SPREAD) add(Term(Cause.POSITION_OFFSET))
     }
 
-    private fun verdict(sets: List<List<Cause>>, outliers: Boolean, left: Dependence): Verdict {
+    private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
         insufficient()?.let { return it }
-        val all = sets + if (outliers) listOf(listOf(Cause.OUTLIERS)) else emptyList()
+        val all = sets + certain.map { listOf(it) }
         val structured = left.adjusted < settings.structureLevel
         val least = chosen.minOfOrNull { it.ratio } ?: 0.0
         val isTiming = structured || sets.flatten().any { it in TIMING }
@@ -133,7 +153,7 @@ internal class Weighing(
 
     private fun candidates(size: SpikeSize?, outlierP: Double): List<Candidate> {
         val first = forward.first
-        val adjusted = Evidence.holm(first.map { it.pValue } + outlierP)
+        val adjusted = Evidence.holm(first.map { it.pValue } + outlierP + water.pValue)
         val list = first.mapIndexed { i, trial ->
             Candidate(
                 trial.term.cause,
@@ -153,22 +173,31 @@ internal class Weighing(
                 Estimate("size", "sensor units", it.size, null),
             )
         }
-        val outliers = Candidate(
-            Cause.OUTLIERS,
-            null,
-            numbers.orEmpty(),
-            report.rmse(base),
-            baseHeldOut.rmse,
-            baseHeldOut.logLikelihood,
-            outlierP,
-            adjusted.last(),
-            report.predicted(base),
-        )
-        return list.sortedByDescending { it.second }.map { it.first } + outliers
+        val change = water.rate.takeIf { it.isFinite() }?.let { rate ->
+            val interval = Interval(rate - NORMAL_95 * water.error, rate + NORMAL_95 * water.error)
+            listOf(Estimate("rate_per_s", "sensor units/s", rate, interval))
+        }
+        return list.sortedByDescending { it.second }.map { it.first } +
+            beside(Cause.OUTLIERS, numbers.orEmpty(), outlierP, adjusted[first.size]) +
+            beside(Cause.TIME_VARYING_FIELD, change.orEmpty(), water.pValue, adjusted[first.size + 1])
     }
+
+    /** A cause that changes nothing in what the model shows of the reference. */
+    private fun beside(cause: Cause, parameters: List<Estimate>, pValue: Double, adjusted: Double) = Candidate(
+        cause,
+        null,
+        parameters,
+        report.rmse(base),
+        baseHeldOut.rmse,
+        baseHeldOut.logLikelihood,
+        pValue,
+        adjusted,
+        report.predicted(base),
+    )
 
     private companion object {
         const val FEWEST_ROWS = 60
+        const val NORMAL_95 = 1.96
         const val LEFT = 0.25
         const val SLOWEST = 0.02
         const val LEAST_SPREAD = 0.03

@@ -16,7 +16,8 @@ internal object HiddenCampaign {
             val case = HiddenCase(seed, withReference)
             val log = directory.resolve("log.csv")
             case.write(log)
-            val answer = Finder.ask(log, withReference, directory.resolve("out"))
+            val sensor = directory.resolve("believed.json").takeIf { case.writeSensor(it) }
+            val answer = Finder.ask(log, withReference, directory.resolve("out"), sensor)
             ScoredCase(seed, case.truth, answer, case.leftByTruth).also(told)
         }
 }

@@ -12,6 +12,8 @@ import kotlin.math.sin
 
 /** Effects that a case may hide: those of the diagnosis' list by its names, and some that are not in it. */
 internal enum class HiddenEffect(val label: String, val listed: Boolean = true) {
+    TIME_CONSTANT("time-constant"),
+    GAIN_OFFSET("gain-offset"),
     ASYMMETRIC("asymmetric-response"),
     SECOND_ORDER("second-order-response"),
     TWO_PATH("two-path-response"),
@@ -134,6 +136,9 @@ internal class HiddenSensor(
             HiddenEffect.DRIFT -> gain * spread * strength / world.duration
             HiddenEffect.SLEW -> gain * slewRate()
             HiddenEffect.SATURATION -> end()
+            HiddenEffect.TIME_CONSTANT -> timeConstant
+            HiddenEffect.GAIN_OFFSET -> gain
+            HiddenEffect.TIME_VARYING -> world.amplitude * strength / world.duration
             HiddenEffect.QUANTISATION, HiddenEffect.OUTLIERS -> Double.NaN
             else -> strength
         }

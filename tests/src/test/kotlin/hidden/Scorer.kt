@@ -45,7 +45,10 @@ internal class ScoredCase(
             val effect = listed.singleOrNull() ?: return Double.NaN
             val name = NUMBERS[effect] ?: return Double.NaN
             val found = answer.numbers[effect.label]?.entries?.firstOrNull { it.key.startsWith(name) }?.value
-            return abs((found ?: return Double.NaN) / truth.numbers.getValue(effect) - 1)
+            val hidden = truth.numbers.getValue(effect)
+            // Which of two lags in a row is the first does not show.
+            val comparable = if (effect == HiddenEffect.SECOND_ORDER) minOf(hidden, truth.timeConstant) else hidden
+            return abs((found ?: return Double.NaN) / comparable - 1)
         }
 
     /** What the answer gained in held-out mean square; nothing where nothing was named. Units of the noise's variance. */
@@ -85,6 +88,9 @@ internal class ScoredCase(
         const val COLUMNS = "seed\ttrack\thidden\tmultiple\tverdict\tsaid\tgain\tpossible_gain\tnumber_error"
         private val RESPONSE = setOf("time-constant", "dead-time")
         private val NUMBERS = mapOf(
+            HiddenEffect.TIME_CONSTANT to "time_constant_s",
+            HiddenEffect.GAIN_OFFSET to "gain",
+            HiddenEffect.TIME_VARYING to "rate_per_s",
             HiddenEffect.DEAD_TIME to "dead_time_s",
             HiddenEffect.SECOND_ORDER to "second_time_constant_s",
             HiddenEffect.ASYMMETRIC to "log_ratio",
