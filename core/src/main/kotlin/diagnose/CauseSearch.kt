@@ -93,47 +93,29 @@ internal class CauseSearch(
         return Fitting.fit(fit.model, numbers, fit.free, used, longest, noise = fit.noise)
     }
 
-    /** [base] with the jumps that serve it best, one after the other while each is worth it. */
+    /**
+     * [base] with the jumps that serve it best: from the best one on and from the best two on, because of two that undo
+     * each other neither need show alone; more are added while each is worth it.
+     */
     private fun jumps(base: ModelFit): ModelFit {
-        val times = ArrayList(base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty())
-        times += place(base) ?: return base
-        var best = extended(base, Term(Cause.OFFSET_STEPS, times = times.sorted()))
-        repeat(MOST_JUMPS - 1) {
-            times += place(best) ?: return best
-            val next = extended(best, Term(Cause.OFFSET_STEPS, times = times.sorted()))
-            if (next.score - best.score < JUMP_WORTH) return best
-            best = next
-        }
-        return best
+        val known = base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty()
+        val places = JumpPlaces(base, PLACES)
+        val beginnings = listOfNotNull(places.single()?.let { listOf(it) }, places.pair())
+        return beginnings.map { jumps(base, known + it) }.maxByOrNull { fit ->
+            fit.score - JUMP_WORTH * fit.model.terms.sumOf { it.times.size }
+        } ?: base
     }
 
-    /** Where a jump would explain most of [fit]'s residuals, s after the first row. */
-    private fun place(fit: ModelFit): Double? {
-        val n = series.size
-        val basis = Evidence.orthonormal(fit.jacobian.toList())
-        val column = DoubleArray(n)
-        val z = DoubleArray(n)
-        val taken = fit.model.terms.flatMap { it.times }
-        fun gain(row: Int): Double {
-            for (i in 0 until n) column[i] = if (i >= row) 1.0 else 0.0
-            fit.noise.whiten(column, z)
-            val rest = Evidence.without(z, basis)
-            val length = squares(rest)
-            val share = dot(rest, fit.whitened)
-            return if (length > 1e-9) share * share / length else 0.0
+    private fun jumps(base: ModelFit, first: List<Double>): ModelFit {
+        var best = extended(base, Term(Cause.OFFSET_STEPS, times = first.sorted()))
+        for (count in first.size until MOST_JUMPS) {
+            val times = best.model.terms.flatMap { it.times }
+            val next = JumpPlaces(best, PLACES).single() ?: return best
+            val fit = extended(best, Term(Cause.OFFSET_STEPS, times = (times + next).sorted()))
+            if (fit.score - best.score < JUMP_WORTH) return best
+            best = fit
         }
-
-        val stride = maxOf(n / (2 * PLACES), 1)
-        val edge = maxOf(n / 50, 3)
-        // Under noise that wanders a jump shows at its own row alone: those that surprise most are looked at, too.
-        val striking = (edge until n - edge).sortedByDescending { kotlin.math.abs(fit.whitened[it]) }.take(STRIKING)
-        val rows = ((edge until n - edge step stride) + striking).filter { row ->
-            taken.all { kotlin.math.abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
-        }
-        val coarse = rows.maxByOrNull(::gain) ?: return null
-        val fine = maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)
-        val row = fine.maxBy(::gain)
-        return (series.times[row] + series.times[row - 1]) / 2 - series.times[0]
+        return best
     }
 
     private fun inflation(base: ModelFit, best: ModelFit): Double {
@@ -172,7 +154,6 @@ internal class CauseSearch(
 
     private companion object {
         const val PLACES = 60
-        const val STRIKING = 40
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 25.0
         val LAG_CHANGES = setOf(

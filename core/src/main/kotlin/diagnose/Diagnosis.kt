@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
+
 /**
  * Finds what a simulation gets wrong about a measured log, by name.
  *
@@ -43,7 +45,8 @@ public class Diagnosis(
     private fun weighing(held: Boolean?): Weighing {
         used.fill(true)
         val rough = base(held)
-        val spikes = Spikes.of(rough.whitened)
+        // Rounding moves readings by up to half a step: what is within a step need not be wild.
+        val spikes = Spikes.of(rough.whitened).filter { abs(rough.residuals[it]) > scales.resolution }
         spikes.forEach { used[it] = false }
         return Weighing(search, if (spikes.isEmpty()) rough else base(held), used, spikes, settings, ::tell)
     }
