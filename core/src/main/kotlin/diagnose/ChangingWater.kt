@@ -55,7 +55,9 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
 
     private fun crossings(): List<Crossing> {
         val n = series.size
-        val steps = DoubleArray(maxOf(n - 1, 0)) { abs(series.x[it + 1] - series.x[it]) + abs(series.y[it + 1] - series.y[it]) }
+        val steps = DoubleArray(maxOf(n - 1, 0)) { i ->
+            abs(series.x[i + 1] - series.x[i]) + abs(series.y[i + 1] - series.y[i])
+        }
         val size = 2 * median(steps)
         if (n < FEWEST || !(size > 0) || median(series.speed) < SLOWEST) return emptyList()
         val cells = HashMap<Pair<Long, Long>, ArrayList<Int>>()
@@ -92,7 +94,8 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
         val second = (dx * ay - dy * ax) / across
         if (first !in 0.0..1.0 || second !in 0.0..1.0) return null
         val from = between(series.times, i, first)
-        return Crossing(from, between(series.times, j, second) - from, between(truth, j, second) - between(truth, i, first))
+        val higher = between(truth, j, second) - between(truth, i, first)
+        return Crossing(from, between(series.times, j, second) - from, higher)
     }
 
     private fun between(column: DoubleArray, i: Int, share: Double) = column[i] + share * (column[i + 1] - column[i])

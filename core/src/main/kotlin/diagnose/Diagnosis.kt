@@ -30,9 +30,8 @@ public class Diagnosis(
         if (series.reference == null) return BlindDiagnosis(series, settings).run()
         val first = weighing(null)
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
-        // with the first of it, because what came after may make up for the wrong way.
-        val better = first.chosen.isNotEmpty() &&
-            listOf(first.chosen.first().fit, first.last).any { turned(it).score > it.score + HELD }
+        // with each beginning of it, because what came after may make up for the wrong way.
+        val better = first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         return (if (better) weighing(!first.last.model.held) else first).result().also { progress(1.0) }
     }
 

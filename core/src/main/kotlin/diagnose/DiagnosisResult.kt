@@ -100,7 +100,9 @@ public class Revisits internal constructor(
 )
 
 /**
- * A cause of the extended model. @property cause the cause. @property parameters its numbers beside those of the others.
+ * A cause of the extended model.
+ *
+ * @property cause the cause. @property parameters its numbers beside those of the others.
  */
 public data class NamedEffect(val cause: Cause, val parameters: List<Estimate>)
 

@@ -14,8 +14,8 @@ import kotlin.math.hypot
  * @property reference the truth up to noise, sensor units, length n, finite; null where it is unknown.
  * @property conditions further columns by name, each of length n, NaN where unknown; a missing speed is taken from the
  *   positions.
- * @property isSparse whether rows were left out because their reference is not known, so that the truth between the rows
- *   must be guessed.
+ * @property isSparse whether rows were left out because their reference is not known, so that the truth between the
+ *   rows must be guessed.
  * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
  */
 public class MeasuredSeries(

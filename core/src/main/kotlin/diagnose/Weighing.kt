@@ -62,10 +62,13 @@ internal class Weighing(
             after,
             settings.base ?: ExtendedSensor(base, null).spec("base"),
             extended,
-            (verdict as? Verdict.Ambiguous)?.let { v -> Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet()) },
+            (verdict as? Verdict.Ambiguous)?.let { open ->
+                Manoeuvres.of(open.sets.filter { it.size > 1 }.flatten().toSet())
+            },
             left,
             spikes,
-            warnings(left.first(), named) + report.warnings + if (named) sensor.losses + lost(changing) else emptyList(),
+            warnings(left.first(), named) + report.warnings +
+                if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) effects() else emptyList(),
             water.revisits(),
         )

@@ -11,9 +11,9 @@ import kotlin.math.sqrt
  * learned with the rest); gain and offset are in every model, because without them anything else looks significant. See
  * core/docs/TrackCorrection.md, (10). Confined to one thread.
  *
- * A reading is the sensor's state at its time, and the reference runs straight from row to row. In a log made by stepping
- * a sensor once a row it is held over each step instead, which is half a step sooner: [isHeld] finds that, and then
- * [held] is the way to learn with.
+ * A reading is the sensor's state at its time, and the reference runs straight from row to row. In a log made by
+ * stepping a sensor once a row it is held over each step instead, which is half a step sooner: [isHeld] finds that, and
+ * then [held] is the way to learn with.
  *
  * @param held whether the reference is held at each row's value over the step before it.
  * @param series the readings. Retained. @param reference the truth at each reading, sensor units of its own, length n.
@@ -144,8 +144,10 @@ public class ReferenceLearner(
 
     /** Twice the log-likelihood by which a first-order lag explains the readings at its best time constant. */
     private fun firstOrder(): Double {
-        val delays = List(FINE_DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 4.0) }
-        return 2 * delays.maxOf { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+        val delays = List(DELAYS) { ln(series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble())) }
+        fun likelihood(logs: DoubleArray) = total(ResponseKind.FIRST_ORDER, logs)
+        val start = delays.maxBy { likelihood(doubleArrayOf(it)) }
+        return 2 * likelihood(Search.simplex(doubleArrayOf(start), doubleArrayOf(0.3), EVALUATIONS, CLOSE, ::likelihood))
     }
 
     public companion object {
@@ -158,7 +160,8 @@ public class ReferenceLearner(
                 ReferenceLearner(series, reference).firstOrder() + CLEARLY
 
         private const val CLEARLY = 6.0
-        private const val FINE_DELAYS = 52
+        private const val EVALUATIONS = 60
+        private const val CLOSE = 1e-4
         private const val FEWEST = 30
         private const val GROUP = 60
         private const val MOST_GROUPS = 20

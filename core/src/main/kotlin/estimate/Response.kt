@@ -23,8 +23,8 @@ public data class ResponseLag(val rising: Double, val falling: Double = rising) 
  * @property deadTime d, s, at least 0 and finite.
  * @property lags at most two, in the order in which they act.
  * @property slewRate largest rate of change, sensor units/s, above 0; infinite without a limit.
- * @property slowShare w, dimensionless, within 0..1: above 0 the two lags are not in a row but beside each other, and the
- *   sensor shows (1 − w) of the first and w of the second.
+ * @property slowShare w, dimensionless, within 0..1: above 0 the two lags are not in a row but beside each other, and
+ *   the sensor shows (1 − w) of the first and w of the second.
  * @throws IllegalArgumentException if a number is out of its range, or there are more than two lags.
  */
 public data class Response(

@@ -121,9 +121,9 @@ public class UndoableSensor private constructor(
             "a lag that changes with conditions cannot be undone beside a dead time or another lag"
 
         /**
-         * [spec] as it can be undone: dead times, up to two lags or two paths, or one lag that changes with conditions, and
-         * a slew limit; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise and quantisation
-         * anywhere.
+         * [spec] as it can be undone: dead times, up to two lags or two paths, or one lag that changes with conditions,
+         * and a slew limit; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise and
+         * quantisation anywhere.
          *
          * @throws IllegalArgumentException if [spec] has a stage that cannot be undone; the message names it.
          */

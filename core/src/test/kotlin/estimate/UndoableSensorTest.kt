@@ -14,6 +14,7 @@ import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
 class UndoableSensorTest {
@@ -111,6 +112,31 @@ class UndoableSensorTest {
         assertEquals(response.meanDelay - 0.5, response.sooner(0.5).meanDelay, 1e-12)
         assertEquals(0.1, response.sooner(0.1).deadTime, 1e-12)
         assertEquals(1.0, abs(response.sooner(0.5).lags[1].rising), 0.0)
+    }
+
+    @Test
+    fun stepsThatAreHeldAreRecognisedAndGiveTheTimeConstantOfSuchSteps() {
+        val noise = java.util.Random(3)
+        fun read(held: Boolean): TrackSeries {
+            val sensor = SensorSpec("", listOf(SensorStage.Lag(6.0))).build(truth[0], Random(1))
+            val steps = if (held) 1 else fine
+            val values = DoubleArray(rows) { row ->
+                var shown = truth[0]
+                for (k in if (row == 0) IntRange.EMPTY else 1..steps) {
+                    val seen = if (held) times[row] else times[row] - 1 + (k - 0.5) / steps
+                    shown = sensor.step(water(seen), 1.0 / steps, Conditions.NONE)
+                }
+                shown + 0.003 * noise.nextGaussian()
+            }
+            return TrackSeries(times, times, DoubleArray(rows), values)
+        }
+        for (held in listOf(true, false)) {
+            val series = read(held)
+            assertEquals(held, ReferenceLearner.isHeld(series, truth), "held $held")
+            val learned = ReferenceLearner(series, truth, held).candidate(ResponseKind.FIRST_ORDER)
+            // Half a step, 0.5 s, is what the wrong way would make of it.
+            assertEquals(6.0, assertNotNull(learned).parameters.single(), 0.1)
+        }
     }
 
     private companion object {

@@ -36,8 +36,8 @@ class CorrectCommand : WorkCommand("correct") {
         help = "sensor spec (JSON), taken as given; without it the sensor is learned from the log",
     )
     private val conditions by conditions(
-        "quantity on which a given sensor depends: temperature (degrees Celsius), salinity or what its file names; speed " +
-            "(m/s) is taken from the positions without it. Repeatable",
+        "quantity on which a given sensor depends: temperature (degrees Celsius), salinity or what its file names; " +
+            "speed (m/s) is taken from the positions without it. Repeatable",
     )
     private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
         .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }

@@ -74,7 +74,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             }
             val shown = !quiet && !json
             val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
-                Diagnosis(read.series, DiagnosisSettings(base = given)) { progress.advance((it * WHOLE).toLong()) }.run()
+                val settings = DiagnosisSettings(base = given)
+                Diagnosis(read.series, settings) { progress.advance((it * WHOLE).toLong()) }.run()
             }
             val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)

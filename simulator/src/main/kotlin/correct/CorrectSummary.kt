@@ -160,8 +160,8 @@ internal class CorrectSummary(
             }
             if (result.held) {
                 add(
-                    "the reference looks held over each step, as a simulation holds it: sensor.json is of such steps, " +
-                        "and half a step less is undone",
+                    "the reference looks held over each step, as a simulation holds it: sensor.json is of such " +
+                        "steps, and half a step less is undone",
                 )
             }
             if (result.withoutReference > 0) add("${result.withoutReference} readings have no reference")

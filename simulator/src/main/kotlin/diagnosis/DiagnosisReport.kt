@@ -124,8 +124,8 @@ internal class DiagnosisReport(
                 "correlated.",
             "A cause is named only if its likelihood ratio, divided by what the scores' remaining correlation " +
                 "inflates it, is significant for all causes tried (Holm) and the likelihood of held-out blocks " +
-                "rises. Causes that this track hardly tells apart are named together: the set holds the right one with " +
-                "nine chances in ten.",
+                "rises. Causes that this track hardly tells apart are named together: the set holds the right one " +
+                "with nine chances in ten.",
             "Intervals hold if the model is right.",
         )
     }

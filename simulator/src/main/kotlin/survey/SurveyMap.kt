@@ -83,8 +83,8 @@ class SurveyMap internal constructor(
         /**
          * Reads [log] twice: once to see what it is, once into the filters.
          *
-         * @param correction what to map in place of the readings, or null. @param progress told how many bytes of the two
-         *   readings are done.
+         * @param correction what to map in place of the readings, or null.
+         * @param progress told how many bytes of the two readings are done.
          * @throws LogProblem if the log cannot be used.
          */
         fun of(

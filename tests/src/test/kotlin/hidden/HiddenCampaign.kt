@@ -22,9 +22,13 @@ internal object HiddenCampaign {
         }
 }
 
+/** After so many cases the tables so far are written beside the table of cases. */
+private const val OFTEN = 10
+
 /**
- * `FIRST COUNT reference|blind [CASES.tsv] [strong]`: prints the tables of a campaign; CASES.tsv gets a line a case.
- * With `strong` only single effects at the detectable size and above are asked about, for work on the finder.
+ * `FIRST COUNT reference|blind [CASES.tsv] [strong]`: prints the tables of a campaign; CASES.tsv gets a line a case,
+ * CASES.tsv.md the tables so far. With `strong` only single effects at the detectable size and above are asked about,
+ * for work on the finder.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
@@ -34,10 +38,15 @@ fun main(arguments: Array<String>) {
     val seeds = if ("strong" in arguments) all.filter { HiddenCase(it, withReference).truth.isStrong } else all.toList()
     val table = arguments.getOrNull(3)?.takeIf { it != "strong" }?.let { Path.of(it) }
     val lines = ArrayList<String>()
+    val done = ArrayList<ScoredCase>()
     val cases = HiddenCampaign.run(seeds, withReference, directory) { case ->
         lines += case.line()
         System.err.println(lines.last())
+        done += case
         table?.let { Files.write(it, listOf(ScoredCase.COLUMNS) + lines) }
+        if (table != null && done.size % OFTEN == 0) {
+            Files.writeString(table.resolveSibling("${table.fileName}.md"), Scores(done).markdown())
+        }
     }
     println(Scores(cases).markdown())
     directory.toFile().deleteRecursively()

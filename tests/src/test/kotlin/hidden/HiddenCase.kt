@@ -136,7 +136,8 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         val found = wanted.associateWith { effect ->
             if (effect != HiddenEffect.TIME_VARYING || !withReference) return@associateWith size.of(effect, multiple)
             // The reference shows the change itself: only coming back to a place does.
-            (multiple * HiddenRevisits(world, jitter, REFERENCE_NOISE * noise.spread).detectable()).takeIf { it <= MOST }
+            val detectable = HiddenRevisits(world, jitter, REFERENCE_NOISE * noise.spread).detectable()
+            (multiple * detectable).takeIf { it <= MOST }
         }
         // What no strength makes detectable on this track is not asked for.
         return if (found.values.any {

@@ -7,8 +7,8 @@ import kotlin.math.hypot
 /**
  * How strong an even change of the water must be to show where a track comes back to a place that a reference has seen.
  *
- * Each return, once a meeting, tells the change Δt · rate with an error of the fixes' jitter along the water's slope and
- * of the reference's noise, twice. λ is the sum of their squared ratios; 1x is √λ = 6.36 as for all effects.
+ * Each return, once a meeting, tells the change Δt · rate with an error of the fixes' jitter along the water's slope
+ * and of the reference's noise, twice. λ is the sum of their squared ratios; 1x is √λ = 6.36 as for all effects.
  */
 internal class HiddenRevisits(private val world: HiddenWorld, private val jitter: Double, private val noise: Double) {
     private val rows = world.rows

@@ -51,7 +51,7 @@ internal class ScoredCase(
             return abs((found ?: return Double.NaN) / comparable - 1)
         }
 
-    /** What the answer gained in held-out mean square; nothing where nothing was named. Units of the noise's variance. */
+    /** What the answer gained in held-out mean square, over the noise's variance; nothing where nothing was named. */
     val gain: Double
         get() = if (answer.after.isNaN()) {
             0.0
