@@ -77,9 +77,7 @@ internal class CauseSearch(
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
             .maxBy { it.score }
         val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
-        // What a wrong number of the base left looked like noise that wanders: that must not hide that it is right now.
-        val anew = if (term.cause.baseNumbers.isEmpty()) fine else Fitting.fit(model, rough.numbers, free, used, longest)
-        return inOrder(listOf(rough, fine, anew).maxBy { it.score })
+        return inOrder(if (fine.score >= rough.score) fine else rough)
     }
 
     /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */

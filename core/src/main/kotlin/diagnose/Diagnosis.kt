@@ -31,8 +31,17 @@ public class Diagnosis(
         val first = weighing(null)
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
         // with each beginning of it, because what came after may make up for the wrong way.
-        val better = first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
-        return (if (better) weighing(!first.last.model.held) else first).result().also { progress(1.0) }
+        val doubtful = first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
+        return (if (doubtful) better(first) else first).result().also { progress(1.0) }
+    }
+
+    /** [first] or the weighing with steps the other way, whichever explains the log better for its numbers. */
+    private fun better(first: Weighing): Weighing {
+        val rows = used.copyOf()
+        val second = weighing(!first.last.model.held)
+        if (second.explained > first.explained) return second
+        rows.copyInto(used)
+        return first
     }
 
     /** [fit] with steps held if they are not, and the other way round. */

@@ -37,6 +37,9 @@ internal class Weighing(
     /** The model with all that was chosen. */
     val last: ModelFit = chosen.lastOrNull()?.fit ?: base
 
+    /** Twice the log-likelihood of [last], less what its numbers would gain by chance. */
+    val explained: Double get() = last.score - chosen.sumOf { it.cost }
+
     /** The answer. */
     fun result(): DiagnosisResult {
         val loose = LooseReadings(last)

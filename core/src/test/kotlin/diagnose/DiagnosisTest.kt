@@ -72,7 +72,11 @@ class DiagnosisTest {
         val log = log(SensorStage.Lag(6.0), SensorStage.Calibration(0.9, 0.3))
         val result = Diagnosis(log, DiagnosisSettings(base = given)).run()
         val named = assertIs<Verdict.Named>(result.verdict)
-        assertEquals(setOf(Cause.TIME_CONSTANT, Cause.GAIN_OFFSET), named.causes.toSet())
+        assertEquals(
+            setOf(Cause.TIME_CONSTANT, Cause.GAIN_OFFSET),
+            named.causes.toSet(),
+            "${result.effects} ${result.warnings} ${result.spikes.size}",
+        )
         val gain = result.effects.single { it.cause == Cause.GAIN_OFFSET }.parameters.single { it.name == "gain" }
         // The noise of 0.01 over 700 rows leaves a gain's standard error below 0.001.
         assertEquals(0.9, gain.value, 0.01)
