@@ -1,13 +1,14 @@
 package stillwater.diagnose
 
 import kotlin.math.ln
-import kotlin.math.sqrt
 
 /**
  * A cause tried on top of a model.
  *
  * @property term what was tried. @property fit the model with it. @property ratio twice the gain in log-likelihood,
- * divided by what the scores' correlation inflates it. @property degrees numbers more than without it.
+ * divided by [inflation], which the scores' correlation inflates it by. @property degrees numbers more than without it.
+ * @property cost what as many meaningless numbers and places would gain, as twice a log-likelihood.
+ * @property worth what it gains beyond [cost].
  * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
  * blocks.
  */
@@ -15,13 +16,13 @@ internal class Trial(
     val term: Term,
     val fit: ModelFit,
     val ratio: Double,
+    val inflation: Double,
     val degrees: Int,
+    val cost: Double,
+    val worth: Double,
     val pValue: Double,
     val heldOut: HeldOutScore,
-) {
-    /** The likelihood ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
-    val worth: Double get() = ratio - 2 * degrees
-}
+)
 
 /** Tries causes one by one on top of a fitted model, adds the best, and drops what then is no longer needed. */
 internal class CauseSearch(
@@ -42,14 +43,8 @@ internal class CauseSearch(
             val to = model.slotOrNull(old) ?: continue
             for (k in 0 until minOf(model.width(old), before.model.width(old))) free[to + k] = before.free[from + k]
         }
-        when (term.cause) {
-            Cause.TIME_CONSTANT -> free[ResponseModel.TIME_CONSTANT] = true
-            Cause.GAIN_OFFSET -> {
-                free[ResponseModel.GAIN] = true
-                free[ResponseModel.OFFSET] = true
-            }
-            else -> model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
-        }
+        for (i in term.cause.baseNumbers) free[i] = true
+        model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
         return free
     }
 
@@ -63,11 +58,15 @@ internal class CauseSearch(
         val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
         // The best of so many places gains twice the logarithm of their number by chance.
         val searched = if (places > 0) places * 2 * ln(minOf(PLACES, series.size / 10).toDouble()) else 0.0
-        val ratio = maxOf((best.score - base.score) / inflation - searched, 0.0)
+        val gain = best.score - base.score
+        val ratio = maxOf(gain / inflation - searched, 0.0)
+        // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
+        // differs by chance.
+        val cost = searched + 2 * degrees
         val p = minOf(1.0, Evidence.pValue(ratio, degrees))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
-        return Trial(best.model.terms.last(), best, ratio, degrees, p, heldOut)
+        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, gain - cost, p, heldOut)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {
@@ -78,49 +77,45 @@ internal class CauseSearch(
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
             .maxBy { it.score }
         val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
-        return if (fine.score >= rough.score) fine else rough
+        return inOrder(if (fine.score >= rough.score) fine else rough)
     }
 
-    /** [base] with the jumps that serve it best, one after the other while each is worth it. */
+    /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */
+    private fun inOrder(fit: ModelFit): ModelFit {
+        val term = fit.model.terms.firstOrNull { it.cause == Cause.SECOND_ORDER_RESPONSE } ?: return fit
+        val second = fit.model.slot(term)
+        val isPlain = fit.model.terms.none { it.cause in LAG_CHANGES }
+        if (!isPlain || !fit.free[ResponseModel.TIME_CONSTANT]) return fit
+        val numbers = fit.numbers.copyOf()
+        if (numbers[second] <= numbers[ResponseModel.TIME_CONSTANT]) return fit
+        numbers[second] = fit.numbers[ResponseModel.TIME_CONSTANT]
+        numbers[ResponseModel.TIME_CONSTANT] = fit.numbers[second]
+        return Fitting.fit(fit.model, numbers, fit.free, used, longest, noise = fit.noise)
+    }
+
+    /**
+     * [base] with the jumps that serve it best: from the best one on and from the best two on, because of two that undo
+     * each other neither need show alone; more are added while each is worth it.
+     */
     private fun jumps(base: ModelFit): ModelFit {
-        var fit = base
-        var best: ModelFit? = null
-        val times = ArrayList(base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty())
-        repeat(MOST_JUMPS) {
-            times += place(fit) ?: return best ?: fit
-            val next = extended(fit, Term(Cause.OFFSET_STEPS, times = times.sorted()))
-            if (best != null && next.score - fit.score < JUMP_WORTH) return best as ModelFit
-            best = next
-            fit = next
-        }
-        return best ?: fit
+        val known = base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty()
+        val places = JumpPlaces(base, PLACES)
+        val beginnings = listOfNotNull(places.single()?.let { listOf(it) }, places.pair())
+        return beginnings.map { jumps(base, known + it) }.maxByOrNull { fit ->
+            fit.score - JUMP_WORTH * fit.model.terms.sumOf { it.times.size }
+        } ?: base
     }
 
-    /** Where a jump would explain most of [fit]'s residuals, s after the first row. */
-    private fun place(fit: ModelFit): Double? {
-        val n = series.size
-        val basis = Evidence.orthonormal(fit.jacobian.toList())
-        val column = DoubleArray(n)
-        val z = DoubleArray(n)
-        val taken = fit.model.terms.flatMap { it.times }
-        fun gain(row: Int): Double {
-            for (i in 0 until n) column[i] = if (i >= row) 1.0 else 0.0
-            fit.noise.whiten(column, z)
-            val rest = Evidence.without(z, basis)
-            val length = squares(rest)
-            val share = dot(rest, fit.whitened)
-            return if (length > 1e-9) share * share / length else 0.0
+    private fun jumps(base: ModelFit, first: List<Double>): ModelFit {
+        var best = extended(base, Term(Cause.OFFSET_STEPS, times = first.sorted()))
+        for (count in first.size until MOST_JUMPS) {
+            val times = best.model.terms.flatMap { it.times }
+            val next = JumpPlaces(best, PLACES).single() ?: return best
+            val fit = extended(best, Term(Cause.OFFSET_STEPS, times = (times + next).sorted()))
+            if (fit.score - best.score < JUMP_WORTH) return best
+            best = fit
         }
-
-        val stride = maxOf(n / (2 * PLACES), 1)
-        val edge = maxOf(n / 50, 3)
-        val rows = (edge until n - edge step stride).filter { row ->
-            taken.all { kotlin.math.abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
-        }
-        val coarse = rows.maxByOrNull(::gain) ?: return null
-        val fine = maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)
-        val row = fine.maxBy(::gain)
-        return (series.times[row] + series.times[row - 1]) / 2 - series.times[0]
+        return best
     }
 
     private fun inflation(base: ModelFit, best: ModelFit): Double {
@@ -132,8 +127,8 @@ internal class CauseSearch(
         return Evidence.inflation(extra, best.whitened)
     }
 
-    /** [fit] without [term], fitted anew. */
-    fun without(fit: ModelFit, term: Term): ModelFit {
+    /** [fit] without [term], fitted anew; a number of the [base] that was wrong is as given again. */
+    fun without(fit: ModelFit, term: Term, base: ModelFit): ModelFit {
         val rest = fit.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, rest, fit.model.held, scales)
         val start = DoubleArray(model.parameters.size)
@@ -141,6 +136,10 @@ internal class CauseSearch(
         for (i in 0 until ResponseModel.BASE) {
             start[i] = fit.numbers[i]
             free[i] = fit.free[i]
+        }
+        for (i in term.cause.baseNumbers) {
+            start[i] = base.numbers[i]
+            free[i] = base.free[i]
         }
         for (old in rest) {
             val from = fit.model.slotOrNull(old) ?: continue
@@ -153,17 +152,15 @@ internal class CauseSearch(
         return Fitting.fit(model, start, free, used, longest, guess = fit.noise)
     }
 
-    /** Distance between what two fits predict, in standard deviations of the noise: what this track can tell apart. */
-    fun distance(a: ModelFit, b: ModelFit): Double {
-        val difference = DoubleArray(series.size) { a.residuals[it] - b.residuals[it] }
-        val z = DoubleArray(series.size)
-        a.noise.whiten(difference, z)
-        return sqrt(squares(z) / maxOf(a.variance, 1e-300))
-    }
-
     private companion object {
         const val PLACES = 60
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 25.0
+        val LAG_CHANGES = setOf(
+            Cause.ASYMMETRIC_RESPONSE,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.TWO_PATH_RESPONSE,
+        )
     }
 }

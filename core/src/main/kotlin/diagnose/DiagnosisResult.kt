@@ -87,6 +87,26 @@ public class Candidate internal constructor(
 )
 
 /**
+ * What the reference says where the track crosses itself.
+ *
+ * @property later time between the two visits of each crossing, s, length n. Not to be modified.
+ * @property higher how much higher the truth was on the second, sensor units, length n. Not to be modified.
+ * @property rate of change that fits them best, sensor units/s; NaN where there are too few.
+ */
+public class Revisits internal constructor(
+    public val later: DoubleArray,
+    public val higher: DoubleArray,
+    public val rate: Double,
+)
+
+/**
+ * A cause of the extended model.
+ *
+ * @property cause the cause. @property parameters its numbers beside those of the others.
+ */
+public data class NamedEffect(val cause: Cause, val parameters: List<Estimate>)
+
+/**
  * What a diagnosis found.
  *
  * @property verdict the answer. @property candidates every cause tried on the base, the likeliest first.
@@ -94,7 +114,8 @@ public class Candidate internal constructor(
  * @property baseSensor the base as a sensor. @property extendedSensor the extended one; null where nothing was named.
  * @property separatingManoeuvre what would tell ambiguous causes apart; null where nothing is ambiguous.
  * @property dependences what is left in the residuals of the last model. @property spikes rows taken for outliers.
- * @property warnings for the reader.
+ * @property warnings for the reader. @property effects what the extended model holds beyond the base, with a reference.
+ * @property revisits what the reference says of the water's own change; null without one.
  */
 public class DiagnosisResult internal constructor(
     public val verdict: Verdict,
@@ -107,4 +128,6 @@ public class DiagnosisResult internal constructor(
     public val dependences: List<Dependence>,
     public val spikes: List<Int>,
     public val warnings: List<String>,
+    public val effects: List<NamedEffect> = emptyList(),
+    public val revisits: Revisits? = null,
 )

@@ -40,13 +40,21 @@ internal class ExtendedSensor(private val fit: ModelFit, private val spikes: Spi
         val asymmetry = value(Cause.ASYMMETRIC_RESPONSE)
         val flow = value(Cause.FLOW_DEPENDENT_RESPONSE)
         val warmth = value(Cause.TEMPERATURE_DEPENDENT_RESPONSE)
-        val ratio = value(Cause.TWO_PATH_RESPONSE)
-        if (listOfNotNull(asymmetry, flow, warmth, ratio).size > 1) {
-            losses += "Two changes of one time constant are at work; the sensor file holds the first of them only."
-        }
+        // The model takes no path that is slower than a part of the log.
+        val ratio = value(Cause.TWO_PATH_RESPONSE)?.let { minOf(it, model.slowest(tau)) }
+        val share = value(Cause.TWO_PATH_RESPONSE, 1) ?: 0.0
         return when {
-            ratio != null ->
-                SensorStage.TwoPath(tau, tau * ratio, value(Cause.TWO_PATH_RESPONSE, 1) ?: 0.0)
+            listOfNotNull(asymmetry, flow, warmth, ratio).size > 1 -> SensorStage.Combined(
+                tau,
+                model.scales.ordinarySpeed,
+                flow ?: 0.0,
+                model.scales.ordinaryTemperature.takeIf { it.isFinite() } ?: 0.0,
+                warmth ?: 0.0,
+                exp(asymmetry ?: 0.0),
+                ratio ?: 1.0,
+                share,
+            )
+            ratio != null -> SensorStage.TwoPath(tau, tau * ratio, share)
             asymmetry != null -> SensorStage.Asymmetric(tau * exp(asymmetry / 2), tau * exp(-asymmetry / 2))
             flow != null -> SensorStage.FlowLag(tau, model.scales.ordinarySpeed, flow)
             warmth != null -> SensorStage.TemperatureLag(tau, model.scales.ordinaryTemperature, warmth)

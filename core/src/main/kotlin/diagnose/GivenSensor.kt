@@ -51,15 +51,14 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
                 put(Cause.TWO_PATH_RESPONSE, stage.slow / stage.fast, stage.slowShare)
             }
             is SensorStage.FlowLag -> {
-                timeConstant =
-                    stage.timeConstant * exp(-stage.exponent * ln(scales.ordinarySpeed / stage.referenceSpeed))
+                timeConstant = stage.timeConstant * atSpeed(stage.referenceSpeed, stage.exponent)
                 put(Cause.FLOW_DEPENDENT_RESPONSE, stage.exponent)
             }
             is SensorStage.TemperatureLag -> {
-                val warmer = scales.ordinaryTemperature - stage.referenceTemperature
-                timeConstant = stage.timeConstant * if (warmer.isNaN()) 1.0 else exp(-stage.relativeChange * warmer)
+                timeConstant = stage.timeConstant * atWarmth(stage.referenceTemperature, stage.relativeChange)
                 put(Cause.TEMPERATURE_DEPENDENT_RESPONSE, stage.relativeChange)
             }
+            is SensorStage.Combined -> combined(stage)
             is SensorStage.Delay -> put(Cause.DEAD_TIME, stage.deadTime)
             is SensorStage.Slew -> put(Cause.SLEW_LIMIT, stage.rate)
             is SensorStage.Backlash -> put(Cause.HYSTERESIS, stage.width)
@@ -73,6 +72,24 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
             }
             is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
         }
+    }
+
+    private fun combined(stage: SensorStage.Combined) {
+        timeConstant = stage.timeConstant * atSpeed(stage.referenceSpeed, stage.exponent) *
+            atWarmth(stage.referenceTemperature, stage.relativeChange)
+        if (stage.exponent != 0.0) put(Cause.FLOW_DEPENDENT_RESPONSE, stage.exponent)
+        if (stage.relativeChange != 0.0) put(Cause.TEMPERATURE_DEPENDENT_RESPONSE, stage.relativeChange)
+        if (stage.risingOverFalling != 1.0) put(Cause.ASYMMETRIC_RESPONSE, ln(stage.risingOverFalling))
+        if (stage.slowShare != 0.0) put(Cause.TWO_PATH_RESPONSE, stage.slowOverFast, stage.slowShare)
+    }
+
+    /** The time constant at this log's ordinary speed over that at [reference], m/s. */
+    private fun atSpeed(reference: Double, exponent: Double) = exp(-exponent * ln(scales.ordinarySpeed / reference))
+
+    /** The same at this log's ordinary temperature; 1 where the log has none. */
+    private fun atWarmth(reference: Double, relativeChange: Double): Double {
+        val warmer = scales.ordinaryTemperature - reference
+        return if (warmer.isNaN()) 1.0 else exp(-relativeChange * warmer)
     }
 
     private fun jumps(stage: SensorStage.Jumps) {

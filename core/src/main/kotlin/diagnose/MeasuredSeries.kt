@@ -14,6 +14,8 @@ import kotlin.math.hypot
  * @property reference the truth up to noise, sensor units, length n, finite; null where it is unknown.
  * @property conditions further columns by name, each of length n, NaN where unknown; a missing speed is taken from the
  *   positions.
+ * @property isSparse whether rows were left out because their reference is not known, so that the truth between the
+ *   rows must be guessed.
  * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
  */
 public class MeasuredSeries(
@@ -23,6 +25,7 @@ public class MeasuredSeries(
     internal val values: DoubleArray,
     internal val reference: DoubleArray?,
     internal val conditions: Map<String, DoubleArray> = emptyMap(),
+    internal val isSparse: Boolean = false,
 ) {
     init {
         val columns =
@@ -58,7 +61,7 @@ public class MeasuredSeries(
     internal val gap: Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
 
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
-    internal val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
+    public val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
 
     /** Temperature of each row, °C, or null where there is no such condition. */
     internal val temperature: DoubleArray? = conditions[Conditions.TEMPERATURE]?.let(::filled)

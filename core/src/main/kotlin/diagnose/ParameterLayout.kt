@@ -1,5 +1,13 @@
 package stillwater.diagnose
 
+/** The numbers of the base that are wrong where this is the cause: indices into a model's numbers. */
+internal val Cause.baseNumbers: List<Int>
+    get() = when (this) {
+        Cause.TIME_CONSTANT -> listOf(ResponseModel.TIME_CONSTANT)
+        Cause.GAIN_OFFSET -> listOf(ResponseModel.GAIN, ResponseModel.OFFSET)
+        else -> emptyList()
+    }
+
 /** Which number of a model stands where. */
 internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales: Scales) {
     /** Index of the first parameter of each term, by its key. */

@@ -48,8 +48,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
         if (Cause.TWO_PATH_RESPONSE in causes) {
             val at = slot(Cause.TWO_PATH_RESPONSE)
-            // A path slower than a part of the log is a drift.
-            lag(work, second, minOf(p[at], maxOf(2.0, series.duration / SLOWEST / p[TIME_CONSTANT])), 0.0)
+            lag(work, second, minOf(p[at], slowest(p[TIME_CONSTANT])), 0.0)
             lag(work, out, 1.0, asymmetry)
             for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
         } else {
@@ -66,6 +65,9 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
         if (Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
     }
+
+    /** The most by which a slow path's time constant is longer than [timeConstant], s: slower than that is a drift. */
+    fun slowest(timeConstant: Double): Double = maxOf(2.0, series.duration / SLOWEST / timeConstant)
 
     /** The truth at each row, as late as the model says, into [work]. */
     private fun delay(p: DoubleArray) {
@@ -187,6 +189,9 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         const val OFFSET = 2
         const val FIRST = 3
         const val BASE = 4
+
+        /** An end of the range beyond this is none, sensor units. */
+        const val NO_END = 1e11
         private const val HARMONICS = 4
         private const val SLOWEST = 8
     }

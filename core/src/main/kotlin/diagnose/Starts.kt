@@ -17,8 +17,11 @@ internal class Starts(
     private val tau = fit.numbers[ResponseModel.TIME_CONSTANT]
     private val spread = sqrt(squares(fit.residuals) / maxOf(series.size, 1))
 
-    /** The places, as full sets of numbers. */
-    fun all(): List<DoubleArray> = when {
+    /** The places, as full sets of numbers; a time constant that is not fitted stays as it is. */
+    fun all(): List<DoubleArray> =
+        places().onEach { if (!fit.free[ResponseModel.TIME_CONSTANT]) it[ResponseModel.TIME_CONSTANT] = tau }
+
+    private fun places(): List<DoubleArray> = when {
         small && term.cause in IN_PROPORTION -> listOf(with(STEPS.getValue(term.cause)))
         small && term.cause == Cause.DRIFT -> listOf(with(scales.range / series.duration))
         small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(1.0))

@@ -30,4 +30,14 @@ internal data class Parameter(
     val lower: Double,
     val upper: Double,
     val neutral: Double = Double.NaN,
-)
+) {
+    /** Whether [value] is at the lower end. */
+    fun atLower(value: Double) = value <= lower + CLOSE * (if (logarithmic) lower else minOf(upper - lower, 1.0))
+
+    /** Whether [value] is at the upper end. */
+    fun atUpper(value: Double) = value >= upper - CLOSE * (if (logarithmic) upper else minOf(upper - lower, 1.0))
+
+    private companion object {
+        const val CLOSE = 1e-6
+    }
+}

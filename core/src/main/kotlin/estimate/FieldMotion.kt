@@ -33,12 +33,14 @@ internal class Transition(val move: DoubleArray, val spread: DoubleArray)
 
 /**
  * Transitions of a field with [along] seen through [lags], by length of step. Steps that differ by less than a
- * thousandth of [usual] are taken as one.
+ * thousandth of [usual] are taken as one. With a [slowShare] w both lags see the field, and the last state is what is
+ * shown of them, (1 − w) s₁ + w s₂.
  */
 internal class FieldMotion(
     private val along: AlongTrack,
     private val lags: List<ResponseLag>,
     private val usual: Double,
+    private val slowShare: Double = 0.0,
 ) {
     /** Number of states: the field's, then one a lag. */
     val size: Int = along.states + lags.size
@@ -111,6 +113,7 @@ internal class FieldMotion(
             move[row * size + input] += weights.before
             move[row * size + row] += weights.keep
             for (j in 0 until n) noise[row][j] = weights.now * noise[input][j]
+            if (k == 1 && slowShare > 0) beside(weights, move, noise)
         }
         val own = fieldSpread(field)
         val spread = DoubleArray(size * size) { at ->
@@ -119,6 +122,23 @@ internal class FieldMotion(
             sum
         }
         return Transition(move, spread)
+    }
+
+    /**
+     * The last state as q = (1 − w) s₁ + w s₂ in place of a second lag in a row:
+     * q ← (1 − w) s₁′ + keep (q − (1 − w) s₁) + w (before u + now u′), with s₁′ the first lag's own next value.
+     */
+    private fun beside(weights: LagWeights, move: DoubleArray, noise: Array<DoubleArray>) {
+        val shown = size - 1
+        val fast = size - 2
+        val rest = 1 - slowShare
+        for (j in 0 until size) {
+            move[shown * size + j] = rest * move[fast * size + j] + slowShare * weights.now * move[j]
+        }
+        move[shown * size + shown] += weights.keep
+        move[shown * size + fast] -= weights.keep * rest
+        move[shown * size] += slowShare * weights.before
+        for (j in noise[shown].indices) noise[shown][j] = rest * noise[fast][j] + slowShare * weights.now * noise[0][j]
     }
 
     /** exp(A Δ) of Matérn's process (Hartikainen and Särkkä 2010, doi:10.1109/MLSP.2010.5589113). */

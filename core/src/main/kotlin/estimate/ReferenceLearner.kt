@@ -11,10 +11,19 @@ import kotlin.math.sqrt
  * learned with the rest); gain and offset are in every model, because without them anything else looks significant. See
  * core/docs/TrackCorrection.md, (10). Confined to one thread.
  *
+ * A reading is the sensor's state at its time, and the reference runs straight from row to row. In a log made by
+ * stepping a sensor once a row it is held over each step instead, which is half a step sooner: [isHeld] finds that, and
+ * then [held] is the way to learn with.
+ *
+ * @param held whether the reference is held at each row's value over the step before it.
  * @param series the readings. Retained. @param reference the truth at each reading, sensor units of its own, length n.
  *   Retained, not modified.
  */
-public class ReferenceLearner(private val series: TrackSeries, private val reference: DoubleArray) : ResponseLearner {
+public class ReferenceLearner(
+    private val series: TrackSeries,
+    private val reference: DoubleArray,
+    private val held: Boolean = false,
+) : ResponseLearner {
     init {
         require(reference.size == series.size) {
             "reference (${reference.size}) must be as long as series (${series.size})"
@@ -108,6 +117,7 @@ public class ReferenceLearner(private val series: TrackSeries, private val refer
                     continue
                 }
                 lag.set(if (input > shown[i - 1]) stage.rising else stage.falling, dt)
+                if (held) before = input
                 shown[i] = lag.keep * shown[i - 1] + lag.before * before + lag.now * input
                 before = input
             }
@@ -132,15 +142,34 @@ public class ReferenceLearner(private val series: TrackSeries, private val refer
         }
     }
 
-    private companion object {
-        const val FEWEST = 30
-        const val GROUP = 60
-        const val MOST_GROUPS = 20
-        const val TOP = 0.99
-        const val DELAYS = 14
-        const val DELAY_FROM = 0.125
-        const val MOST_LOG = 25.0
-        const val MOST_CORRELATION = 0.999
-        const val LEAST = 1e-300
+    /** Twice the log-likelihood by which a first-order lag explains the readings at its best time constant. */
+    private fun firstOrder(): Double {
+        val delays = List(DELAYS) { ln(series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble())) }
+        fun likelihood(logs: DoubleArray) = total(ResponseKind.FIRST_ORDER, logs)
+        val start = delays.maxBy { likelihood(doubleArrayOf(it)) }
+        return 2 * likelihood(Search.simplex(doubleArrayOf(start), doubleArrayOf(0.3), EVALUATIONS, CLOSE, ::likelihood))
+    }
+
+    public companion object {
+        /**
+         * Whether the readings of [series] show the [reference] held over each step, clearly: by six units of twice the
+         * log-likelihood of a first-order lag, as the diagnosis asks for.
+         */
+        public fun isHeld(series: TrackSeries, reference: DoubleArray): Boolean =
+            ReferenceLearner(series, reference, held = true).firstOrder() >
+                ReferenceLearner(series, reference).firstOrder() + CLEARLY
+
+        private const val CLEARLY = 6.0
+        private const val EVALUATIONS = 60
+        private const val CLOSE = 1e-4
+        private const val FEWEST = 30
+        private const val GROUP = 60
+        private const val MOST_GROUPS = 20
+        private const val TOP = 0.99
+        private const val DELAYS = 14
+        private const val DELAY_FROM = 0.125
+        private const val MOST_LOG = 25.0
+        private const val MOST_CORRELATION = 0.999
+        private const val LEAST = 1e-300
     }
 }

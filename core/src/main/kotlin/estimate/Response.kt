@@ -23,25 +23,50 @@ public data class ResponseLag(val rising: Double, val falling: Double = rising) 
  * @property deadTime d, s, at least 0 and finite.
  * @property lags at most two, in the order in which they act.
  * @property slewRate largest rate of change, sensor units/s, above 0; infinite without a limit.
+ * @property slowShare w, dimensionless, within 0..1: above 0 the two lags are not in a row but beside each other, and
+ *   the sensor shows (1 − w) of the first and w of the second.
  * @throws IllegalArgumentException if a number is out of its range, or there are more than two lags.
  */
 public data class Response(
     val deadTime: Double = 0.0,
     val lags: List<ResponseLag> = emptyList(),
     val slewRate: Double = Double.POSITIVE_INFINITY,
+    val slowShare: Double = 0.0,
 ) {
     init {
         require(deadTime >= 0 && deadTime.isFinite()) { "deadTime ($deadTime s) must be at least 0 and finite" }
         require(lags.size <= MOST_LAGS) { "lags (${lags.size}) must be at most $MOST_LAGS" }
+        require(slowShare in 0.0..1.0) { "slowShare ($slowShare) must be within 0..1" }
+        require(slowShare == 0.0 || lags.size == 2) { "slowShare ($slowShare) is of two lags, found ${lags.size}" }
         require(slewRate > 0) { "slewRate ($slewRate sensor units/s) must be above 0" }
     }
 
     /** Mean delay, s: dead time and time constants added up, rising and falling at the mean. */
-    public val meanDelay: Double get() = deadTime + lags.sumOf { (it.rising + it.falling) / 2 }
+    public val meanDelay: Double
+        get() {
+            val delays = lags.map { (it.rising + it.falling) / 2 }
+            if (slowShare > 0) return deadTime + (1 - slowShare) * delays[0] + slowShare * delays[1]
+            return deadTime + delays.sum()
+        }
+
+    /** This response with [time], s, less delay: of the dead time first, then of the longest lag. */
+    public fun sooner(time: Double): Response {
+        val left = time - deadTime
+        if (left <= 0) return copy(deadTime = deadTime - time)
+        val longest = lags.maxByOrNull { it.rising + it.falling } ?: return copy(deadTime = 0.0)
+        val factor = maxOf(1 - 2 * left / (longest.rising + longest.falling), SHORTEST_PART)
+        val shorter = ResponseLag(longest.rising * factor, longest.falling * factor)
+        return copy(deadTime = 0.0, lags = lags.map { if (it === longest) shorter else it })
+    }
 
     /** The response as the stages of a [stillwater.sensor.SensorSpec]. */
     public fun stages(): List<SensorStage> = buildList {
         if (deadTime > 0) add(SensorStage.Delay(deadTime))
+        if (slowShare > 0) {
+            val (fast, slow) = lags.map { (it.rising + it.falling) / 2 }
+            add(SensorStage.TwoPath(fast, slow, slowShare))
+            return@buildList
+        }
         for (lag in lags) {
             val isSymmetric = lag.rising == lag.falling
             add(if (isSymmetric) SensorStage.Lag(lag.rising) else SensorStage.Asymmetric(lag.rising, lag.falling))
@@ -52,6 +77,7 @@ public data class Response(
     public companion object {
         /** Lags in a row that are undone together. */
         public const val MOST_LAGS: Int = 2
+        private const val SHORTEST_PART = 0.01
     }
 }
 

@@ -34,7 +34,7 @@ internal class TrackSmoother(
     private val agitation: DoubleArray,
     usual: Double,
 ) {
-    private val motion = FieldMotion(along, response.lags, usual)
+    private val motion = FieldMotion(along, response.lags, usual, response.slowShare)
     private val size = motion.size
 
     /** Events in the order of time: reading k seen (2k) a dead time early, field at reading k wanted (2k + 1). */

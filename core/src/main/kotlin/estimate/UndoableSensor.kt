@@ -1,73 +1,182 @@
 package stillwater.estimate
 
+import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import stillwater.sensor.TimeConstant
+import kotlin.math.sqrt
 
 /**
  * A sensor spec in the form in which a whole track can be corrected for it.
  *
- * @property response how it follows. @property gain dimensionless. @property offset sensor units; readings are gain ·
- * field
- *   + offset. @property drift sensor units/s from the first reading on.
+ * A lag whose time constant τ(c) depends on conditions is a constant lag τ₀ in a time that runs τ₀ / τ(c) as fast:
+ * τ ds/dt = ψ − s is τ₀ ds/dw = ψ − s for dw = τ₀ / τ dt. So such a track is corrected in that time.
+ *
+ * @property response how it follows. @property gain dimensionless, of all stages after the response.
+ * @property needs names of the conditions without which it cannot be undone.
  */
 public class UndoableSensor private constructor(
     public val response: Response,
-    public val gain: Double,
-    public val offset: Double,
-    public val drift: Double,
+    private val shown: List<SensorStage>,
+    private val timeConstant: TimeConstant?,
+    public val needs: Set<String>,
 ) {
-    /** [series] as a sensor without gain, offset and drift would have read it. */
-    public fun calibrated(series: TrackSeries): TrackSeries {
-        if (gain == 1.0 && offset == 0.0 && drift == 0.0) return series
-        val values = DoubleArray(series.size) {
-            (series.values[it] - offset - drift * (series.times[it] - series.times[0])) / gain
+    public val gain: Double =
+        shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { product, stage -> product * stage.gain }
+
+    /**
+     * [series] as a sensor with the response alone would have read it, in the time in which that is constant.
+     *
+     * @param conditions columns by name, each as long as [series], NaN where unknown; those of [needs] are there. Not
+     *   modified.
+     */
+    public fun calibrated(series: TrackSeries, conditions: Map<String, DoubleArray> = emptyMap()): TrackSeries {
+        if (shown.isEmpty() && timeConstant == null) return series
+        val values = series.values.copyOf()
+        for (stage in shown.reversed()) {
+            for (i in values.indices) values[i] = before(stage, values[i], series, i, conditions)
         }
-        return TrackSeries(series.times, series.xs, series.ys, values)
+        return TrackSeries(times(series, conditions), series.xs, series.ys, values)
+    }
+
+    private fun before(
+        stage: SensorStage,
+        value: Double,
+        series: TrackSeries,
+        i: Int,
+        conditions: Map<String, DoubleArray>,
+    ): Double {
+        val age = series.times[i] - series.times[0]
+        return when (stage) {
+            is SensorStage.Calibration -> (value - stage.offset) / stage.gain
+            is SensorStage.Drifting -> value - stage.rate * age
+            is SensorStage.Jumps ->
+                value - (stage.times.indexOfLast { it < age }.takeIf { it >= 0 }?.let { stage.offsets[it] } ?: 0.0)
+            is SensorStage.Cross -> {
+                val added = stage.coefficient * (conditions.getValue(stage.condition)[i] - stage.reference)
+                // Where the condition is unknown the sensor shows nothing of it.
+                if (added.isFinite()) value - added else value
+            }
+            else -> value
+        }
+    }
+
+    private fun times(series: TrackSeries, conditions: Map<String, DoubleArray>): DoubleArray {
+        val changing = timeConstant ?: return series.times
+        val usual = changing.under(Conditions.NONE)
+        val times = series.times.copyOf()
+        for (i in 1 until times.size) {
+            val now = Conditions(needs.associateWith { conditions.getValue(it)[i] })
+            times[i] = times[i - 1] + (series.times[i] - series.times[i - 1]) * usual / changing.under(now)
+        }
+        return times
+    }
+
+    /** What is gathered while the stages are read in order. */
+    private class Gathering {
+        var response = Response()
+        var changing: TimeConstant? = null
+        val shown = ArrayList<SensorStage>()
+        val needs = LinkedHashSet<String>()
+
+        fun follows(change: Response) {
+            require(shown.isEmpty()) {
+                "a stage that takes time after a gain, an offset or what else is added cannot be undone"
+            }
+            response = change
+        }
+
+        fun changes(timeConstant: TimeConstant, vararg conditions: String) {
+            require(response == Response()) { WITH_OTHERS }
+            changing = timeConstant
+            needs += conditions
+        }
+
+        fun combined(stage: SensorStage.Combined) {
+            val isChanging = stage.exponent != 0.0 || stage.relativeChange != 0.0
+            if (isChanging) {
+                val flow = TimeConstant.ofFlow(stage.timeConstant, stage.referenceSpeed, stage.exponent)
+                val warmth = TimeConstant.ofTemperature(1.0, stage.referenceTemperature, stage.relativeChange)
+                val names = listOf(Conditions.SPEED, Conditions.TEMPERATURE)
+                    .zip(listOf(stage.exponent, stage.relativeChange)).filter { it.second != 0.0 }.map { it.first }
+                changes({ flow.under(it) * warmth.under(it) }, *names.toTypedArray())
+            }
+            val ratio = sqrt(stage.risingOverFalling)
+            val fast = ResponseLag(stage.timeConstant * ratio, stage.timeConstant / ratio)
+            if (stage.slowShare > 0) {
+                beside(fast, stage.timeConstant * stage.slowOverFast, stage.slowShare)
+            } else {
+                follows(response.copy(lags = response.lags + fast))
+            }
+        }
+
+        fun beside(fast: ResponseLag, slow: Double, share: Double) {
+            require(response.lags.isEmpty()) { "two paths beside another lag cannot be undone" }
+            follows(response.copy(lags = listOf(fast, ResponseLag(slow)), slowShare = share))
+        }
     }
 
     public companion object {
+        private const val WITH_OTHERS =
+            "a lag that changes with conditions cannot be undone beside a dead time or another lag"
+
         /**
-         * [spec] as it can be undone: dead times, up to two lags, a slew limit, then gains, offsets and drifts, with
-         * noise and
+         * [spec] as it can be undone: dead times, up to two lags or two paths, or one lag that changes with conditions,
+         * and a slew limit; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise and
          * quantisation anywhere.
          *
          * @throws IllegalArgumentException if [spec] has a stage that cannot be undone; the message names it.
          */
         public fun of(spec: SensorSpec): UndoableSensor {
-            var response = Response()
-            var gain = 1.0
-            var offset = 0.0
-            var drift = 0.0
-            for (stage in spec.stages) {
-                val isStatic = gain != 1.0 || offset != 0.0 || drift != 0.0
-                fun with(change: Response) = change.also {
-                    require(!isStatic) { "a stage that takes time after a gain, offset or drift cannot be undone" }
-                }
-                when (stage) {
-                    is SensorStage.Noise, is SensorStage.Quantum -> Unit
-                    is SensorStage.Delay ->
-                        response =
-                            with(response.copy(deadTime = response.deadTime + stage.deadTime))
-                    is SensorStage.Lag -> response = with(response.and(ResponseLag(stage.timeConstant)))
-                    is SensorStage.Asymmetric -> response = with(response.and(ResponseLag(stage.rising, stage.falling)))
-                    is SensorStage.Slew -> response = with(response.copy(slewRate = stage.rate))
-                    is SensorStage.Calibration -> {
-                        require(stage.gain != 0.0) { "a gain of 0 cannot be undone" }
-                        gain *= stage.gain
-                        offset = offset * stage.gain + stage.offset
-                        drift *= stage.gain
-                    }
-                    is SensorStage.Drifting -> drift += stage.rate
-                    else -> throw IllegalArgumentException(
-                        "stages dead-time, first-order-lag, asymmetric-lag, slew-limit, gain-offset, drift, noise " +
-                            "and " +
-                            "quantisation can be undone, ${stage::class.simpleName} cannot",
-                    )
-                }
-            }
-            return UndoableSensor(response, gain, offset, drift)
+            val found = Gathering()
+            for (stage in spec.stages) take(stage, found)
+            val isMixed = found.changing != null &&
+                (found.response.deadTime > 0 || found.response.slewRate.isFinite() || !isAlone(found.response))
+            require(!isMixed) { WITH_OTHERS }
+            return UndoableSensor(found.response, found.shown, found.changing, found.needs)
         }
 
-        private fun Response.and(lag: ResponseLag) = copy(lags = lags + lag)
+        private fun isAlone(response: Response) = response.lags.size == 1 || response.slowShare > 0
+
+        private fun take(stage: SensorStage, found: Gathering) {
+            val response = found.response
+            fun lag(lag: ResponseLag) {
+                require(response.slowShare == 0.0) { "two paths beside another lag cannot be undone" }
+                found.follows(response.copy(lags = response.lags + lag))
+            }
+            when (stage) {
+                is SensorStage.Noise, is SensorStage.Quantum -> Unit
+                is SensorStage.Delay -> found.follows(response.copy(deadTime = response.deadTime + stage.deadTime))
+                is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))
+                is SensorStage.Asymmetric -> lag(ResponseLag(stage.rising, stage.falling))
+                is SensorStage.Slew -> found.follows(response.copy(slewRate = stage.rate))
+                is SensorStage.TwoPath -> found.beside(ResponseLag(stage.fast), stage.slow, stage.slowShare)
+                is SensorStage.FlowLag -> {
+                    val flow = TimeConstant.ofFlow(stage.timeConstant, stage.referenceSpeed, stage.exponent)
+                    found.changes(flow, Conditions.SPEED)
+                    lag(ResponseLag(stage.timeConstant))
+                }
+                is SensorStage.TemperatureLag -> {
+                    val warmth = TimeConstant.ofTemperature(
+                        stage.timeConstant,
+                        stage.referenceTemperature,
+                        stage.relativeChange,
+                    )
+                    found.changes(warmth, Conditions.TEMPERATURE)
+                    lag(ResponseLag(stage.timeConstant))
+                }
+                is SensorStage.Combined -> found.combined(stage)
+                is SensorStage.Calibration, is SensorStage.Drifting, is SensorStage.Jumps -> found.shown += stage
+                is SensorStage.Cross -> {
+                    found.shown += stage
+                    found.needs += stage.condition
+                }
+                is SensorStage.Backlash, is SensorStage.Range, is SensorStage.Outlying ->
+                    throw IllegalArgumentException(
+                        "hysteresis, saturation and outliers cannot be undone, because what they hide is lost: take " +
+                            "them out of the file to have the rest undone",
+                    )
+            }
+        }
     }
 }

@@ -138,6 +138,35 @@ public sealed interface SensorStage {
             ConditionedLag(TimeConstant.ofTemperature(timeConstant, referenceTemperature, relativeChange), initial)
     }
 
+    /**
+     * [CombinedLag]: [timeConstant], s, at [referenceSpeed], m/s, and [referenceTemperature], °C; how it changes with
+     * speed ([exponent]) and temperature ([relativeChange], 1/°C), between rise and fall ([risingOverFalling]), and the
+     * slow path beside it ([slowOverFast], [slowShare]). What is left out does nothing.
+     */
+    @Serializable
+    @SerialName("combined-lag")
+    public data class Combined(
+        @SerialName("time_constant_s") val timeConstant: Double,
+        @SerialName("reference_speed_m_per_s") val referenceSpeed: Double = 1.0,
+        val exponent: Double = 0.0,
+        @SerialName("reference_temperature_deg_c") val referenceTemperature: Double = 0.0,
+        @SerialName("relative_change_per_deg_c") val relativeChange: Double = 0.0,
+        @SerialName("rising_over_falling") val risingOverFalling: Double = 1.0,
+        @SerialName("slow_over_fast") val slowOverFast: Double = 1.0,
+        @SerialName("slow_share") val slowShare: Double = 0.0,
+    ) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel {
+            val flow = TimeConstant.ofFlow(timeConstant, referenceSpeed, exponent)
+            val warmth = TimeConstant.ofTemperature(1.0, referenceTemperature, relativeChange)
+            val both = TimeConstant { (flow.under(it) * warmth.under(it)).coerceIn(Double.MIN_VALUE, Double.MAX_VALUE) }
+            return CombinedLag(both, risingOverFalling, slowOverFast, slowShare, initial)
+        }
+    }
+
     /** [GainOffset] with [gain], dimensionless, and [offset], sensor units. */
     @Serializable
     @SerialName("gain-offset")

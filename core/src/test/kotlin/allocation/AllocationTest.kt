@@ -85,6 +85,7 @@ class AllocationTest {
             SensorStage.Asymmetric(7.0, 13.0),
             SensorStage.Delay(2.5),
             SensorStage.TwoPath(2.0, 40.0, 0.3),
+            SensorStage.Combined(9.5, 1.0, 0.5, 20.0, 0.03, 1.3, 4.0, 0.2),
             SensorStage.FlowLag(9.5, 1.0, 0.5),
             SensorStage.TemperatureLag(9.5, 20.0, 0.03),
             SensorStage.Calibration(1.1, 0.4),

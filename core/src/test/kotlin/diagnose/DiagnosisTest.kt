@@ -9,6 +9,7 @@ import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertIs
+import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
 class DiagnosisTest {
@@ -63,6 +64,75 @@ class DiagnosisTest {
         val given = SensorSpec("believed", listOf(SensorStage.Lag(6.0), SensorStage.Calibration(0.9, 0.3)))
         val log = log(SensorStage.Lag(6.0), SensorStage.Calibration(0.9, 0.3))
         assertEquals(Verdict.Consistent, Diagnosis(log, DiagnosisSettings(base = given)).run().verdict)
+    }
+
+    @Test
+    fun aGivenSensorThatIsWrongInAllItsNumbersIsNamedForBoth() {
+        val given = SensorSpec("believed", listOf(SensorStage.Lag(9.0), SensorStage.Calibration(0.8, 0.5)))
+        val log = log(SensorStage.Lag(6.0), SensorStage.Calibration(0.9, 0.3))
+        val result = Diagnosis(log, DiagnosisSettings(base = given)).run()
+        val named = assertIs<Verdict.Named>(result.verdict)
+        assertEquals(
+            setOf(Cause.TIME_CONSTANT, Cause.GAIN_OFFSET),
+            named.causes.toSet(),
+            "${result.effects} ${result.warnings} ${result.spikes.size}",
+        )
+        val gain = result.effects.single { it.cause == Cause.GAIN_OFFSET }.parameters.single { it.name == "gain" }
+        // The noise of 0.01 over 700 rows leaves a gain's standard error below 0.001.
+        assertEquals(0.9, gain.value, 0.01)
+    }
+
+    @Test
+    fun twoChangesOfOneTimeConstantAreOneStageOfTheExtendedSensor() {
+        val hidden = SensorStage.Combined(6.0, 1.0, 0.0, 15.0, 0.04, 1.5)
+        val warmth = DoubleArray(n) { 15 + 6 * sin(it / 61.0) }
+        val sensor = SensorSpec("hidden", listOf(hidden, SensorStage.Noise(0.005))).build(truth[0], Random(9))
+        val values = DoubleArray(n) {
+            sensor.step(truth[it], 1.0, Conditions(mapOf(Conditions.TEMPERATURE to warmth[it])))
+        }
+        val times = DoubleArray(n) { it.toDouble() }
+        val conditions = mapOf(Conditions.TEMPERATURE to warmth)
+        val log = MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, truth, conditions)
+        val result = Diagnosis(log).run()
+        val lag = assertIs<SensorStage.Combined>(result.extendedSensor?.stages?.first(), "${result.verdict}")
+        // A tenth, the bar for numbers of strong effects.
+        assertEquals(1.5, lag.risingOverFalling, 0.15)
+        assertEquals(0.04, lag.relativeChange, 0.004)
+    }
+
+    /** The log of a lag in water that changes fast, with the truth of each [every]th row only. */
+    private fun sparse(every: Int): MeasuredSeries {
+        fun water(time: Double) = 5 + sin(time / 3) + 0.5 * sin(time / 17)
+        val lag = SensorSpec("", listOf(SensorStage.Lag(6.0))).build(water(0.0), Random(0))
+        val noise = java.util.Random(2)
+        val shown = DoubleArray(n * every) { row ->
+            // Stepped in tenths, each with the water of its middle.
+            if (row == 0) return@DoubleArray water(0.0)
+            (1..10).map { lag.step(water(row - 1 + (it - 0.5) / 10), 0.1, Conditions.NONE) }.last()
+        }
+        return MeasuredSeries(
+            DoubleArray(n) { it * every.toDouble() },
+            DoubleArray(n) { it * every + 3 * sin(it / 9.0) },
+            DoubleArray(n),
+            DoubleArray(n) { shown[it * every] + 0.002 * noise.nextGaussian() },
+            DoubleArray(n) { water(it * every.toDouble()) },
+            isSparse = every > 1,
+        )
+    }
+
+    @Test
+    fun aReferenceTooSparseForTheWaterNamesNothing() {
+        assertEquals(Verdict.Consistent, Diagnosis(sparse(1)).run().verdict)
+        assertIs<Verdict.InsufficientData>(Diagnosis(sparse(7)).run().verdict)
+    }
+
+    @Test
+    fun aNumberAtTheEndOfItsSearchHasAnIntervalToOneSide() {
+        val delay = Diagnosis(log(SensorStage.Lag(6.0))).run().candidates.single { it.cause == Cause.DEAD_TIME }
+        val estimate = delay.parameters.single { it.name == "dead_time_s" }
+        val interval = assertNotNull(estimate.interval)
+        assertTrue(interval.upper > estimate.value, "$estimate")
+        if (estimate.value == 0.0) assertEquals(0.0, interval.lower, 0.0)
     }
 
     @Test

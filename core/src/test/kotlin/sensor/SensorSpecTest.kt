@@ -28,6 +28,7 @@ class SensorSpecTest {
             SensorStage.Asymmetric(7.0, 13.0),
             SensorStage.Delay(2.5),
             SensorStage.TwoPath(2.0, 40.0, 0.3),
+            SensorStage.Combined(9.5, 1.0, 0.5, 20.0, 0.03, 1.3, 4.0, 0.2),
             SensorStage.FlowLag(9.5, 1.0, 0.5),
             SensorStage.TemperatureLag(9.5, 20.0, 0.03),
             SensorStage.Calibration(1.1, -0.4),
@@ -156,7 +157,7 @@ class SensorSpecTest {
         fun stage(json: String) = """{"name": "x", "stages": [{"type": "noise", "standard_deviation": 1}, $json]}"""
         for ((json, words) in listOf(
             stage("""{"type": "warp", "factor": 9}""") to
-                listOf("type", "asymmetric-lag, cross-sensitivity, dead-time, drift, first-order-lag", "$.stages[1]"),
+                listOf("type", "asymmetric-lag, combined-lag, cross-sensitivity, dead-time, drift, first-order-lag", "$.stages[1]"),
             stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to
                 listOf("timeConstant (-2.0 s) must be above 0", "$.stages[1]"),
             stage("""{"type": "first-order-lag"}""") to listOf("time_constant_s", "$.stages[1]"),

@@ -35,6 +35,10 @@ class CorrectCommand : WorkCommand("correct") {
         metavar = "FILE",
         help = "sensor spec (JSON), taken as given; without it the sensor is learned from the log",
     )
+    private val conditions by conditions(
+        "quantity on which a given sensor depends: temperature (degrees Celsius), salinity or what its file names; " +
+            "speed (m/s) is taken from the positions without it. Repeatable",
+    )
     private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
         .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
     private val heldOut by option(
@@ -55,6 +59,7 @@ class CorrectCommand : WorkCommand("correct") {
             "stillwater correct profiles.csv --x pres_dbar --value doxy_umol",
             "stillwater correct survey.csv --value slow --reference fast --out corrected",
             "stillwater correct survey.csv --value odo_percent_sat --sensor sensor.json",
+            "stillwater correct survey.csv --value do --sensor extended-sensor.json --condition temperature=temp_c",
         ),
     )
 
@@ -65,8 +70,8 @@ class CorrectCommand : WorkCommand("correct") {
         val spec = sensor?.let(SensorFile::read)
         val file = Path.of(log)
         val choice = logOptions.choice()
-        val conditions = reference?.let { mapOf(CorrectedLog.REFERENCE to it) }.orEmpty()
-        val opened = SurveyLog.open(file, choice.copy(conditions = conditions))
+        val wanted = conditions.toMap() + reference?.let { mapOf(CorrectedLog.REFERENCE to it) }.orEmpty()
+        val opened = SurveyLog.open(file, choice.copy(conditions = wanted))
         if (reference != null && opened.format.startsWith("Platypus")) {
             throw failure("--reference: expected a CSV log, found a Platypus log")
         }
@@ -79,7 +84,7 @@ class CorrectCommand : WorkCommand("correct") {
             val shown = !quiet && bytes >= WORTH_SHOWING
             val result = WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
                 try {
-                    CorrectedLog.of(opened, spec, reference != null, progress::advance)
+                    CorrectedLog.of(opened, spec, reference != null, conditions.map { it.first }, progress::advance)
                 } catch (wrong: IllegalArgumentException) {
                     if (spec == null) throw wrong
                     throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
@@ -102,7 +107,7 @@ class CorrectCommand : WorkCommand("correct") {
     private fun commandLine(): String = commandLineText(
         "stillwater correct",
         log,
-        logOptions.flags() +
+        logOptions.flags() + conditions.map { (name, column) -> "--condition" to "$name=$column" } +
             listOf(
                 "--out" to out,
                 "--reference" to reference,

@@ -1,13 +1,12 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
-import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
-import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import kotlinx.coroutines.runBlocking
 import stillwater.diagnose.Diagnosis
@@ -32,17 +31,10 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         metavar = "COLUMN",
         help = "column with the truth up to noise: a fast sensor, or known samples on a bench",
     )
-    private val conditions by option(
-        "--condition",
-        metavar = "NAME=COLUMN",
-        help = "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own " +
-            "causes. Repeatable",
-    ).convert { text ->
-        val name = text.substringBefore('=').trim()
-        val column = text.substringAfter('=', "").trim()
-        if (name.isEmpty() || column.isEmpty()) throw BadFlag(this.name, "NAME=COLUMN", "'$text'")
-        name to column
-    }.multiple()
+    private val conditions by conditions(
+        "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own causes. " +
+            "Repeatable",
+    )
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
@@ -53,7 +45,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         "--numbers-only",
         help = "no figures, no report and no comparison of maps",
     ).flag()
-    private val quiet by option("--quiet", help = "no summary").flag()
+    private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
     private val json by option("--json", help = "print diagnosis.json instead of a summary").flag()
 
     override fun help(context: Context) = "Find out what the simulation gets wrong about a log, and name the cause."
@@ -69,8 +61,6 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     )
 
     override fun work() {
-        val twice = conditions.map { it.first }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }
-        if (twice != null) throw BadFlag("--condition", "each name once", "'${twice.key}' several times")
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
         val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
@@ -82,7 +72,11 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
-            val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
+            val shown = !quiet && !json
+            val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
+                val settings = DiagnosisSettings(base = given)
+                Diagnosis(read.series, settings) { progress.advance((it * WHOLE).toLong()) }.run()
+            }
             val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
@@ -117,6 +111,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     }
 
     private companion object {
+        /** Progress is told in per cent. */
+        const val WHOLE = 100L
+
         /** Fewer are no log. */
         const val FEWEST_ROWS = 5
     }

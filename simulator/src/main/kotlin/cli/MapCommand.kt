@@ -9,12 +9,15 @@ import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.correct.CorrectedLog
 import stillwater.io.DecimalText
 import stillwater.io.SurveyLog
 import stillwater.model.Interval
 import stillwater.report.OutputDirectory
 import stillwater.run.FilterKind
 import stillwater.run.LagFilterSettings
+import stillwater.sensor.SensorSpec
+import stillwater.survey.GivenCorrection
 import stillwater.survey.GridWish
 import stillwater.survey.MapFiles
 import stillwater.survey.MapJson
@@ -34,6 +37,14 @@ class MapCommand : WorkCommand("map") {
     private val logOptions by LogOptions()
     private val filterOptions by BoundedFilterOptions()
     private val lagOptions by LagFilterOptions()
+    private val sensor by option(
+        "--sensor",
+        metavar = "FILE",
+        help = "sensor spec (JSON): its response is undone, as by correct, and the corrected readings are mapped",
+    )
+    private val conditions by conditions(
+        "quantity on which that sensor depends, such as temperature (degrees Celsius). Repeatable",
+    )
     private val filters by option(
         "--filter",
         metavar = "NAMES",
@@ -86,6 +97,7 @@ class MapCommand : WorkCommand("map") {
             "stillwater map survey.csv --value odo_percent_sat --unit %sat --out map",
             "stillwater map platypus_20160519.txt --value ATLAS_DO --cell 2",
             "stillwater map profiles.csv --x pres_dbar --value doxy_umol",
+            "stillwater map survey.csv --value odo_percent_sat --sensor sensor.json --filter averaging",
             "stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120 --json",
         ),
     )
@@ -94,10 +106,12 @@ class MapCommand : WorkCommand("map") {
         if (cell != null && gridSize != null) throw failure("--grid: expected either --grid or --cell, found both")
         if (calibrate != null && !epsilon.isNaN()) throw failure("--calibrate: expected --epsilon auto, found a number")
         val file = Path.of(log)
-        val opened = SurveyLog.open(file, logOptions.choice())
+        if (sensor == null && conditions.isNotEmpty()) throw failure("--condition: expected --sensor beside it")
+        val spec = sensor?.let(SensorFile::read)
+        val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
         OutputDirectory(Path.of(out)).use { directory ->
-            val map = read(opened, file)
+            val map = read(opened, file, spec?.let { correction(opened, it) })
             val summary = MapSummary(map)
             val drawing = MapFiles(map, summary, commandLine()).write(directory)
             val written = directory.commit()
@@ -113,13 +127,20 @@ class MapCommand : WorkCommand("map") {
         }
     }
 
-    private fun read(opened: SurveyLog, file: Path): SurveyMap {
+    private fun correction(opened: SurveyLog, spec: SensorSpec): GivenCorrection = try {
+        val corrected = CorrectedLog.of(opened, spec, hasReference = false, conditions.map { it.first })
+        GivenCorrection(spec.name, corrected.track.values)
+    } catch (wrong: IllegalArgumentException) {
+        throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
+    }
+
+    private fun read(opened: SurveyLog, file: Path, correction: GivenCorrection?): SurveyMap {
         // Every byte is read twice.
         val bytes = 2 * Files.size(file)
         val shown = !quiet && bytes >= WORTH_SHOWING
         return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
             try {
-                SurveyMap.of(opened, settings(), progress::advance)
+                SurveyMap.of(opened, settings(), correction, progress::advance)
             } catch (unfit: UnfitGrid) {
                 throw failure("${if (gridSize == null) "--cell" else "--grid"}: ${unfit.message}")
             }
@@ -153,7 +174,8 @@ class MapCommand : WorkCommand("map") {
             "--epsilon" to epsilon.takeIf { !it.isNaN() },
             "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
             "--unit" to unit,
-        )
+            "--sensor" to sensor,
+        ) + conditions.map { (name, column) -> "--condition" to "$name=$column" }
         return commandLineText(
             "stillwater map",
             log,

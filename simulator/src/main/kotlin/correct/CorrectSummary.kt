@@ -158,6 +158,12 @@ internal class CorrectSummary(
             if (result.learnedOn in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
                 add("the sensor was learned on the ${result.learnedOn} readings in the middle of the log")
             }
+            if (result.held) {
+                add(
+                    "the reference looks held over each step, as a simulation holds it: sensor.json is of such " +
+                        "steps, and half a step less is undone",
+                )
+            }
             if (result.withoutReference > 0) add("${result.withoutReference} readings have no reference")
         }
 }

@@ -4,6 +4,7 @@ import kotlinx.coroutines.Dispatchers
 import kotlinx.coroutines.async
 import kotlinx.coroutines.awaitAll
 import kotlinx.coroutines.runBlocking
+import stillwater.diagnose.MeasuredSeries
 import stillwater.estimate.CandidateResponse
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.LikelyResponse
@@ -53,6 +54,7 @@ enum class SensorOrigin(val label: String) {
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
  * @property withoutReference readings left out because the reference is missing there.
+ * @property held whether the reference looks held over each step, as in a simulation: the sensor is that of such steps.
  */
 class CorrectedLog internal constructor(
     val log: SurveyLog,
@@ -68,6 +70,7 @@ class CorrectedLog internal constructor(
     val learnedOn: Int,
     val blocks: Int,
     val withoutReference: Int,
+    val held: Boolean,
 ) {
     /**
      * How well a sensor that is learned on some legs corrects the others; empty where the sensor was not learned from
@@ -97,6 +100,7 @@ class CorrectedLog internal constructor(
         val readings: Int,
         val blocks: Int,
         val withoutReference: Int = 0,
+        val held: Boolean = false,
     )
 
     companion object {
@@ -118,17 +122,29 @@ class CorrectedLog internal constructor(
          * Reads [log] and corrects it.
          *
          * @param given the sensor, or null to learn it. @param hasReference whether readings carry [REFERENCE].
+         * @param conditions names of the conditions that readings carry beside it.
          * @param progress told how many bytes have been read.
          * @throws LogProblem if the log cannot be used.
          * @throws IllegalArgumentException if [given] cannot be undone.
          */
-        fun of(log: SurveyLog, given: SensorSpec?, hasReference: Boolean, progress: (Long) -> Unit = {}): CorrectedLog {
+        fun of(
+            log: SurveyLog,
+            given: SensorSpec?,
+            hasReference: Boolean,
+            conditions: Collection<String> = emptyList(),
+            progress: (Long) -> Unit = {},
+        ): CorrectedLog {
             val undone = given?.let(UndoableSensor::of)
-            val rows = Rows()
+            val missing = undone?.needs.orEmpty() - conditions.toSet() - Conditions.SPEED
+            require(missing.isEmpty()) {
+                "undoing it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}"
+            }
+            val names = conditions.toList()
+            val rows = Rows(names.size)
             val scan = SurveyScan()
-            val pass = log.read(progress) { time, x, y, value, conditions ->
-                rows.add(time.seconds, x, y, value, conditions[REFERENCE])
-                scan.take(time, x, y, value, conditions)
+            val pass = log.read(progress) { time, x, y, value, seen ->
+                rows.add(time.seconds, x, y, value, seen[REFERENCE], *DoubleArray(names.size) { seen[names[it]] })
+                scan.take(time, x, y, value, seen)
             }
             if (pass.readings < FEWEST) {
                 throw LogProblem(
@@ -156,7 +172,8 @@ class CorrectedLog internal constructor(
                 else -> byRevisits(series)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
-            val track = corrected(series, learned, spec.stages, resolution)
+            val others = withSpeed(series, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
+            val track = corrected(series, learned, spec.stages, resolution, others)
             return CorrectedLog(
                 log,
                 pass,
@@ -171,6 +188,7 @@ class CorrectedLog internal constructor(
                 learned.readings,
                 learned.blocks,
                 learned.withoutReference,
+                learned.held,
             )
         }
 
@@ -180,10 +198,17 @@ class CorrectedLog internal constructor(
             learned: Learned,
             stages: List<SensorStage>,
             resolution: Double,
+            conditions: Map<String, DoubleArray> = emptyMap(),
         ): CorrectedTrack {
             val sensor = UndoableSensor.of(SensorSpec("", stages))
-            val scaled = sensor.calibrated(series)
+            val scaled = sensor.calibrated(series, conditions)
             return TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(learned.likely)
+        }
+
+        /** [conditions] and the speed, from the positions where the log does not hold it, as the diagnosis takes it. */
+        private fun withSpeed(series: TrackSeries, conditions: Map<String, DoubleArray>): Map<String, DoubleArray> {
+            val measured = MeasuredSeries(series.times, series.xs, series.ys, series.values, null, conditions)
+            return conditions + (Conditions.SPEED to measured.speed)
         }
 
         private fun resolution(statistics: SurveyStatistics) = statistics.resolution.takeIf { it.isFinite() } ?: 0.0
@@ -234,19 +259,27 @@ class CorrectedLog internal constructor(
             val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
             val part = series.at(usable)
             val reference = DoubleArray(usable.size) { references[usable[it]] }
-            val learner = ReferenceLearner(part, reference)
-            val choice = requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference) })
+            val held = ReferenceLearner.isHeld(part, reference)
+            val learner = ReferenceLearner(part, reference, held)
+            val choice =
+                requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
+            // What is undone is a response to water that changes all the time.
+            val likely = choice.likely().map { open ->
+                if (!held) return@map open
+                LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight)
+            }
             val response = choice.first.response
             val (gain, offset) = learner.calibration(response)
             val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
             return Learned(
                 SensorOrigin.REFERENCE,
                 choice,
-                choice.likely(),
+                likely,
                 stages,
                 part.size,
                 learner.groups,
                 series.size - known.size,
+                held,
             )
         }
 
@@ -286,12 +319,12 @@ class CorrectedLog internal constructor(
 }
 
 /** Rows of a log as they come. */
-private class Rows {
-    private var columns = Array(COLUMNS) { DoubleArray(FIRST) }
+private class Rows(others: Int) {
+    private var columns = Array(COLUMNS + others) { DoubleArray(FIRST) }
     private var size = 0
 
     fun add(vararg row: Double) {
-        if (size == columns[0].size) columns = Array(COLUMNS) { columns[it].copyOf(2 * size) }
+        if (size == columns[0].size) columns = Array(columns.size) { columns[it].copyOf(2 * size) }
         for (i in row.indices) columns[i][size] = row[i]
         size++
     }
@@ -299,6 +332,8 @@ private class Rows {
     fun series() = TrackSeries(of(0), of(1), of(2), of(3))
 
     fun references(): DoubleArray = of(4)
+
+    fun condition(i: Int): DoubleArray = of(COLUMNS + i)
 
     private fun of(column: Int) = columns[column].copyOf(size)
 

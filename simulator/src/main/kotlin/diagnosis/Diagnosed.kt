@@ -1,8 +1,8 @@
 package stillwater.diagnosis
 
-import stillwater.diagnose.Candidate
 import stillwater.diagnose.Cause
 import stillwater.diagnose.DiagnosisResult
+import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
@@ -62,13 +62,14 @@ class Diagnosed(
     }
 
     private fun sentence(cause: Cause): String {
-        val candidate = result.candidates.firstOrNull { it.cause == cause }
-        val numbers = candidate?.let { numbers(it) }.orEmpty()
+        val parameters = result.effects.firstOrNull { it.cause == cause }?.parameters
+            ?: result.candidates.firstOrNull { it.cause == cause }?.parameters.orEmpty()
+        val numbers = numbers(parameters)
         return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
     }
 
-    /** The numbers of [candidate] in words. */
-    fun numbers(candidate: Candidate): String = candidate.parameters.joinToString(", ") { estimate ->
+    /** [parameters] in words. */
+    fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { estimate ->
         val three = SignificantDigits(3)
         val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
         val unit = if (estimate.unit.isEmpty()) "" else " ${estimate.unit}"

@@ -2,6 +2,7 @@ package stillwater.diagnosis
 
 import stillwater.diagnose.Candidate
 import stillwater.diagnose.Cause
+import stillwater.diagnose.Revisits
 import stillwater.diagnose.Verdict
 import stillwater.model.Conditions
 import stillwater.plot.Figure
@@ -33,6 +34,8 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     fun draw(): List<DiagnosisFigure> = buildList {
         add(predicted())
         causes().forEach { add(cause(it)) }
+        if (Cause.OUTLIERS in named) add(outliers())
+        if (Cause.TIME_VARYING_FIELD in named) result.revisits?.let { add(revisits(it)) }
         add(against("time", "Time since the first row (s)", time))
         add(against("value", "Predicted value of $quantity", result.baseline.predicted))
         add(against("rate", "Predicted rate of change (1/s)", rate()))
@@ -160,7 +163,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
 
     /** The causes of the answer, and others that look likely. */
     private fun causes(): List<Candidate> = result.candidates.filter {
-        it.cause != Cause.OUTLIERS && (it.cause in named || it.adjustedPValue < 0.05)
+        it.cause !in beside && (it.cause in named || it.adjustedPValue < 0.05)
     }
         .distinctBy { it.cause }
 
@@ -178,6 +181,50 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         )
         val caption = if (isNamed) candidate.cause.sentence else "Not named. Tried was: ${candidate.cause.sentence}"
         return DiagnosisFigure("cause-${candidate.cause.label}", plot.draw(), caption)
+    }
+
+    /** Causes that do not show in what the model predicts. */
+    private val beside = setOfNotNull(Cause.OUTLIERS, Cause.TIME_VARYING_FIELD.takeIf { result.revisits != null })
+
+    private fun outliers(): DiagnosisFigure {
+        val far = result.spikes
+        val series = listOf(
+            Series("residual of the base", time, residual, mark = Mark.POINTS),
+            Series(
+                "far off",
+                DoubleArray(far.size) { time[far[it]] },
+                DoubleArray(far.size) { residual[far[it]] },
+                mark = Mark.POINTS,
+            ),
+        )
+        val label = Cause.OUTLIERS.label
+        val plot = LinePlot(label, "", series, "Time since the first row (s)", quantity, references = listOf(0.0))
+        return DiagnosisFigure("cause-$label", plot.draw(), Cause.OUTLIERS.sentence)
+    }
+
+    /** What the reference says where the track crosses itself. */
+    private fun revisits(revisits: Revisits): DiagnosisFigure {
+        val shown = revisits.later.indices step maxOf(1, revisits.later.size / MOST_POINTS)
+        val longest = revisits.later.max()
+        val series = listOf(
+            Series(
+                "crossings",
+                shown.map { revisits.later[it] }.toDoubleArray(),
+                shown.map { revisits.higher[it] }.toDoubleArray(),
+                mark = Mark.POINTS,
+            ),
+            Series("even change", doubleArrayOf(0.0, longest), doubleArrayOf(0.0, longest * revisits.rate)),
+        )
+        val label = Cause.TIME_VARYING_FIELD.label
+        val plot = LinePlot(
+            label,
+            "",
+            series,
+            "Time between two visits of a place (s)",
+            "Change of the reference",
+            references = listOf(0.0),
+        )
+        return DiagnosisFigure("cause-$label", plot.draw(), Cause.TIME_VARYING_FIELD.sentence)
     }
 
     private fun rate() = DoubleArray(n) { i ->
@@ -219,6 +266,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         private const val MOST_POINTS = 2000
         private const val MOST_LAGS = 60
         private const val PARTS = 20
+
 
         /** All names that a figure may have. */
         val NAMES = listOf("predicted", "correlation") +

@@ -51,7 +51,7 @@ class DiagnosisLog private constructor(
                 log.format,
                 log.quantity,
                 reference,
-                columns.series(reference != null),
+                columns.series(reference != null, missing > 0),
                 columns,
                 pass,
                 missing,

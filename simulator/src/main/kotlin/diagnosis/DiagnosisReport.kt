@@ -86,7 +86,7 @@ internal class DiagnosisReport(
                     candidate.cause.label +
                         (candidate.condition?.let { " ($it)" } ?: "")
                 }
-                text("Numbers (95 %)") { diagnosed.numbers(it) }
+                text("Numbers (95 %)") { diagnosed.numbers(it.parameters) }
                 number("Residuals") { it.trainRmse }
                 number("On held-out blocks") { it.heldOutRmse }
                 number("p, for all tried") { it.adjustedPValue }
@@ -124,7 +124,8 @@ internal class DiagnosisReport(
                 "correlated.",
             "A cause is named only if its likelihood ratio, divided by what the scores' remaining correlation " +
                 "inflates it, is significant for all causes tried (Holm) and the likelihood of held-out blocks " +
-                "rises. Causes whose ratios are closer than the track can separate are named together.",
+                "rises. Causes that this track hardly tells apart are named together: the set holds the right one " +
+                "with nine chances in ten.",
             "Intervals hold if the model is right.",
         )
     }

@@ -77,6 +77,8 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
                     is SensorStage.TwoPath -> longest += stage.slow
                     is SensorStage.FlowLag -> longest += stage.timeConstant
                     is SensorStage.TemperatureLag -> longest += stage.timeConstant
+                    is SensorStage.Combined ->
+                        longest += stage.timeConstant * if (stage.slowShare > 0) stage.slowOverFast else 1.0
                     is SensorStage.Delay -> longest += stage.deadTime
                     is SensorStage.Noise -> error += NOISE_REACH * stage.standardDeviation
                     is SensorStage.Quantum -> error += stage.step / 2

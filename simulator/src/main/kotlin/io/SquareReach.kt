@@ -2,17 +2,25 @@ package stillwater.io
 
 import kotlin.math.abs
 
-/** Numbers that estimation can take: their squares, and products of some of these, are still numbers. */
+/**
+ * Numbers that estimation can take: their squares, and products of some of these, are still numbers, neither too large
+ * nor, where a column holds nothing larger, so small that they vanish.
+ */
 internal object SquareReach {
     private const val LARGEST = 1e60
+    private const val SMALLEST = 1e-60
 
     /**
-     * Refuses [log] if one of [columns] holds a larger number; NaN stands for none.
+     * Refuses [log] if one of [columns] holds a larger number, or none but smaller ones beside 0; NaN stands for none.
      *
      * @throws LogProblem if so.
      */
     fun require(log: SurveyLog, vararg columns: DoubleArray) {
-        val found = columns.firstNotNullOfOrNull { column -> column.firstOrNull { abs(it) > LARGEST } } ?: return
-        throw LogProblem(log.file, null, null, "readings within -$LARGEST..$LARGEST", "$found")
+        val large = columns.firstNotNullOfOrNull { column -> column.firstOrNull { abs(it) > LARGEST } }
+        if (large != null) throw LogProblem(log.file, null, null, "readings within -$LARGEST..$LARGEST", "$large")
+        val small = columns.firstNotNullOfOrNull { column ->
+            column.filter { it.isFinite() }.maxOfOrNull { abs(it) }?.takeIf { it > 0 && it < SMALLEST }
+        } ?: return
+        throw LogProblem(log.file, null, null, "readings of which some are beyond ±$SMALLEST", "none beyond $small")
     }
 }

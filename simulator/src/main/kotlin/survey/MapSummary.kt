@@ -22,6 +22,9 @@ class MapSummary(private val map: SurveyMap) {
     val facts: List<Pair<String, String>> = buildList {
         add("log" to "${map.log.file.fileName} (${map.log.format})")
         add("readings" to "${map.pass.readings} of $quantity")
+        map.correction?.let {
+            add("corrected for" to "the sensor given (${it.sensor}); maps and figures show the water")
+        }
         map.pass.skipped.forEach { (reason, count) -> add(reason to "$count skipped") }
         val outside = map.maps.values.maxOfOrNull { it.outside } ?: 0
         if (outside > 0) add("readings outside the grid" to "$outside in no cell")

@@ -58,6 +58,7 @@ data class MapSettings(
  * @property epsilonGiven whether the user gave the bounded filter's epsilon.
  * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
  * @property unit unit of the quantity as the user gave it, or null.
+ * @property correction what was mapped in place of the readings, or null.
  */
 class SurveyMap internal constructor(
     val log: SurveyLog,
@@ -79,6 +80,7 @@ class SurveyMap internal constructor(
     val stepSlope: Double,
     val unit: String?,
     val learned: SelfCalibratingEstimator?,
+    val correction: GivenCorrection?,
 ) {
     companion object {
         private const val PRIOR_MARGIN = 0.1
@@ -87,18 +89,30 @@ class SurveyMap internal constructor(
          * Goes through [log] twice: once to see what it is, once into the filters. Read again is only what is too long
          * to be kept; the legs are compared meanwhile, on the other cores.
          *
+         * @param correction what to map in place of the readings, or null.
          * @param progress told how many bytes of the two readings are done.
          * @throws LogProblem if the log cannot be used.
          */
-        fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap =
-            runBlocking(Dispatchers.Default) { read(log, settings, progress) }
+        fun of(
+            log: SurveyLog,
+            settings: MapSettings,
+            correction: GivenCorrection? = null,
+            progress: (Long) -> Unit = {},
+        ): SurveyMap = runBlocking(Dispatchers.Default) { read(log, settings, correction, progress) }
 
-        private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
+        private suspend fun read(
+            log: SurveyLog,
+            settings: MapSettings,
+            correction: GivenCorrection?,
+            progress: (Long) -> Unit,
+        ) = coroutineScope {
             val scan = SurveyScan()
             val kept = KeptReadings()
             val epsilon = EpsilonSearch(settings)
             var bytes = 0L
-            val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, value, conditions ->
+            var row = 0
+            val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, read, conditions ->
+                val value = correction?.at(row++) ?: read
                 scan.take(time, x, y, value, conditions)
                 kept.take(time, x, y, value, conditions)
                 epsilon.add(time.seconds, value)
@@ -126,7 +140,14 @@ class SurveyMap internal constructor(
                 gaps.add(time.seconds, x, y)
                 if (value !in prior.lower..prior.upper) outsideRange++
             }
-            if (kept.holds(first.readings)) kept.read(takeIn) else log.read({ progress(bytes + it) }, takeIn)
+            if (kept.holds(first.readings)) {
+                kept.read(takeIn)
+            } else {
+                row = 0
+                log.read({ progress(bytes + it) }) { time, x, y, read, conditions ->
+                    takeIn.take(time, x, y, correction?.at(row++) ?: read, conditions)
+                }
+            }
             progress(2 * bytes)
             passes.finish()
             SurveyMap(
@@ -149,6 +170,7 @@ class SurveyMap internal constructor(
                 stepSlope,
                 settings.unit,
                 estimators.values.firstNotNullOfOrNull(::learner),
+                correction,
             )
         }
 
@@ -182,6 +204,12 @@ class SurveyMap internal constructor(
             return Interval(statistics.lowest - margin, statistics.highest + margin)
         }
     }
+}
+
+/** Readings as [sensor], a sensor that was given, must have seen the water; [values] in the order of the log's rows. */
+class GivenCorrection(val sensor: String, private val values: DoubleArray) {
+    /** The water at reading [row]. */
+    internal fun at(row: Int): Double = values[row]
 }
 
 /** Finds epsilon on the first reading of a log where [settings] ask for it. */

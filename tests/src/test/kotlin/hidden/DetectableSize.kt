@@ -12,12 +12,16 @@ import kotlin.math.sqrt
  * and P
  * the projection off what the unknowns can imitate. Strength 1x is where √λ = 6.36: at a level of 0.1 %, shared by 18
  * causes (two-sided 4.03 standard deviations), the test then has a power of 99 % (2.33 more).
+ *
+ * Where a sensor is given ([isGiven], with [offset]) its numbers are not unknown: only the first state is.
  */
 internal class DetectableSize(
     private val noise: HiddenNoise,
     private val readings: (Map<HiddenEffect, Double>) -> DoubleArray,
     private val base: (Double) -> DoubleArray,
     private val timeConstant: Double,
+    private val isGiven: Boolean,
+    private val offset: Double,
 ) {
     private val clean = base(timeConstant)
     private val imitable: List<DoubleArray> = imitable()
@@ -25,12 +29,16 @@ internal class DetectableSize(
     private fun imitable(): List<DoubleArray> {
         val n = clean.size
         val longer = base(timeConstant * 1.01)
-        val columns = listOf(
-            DoubleArray(n) { longer[it] - clean[it] },
-            DoubleArray(n) { clean[it] - clean.average() },
-            DoubleArray(n) { 1.0 },
-            DoubleArray(n) { exp(-it / 10.0) },
-        )
+        val first = listOf(DoubleArray(n) { exp(-it / 10.0) })
+        val columns = if (isGiven) {
+            first
+        } else {
+            listOf(
+                DoubleArray(n) { longer[it] - clean[it] },
+                DoubleArray(n) { clean[it] - clean.average() },
+                DoubleArray(n) { 1.0 },
+            ) + first
+        }
         val found = ArrayList<DoubleArray>()
         for (column in columns) {
             val rest = off(noise.innovations(column), found)
@@ -73,18 +81,15 @@ internal class DetectableSize(
     /** √λ of [effect] at [strength]. */
     private fun reach(effect: HiddenEffect, strength: Double): Double = when (effect) {
         HiddenEffect.OUTLIERS -> outliers(strength)
-        HiddenEffect.QUANTISATION -> distance(rounded(strength * noise.spread))
+        HiddenEffect.TIME_CONSTANT -> distance(base(timeConstant * exp(strength)))
+        HiddenEffect.GAIN_OFFSET -> distance(DoubleArray(clean.size) { clean[it] + strength * (clean[it] - offset) })
+        HiddenEffect.QUANTISATION -> distance(rounded(clean, noise.spread, strength * noise.spread))
         else -> distance(readings(mapOf(effect to strength)))
     }
 
     private fun distance(shown: DoubleArray): Double {
         val difference = DoubleArray(clean.size) { shown[it] - clean[it] }
         return sqrt(off(noise.innovations(difference), imitable).sumOf { it * it })
-    }
-
-    /** The mean over the noise of what rounding to [step] shows. */
-    private fun rounded(step: Double) = DoubleArray(clean.size) { i ->
-        QUANTILES.sumOf { step * Math.rint((clean[i] + noise.spread * it) / step) } / QUANTILES.size
     }
 
     /** √ of twice the expected log-likelihood ratio of the mixture against the noise alone. */
@@ -103,19 +108,26 @@ internal class DetectableSize(
         return sqrt(maxOf(0.0, 2 * clean.size * sum))
     }
 
-    private companion object {
+    companion object {
+        /** The mean over noise of [spread] of what rounding [clean] to [step] shows. */
+        fun rounded(clean: DoubleArray, spread: Double, step: Double) = DoubleArray(clean.size) { i ->
+            QUANTILES.sumOf { step * Math.rint((clean[i] + spread * it) / step) } / QUANTILES.size
+        }
+
         const val DETECTABLE = 6.36
-        const val HALVINGS = 22
-        const val SQRT_2_PI = 2.5066282746310002
-        val QUANTILES = List(24) { quantile((it + 0.5) / 24) }
-        val THRESHOLD = setOf(
+        private const val HALVINGS = 22
+        private const val SQRT_2_PI = 2.5066282746310002
+        private val QUANTILES = List(24) { quantile((it + 0.5) / 24) }
+        private val THRESHOLD = setOf(
             HiddenEffect.SLEW,
             HiddenEffect.HYSTERESIS,
             HiddenEffect.SATURATION,
             HiddenEffect.QUANTISATION,
             HiddenEffect.OUTLIERS,
         )
-        val LARGEST = mapOf(
+        private val LARGEST = mapOf(
+            HiddenEffect.TIME_CONSTANT to 1.0,
+            HiddenEffect.GAIN_OFFSET to 1.0,
             HiddenEffect.SECOND_ORDER to 60.0,
             HiddenEffect.DEAD_TIME to 60.0,
             HiddenEffect.TWO_PATH to 0.6,
@@ -130,7 +142,7 @@ internal class DetectableSize(
         )
 
         /** Quantile of the standard normal by bisection of its series. */
-        fun quantile(p: Double): Double {
+        private fun quantile(p: Double): Double {
             var low = -8.0
             var high = 8.0
             repeat(60) {

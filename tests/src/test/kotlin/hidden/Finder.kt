@@ -49,11 +49,12 @@ internal object Finder {
         "heading=heading_rad",
     )
 
-    /** The answer about [log]; results go into [out]. */
-    fun ask(log: Path, withReference: Boolean, out: Path): FinderAnswer {
+    /** The answer about [log], with the believed [sensor] where there is one; results go into [out]. */
+    fun ask(log: Path, withReference: Boolean, out: Path, sensor: Path? = null): FinderAnswer {
         val arguments = listOf("$log", "--value", "value", "--out", "$out", "--numbers-only", "--quiet") +
             conditions.flatMap { listOf("--condition", it) } +
-            if (withReference) listOf("--reference", "reference") else emptyList()
+            (if (withReference) listOf("--reference", "reference") else emptyList()) +
+            if (sensor != null) listOf("--sensor", "$sensor") else emptyList()
         DiagnoseCommand().parse(arguments)
         return FinderAnswer(Json.parseToJsonElement(Files.readString(out.resolve("diagnosis.json"))).jsonObject)
     }

@@ -7,7 +7,7 @@ import java.nio.file.Path
 internal object HiddenCampaign {
     /** The scored cases of [seeds], with logs and results in [directory]. */
     fun run(
-        seeds: LongRange,
+        seeds: Iterable<Long>,
         withReference: Boolean,
         directory: Path,
         told: (ScoredCase) -> Unit = {},
@@ -16,22 +16,37 @@ internal object HiddenCampaign {
             val case = HiddenCase(seed, withReference)
             val log = directory.resolve("log.csv")
             case.write(log)
-            ScoredCase(seed, case.truth, Finder.ask(log, withReference, directory.resolve("out"))).also(told)
+            val sensor = directory.resolve("believed.json").takeIf { case.writeSensor(it) }
+            val answer = Finder.ask(log, withReference, directory.resolve("out"), sensor)
+            ScoredCase(seed, case.truth, answer, case.leftByTruth).also(told)
         }
 }
 
-/** `FIRST COUNT reference|blind`: prints the table of a campaign. */
+/** After so many cases the tables so far are written beside the table of cases. */
+private const val OFTEN = 10
+
+/**
+ * `FIRST COUNT reference|blind [CASES.tsv] [strong]`: prints the tables of a campaign; CASES.tsv gets a line a case,
+ * CASES.tsv.md the tables so far. With `strong` only single effects at the detectable size and above are asked about,
+ * for work on the finder.
+ */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
+    val withReference = arguments[2] == "reference"
     val directory = Files.createTempDirectory("hidden-effects")
-    val seeds = first until first + arguments[1].toLong()
-    val cases = HiddenCampaign.run(seeds.first..seeds.last, arguments[2] == "reference", directory) { case ->
-        val effects = case.truth.effects.keys.joinToString("+") { it.label }.ifEmpty { "none" }
-        System.err.println(
-            "${case.seed} ${case.truth.track} $effects %.2fx: ${case.answer.verdict} ${case.said}".format(
-                case.multiple,
-            ),
-        )
+    val all = first until first + arguments[1].toLong()
+    val seeds = if ("strong" in arguments) all.filter { HiddenCase(it, withReference).truth.isStrong } else all.toList()
+    val table = arguments.getOrNull(3)?.takeIf { it != "strong" }?.let { Path.of(it) }
+    val lines = ArrayList<String>()
+    val done = ArrayList<ScoredCase>()
+    val cases = HiddenCampaign.run(seeds, withReference, directory) { case ->
+        lines += case.line()
+        System.err.println(lines.last())
+        done += case
+        table?.let { Files.write(it, listOf(ScoredCase.COLUMNS) + lines) }
+        if (table != null && done.size % OFTEN == 0) {
+            Files.writeString(table.resolveSibling("${table.fileName}.md"), Scores(done).markdown())
+        }
     }
     println(Scores(cases).markdown())
     directory.toFile().deleteRecursively()

@@ -20,7 +20,12 @@ internal data class HiddenTruth(
     val multiples: Map<HiddenEffect, Double>,
     val timeConstant: Double,
     val noise: Double,
-)
+    val numbers: Map<HiddenEffect, Double>,
+) {
+    /** Whether it is one effect of the list at the detectable size or above. */
+    val isStrong: Boolean
+        get() = effects.size == 1 && effects.keys.single().listed && multiples.values.single() >= 1
+}
 
 /**
  * A log with or without hidden effects, drawn from a seed. The finder sees the file that [write] makes and nothing
@@ -48,18 +53,20 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         period = period,
     )
     private val jitter = if (random.nextBoolean()) 0.0 else 0.2 + 0.5 * random.nextDouble()
+
+    /** Whether the finder is given a sensor as it is believed to be; a wrong number in it is an effect by itself. */
+    private val isGiven = withReference && random.nextDouble() < GIVEN_SHARE
     private val drawn = draw()
 
     /** What is hidden; the scorer's alone. */
     val truth =
         HiddenTruth(
             kind,
-            drawn.mapValues {
-                it.value.first
-            },
+            drawn.mapValues { it.value.first },
             drawn.mapValues { it.value.second },
             timeConstant,
             noise.spread,
+            drawn.mapValues { it.value.first }.let { effects -> effects.mapValues { sensor(effects).number(it.key) } },
         )
 
     private fun kinds() = if (withReference) {
@@ -110,13 +117,28 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         val strange = HiddenEffect.entries.filter { !it.listed && fits(it) }
         val wanted = when {
             dice < 0.42 -> return emptyMap()
+            // A wrong number of a given sensor is as likely as all else together.
+            dice < 0.76 && isGiven && random.nextBoolean() ->
+                listOf(if (random.nextBoolean()) HiddenEffect.TIME_CONSTANT else HiddenEffect.GAIN_OFFSET)
             dice < 0.76 -> listOf(listed[random.nextInt(listed.size)])
             dice < 0.88 -> listed.shuffled(random).take(2)
             else -> listOf(strange[random.nextInt(strange.size)])
         }
         val multiple = exp(ln(0.25) + random.nextDouble() * ln(16.0))
-        val size = DetectableSize(noise, { sensor(it).readings() }, { sensor(emptyMap(), it).readings() }, timeConstant)
-        val found = wanted.associateWith { size.of(it, multiple) }
+        val size = DetectableSize(
+            noise,
+            { sensor(it).readings() },
+            { sensor(emptyMap(), it).readings() },
+            timeConstant,
+            isGiven,
+            offset,
+        )
+        val found = wanted.associateWith { effect ->
+            if (effect != HiddenEffect.TIME_VARYING || !withReference) return@associateWith size.of(effect, multiple)
+            // The reference shows the change itself: only coming back to a place does.
+            val detectable = HiddenRevisits(world, jitter, REFERENCE_NOISE * noise.spread).detectable()
+            (multiple * detectable).takeIf { it <= MOST }
+        }
         // What no strength makes detectable on this track is not asked for.
         return if (found.values.any {
                 it == null
@@ -129,11 +151,19 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
     }
 
     private fun fits(effect: HiddenEffect): Boolean = when (effect) {
-        HiddenEffect.TIME_VARYING -> !withReference
+        HiddenEffect.TIME_CONSTANT, HiddenEffect.GAIN_OFFSET -> isGiven
+        HiddenEffect.TIME_VARYING -> kind == TrackKind.SURVEY || kind == TrackKind.RANDOM_WALK
         HiddenEffect.POSITION, HiddenEffect.HEADING -> kind != TrackKind.BENCH && kind != TrackKind.TOW
         HiddenEffect.FLOW -> kind != TrackKind.BENCH
         else -> true
     }
+
+    /**
+     * Root mean square of what a model with the true numbers leaves of the readings that [write] wrote, sensor units;
+     * NaN before, and where no model of the reading predicts the effect (outliers, water that changes).
+     */
+    var leftByTruth = Double.NaN
+        private set
 
     /** Writes the log into [file]. */
     fun write(file: Path) {
@@ -148,8 +178,10 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         }
         val fine = 10.0.pow(ceil(log10(noise.spread / 30)))
         val quantum = truth.effects[HiddenEffect.QUANTISATION]?.let { it * noise.spread } ?: fine
+        leftByTruth = left(clean, values, quantum, outlying != null)
         val header = "time_s,x_m,y_m,value,speed_mps,temperature_c,salinity,heading_rad" +
             if (withReference) ",reference" else ""
+        val trend = truth.effects[HiddenEffect.TIME_VARYING] ?: 0.0
         val lines = ArrayList<String>()
         lines += header
         for (row in 0 until rows) {
@@ -166,7 +198,7 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
             )
             val known = if (withReference) {
                 listOf(
-                    world.truth(i) + 0.1 * noise.spread * random.normal(),
+                    world.truth(i, trend = trend) + REFERENCE_NOISE * noise.spread * random.normal(),
                 )
             } else {
                 emptyList()
@@ -174,6 +206,32 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
             lines += (numbers + known).joinToString(",") { "%.9g".format(Locale.ROOT, it) }
         }
         Files.write(file, lines)
+    }
+
+    /** Writes the sensor as it is believed to be into [file], where the case gives one; returns whether it does. */
+    fun writeSensor(file: Path): Boolean {
+        if (!isGiven) return false
+        val tau = timeConstant * exp(truth.effects[HiddenEffect.TIME_CONSTANT] ?: 0.0)
+        val believed = gain * (1 + (truth.effects[HiddenEffect.GAIN_OFFSET] ?: 0.0))
+        val lag = """{"type": "first-order-lag", "time_constant_s": $tau}"""
+        val calibration = """{"type": "gain-offset", "gain": $believed, "offset": $offset}"""
+        Files.writeString(file, """{"name": "believed", "stages": [$lag, $calibration]}""")
+        return true
+    }
+
+    private companion object {
+        const val GIVEN_SHARE = 0.15
+        const val REFERENCE_NOISE = 0.1
+
+        /** Stronger changes of the water than this, in its own spread, are not hidden. */
+        const val MOST = 3.0
+    }
+
+    private fun left(clean: DoubleArray, values: DoubleArray, quantum: Double, hasOutliers: Boolean): Double {
+        if (hasOutliers || (withReference && HiddenEffect.TIME_VARYING in truth.effects)) return Double.NaN
+        val expected = DetectableSize.rounded(clean, noise.spread, quantum)
+        val squares = values.indices.sumOf { i -> (quantum * Math.rint(values[i] / quantum) - expected[i]).pow(2) }
+        return sqrt(squares / values.size)
     }
 }
 

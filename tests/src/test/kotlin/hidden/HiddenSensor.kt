@@ -12,6 +12,8 @@ import kotlin.math.sin
 
 /** Effects that a case may hide: those of the diagnosis' list by its names, and some that are not in it. */
 internal enum class HiddenEffect(val label: String, val listed: Boolean = true) {
+    TIME_CONSTANT("time-constant"),
+    GAIN_OFFSET("gain-offset"),
     ASYMMETRIC("asymmetric-response"),
     SECOND_ORDER("second-order-response"),
     TWO_PATH("two-path-response"),
@@ -123,6 +125,28 @@ internal class HiddenSensor(
         return out
     }
 
+    /**
+     * The number of [effect] in the units in which a sensor file holds it, with the sign it has there; NaN where there
+     * is no such number.
+     */
+    fun number(effect: HiddenEffect): Double {
+        val strength = strength(effect)
+        return when (effect) {
+            HiddenEffect.CROSS, HiddenEffect.STEPS, HiddenEffect.HYSTERESIS -> gain * spread * strength
+            HiddenEffect.DRIFT -> gain * spread * strength / world.duration
+            HiddenEffect.SLEW -> gain * slewRate()
+            HiddenEffect.SATURATION -> end()
+            HiddenEffect.TIME_CONSTANT -> timeConstant
+            HiddenEffect.GAIN_OFFSET -> gain
+            HiddenEffect.TIME_VARYING -> world.amplitude * strength / world.duration
+            HiddenEffect.QUANTISATION, HiddenEffect.OUTLIERS -> Double.NaN
+            else -> strength
+        }
+    }
+
+    /** Strength 3 cuts at two spreads above the mean, 5 at the mean. */
+    private fun end() = gain * (middle + spread * (5 - strength(HiddenEffect.SATURATION))) + offset
+
     /** Strength 1 is the rate that a tenth of the signal's spread in a time constant makes; stronger is slower. */
     private fun slewRate() = spread / timeConstant / strength(HiddenEffect.SLEW)
 
@@ -157,9 +181,7 @@ internal class HiddenSensor(
             if (t > share) value += gain * spread * strength(HiddenEffect.STEPS) * if (k % 2 == 0) 1 else -1
         }
         if (HiddenEffect.SATURATION in effects) {
-            // Strength 3 cuts at two spreads above the mean, 5 at the mean.
-            val end = gain * (middle + spread * (5 - strength(HiddenEffect.SATURATION))) + offset
-            value = minOf(value, end)
+            value = minOf(value, end())
         }
         return value
     }

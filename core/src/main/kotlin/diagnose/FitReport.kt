@@ -1,0 +1,128 @@
+package stillwater.diagnose
+
+import stillwater.model.Interval
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** Fits as the answer shows them: numbers with intervals, residuals. [used] are the rows that were fitted. */
+internal class FitReport(private val series: MeasuredSeries, private val used: BooleanArray) {
+    private val bounded = LinkedHashSet<String>()
+
+    /** Numbers that ended where the search may not go on, one sentence each. */
+    val warnings: List<String> get() = bounded.toList()
+
+    /** Root mean square of [fit]'s residuals over the rows in use, sensor units. */
+    fun rmse(fit: ModelFit): Double {
+        var sum = 0.0
+        for (i in used.indices) if (used[i]) sum += fit.residuals[i] * fit.residuals[i]
+        return sqrt(sum / maxOf(used.count { it }, 1))
+    }
+
+    /** What the model of [fit] shows along the log, sensor units. */
+    fun predicted(fit: ModelFit) = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
+
+    /** [fit] as the answer shows it. */
+    fun assessment(fit: ModelFit, heldOut: HeldOutScore) = ModelAssessment(
+        estimates(fit, fit.model.terms, withBase = true, isAnswer = true),
+        rmse(fit),
+        heldOut.rmse,
+        heldOut.logLikelihood,
+        predicted(fit),
+        sqrt(fit.variance),
+        fit.noise.share,
+        fit.noise.time,
+        fit.whitened.let { z -> DoubleArray(z.size) { z[it] / sqrt(maxOf(fit.variance, 1e-300)) } },
+    )
+
+    /**
+     * The time constant and the numbers of [terms], with gain and offset where [withBase]; a number at the end of its
+     * search is warned of where [isAnswer].
+     */
+    fun estimates(
+        fit: ModelFit,
+        terms: List<Term>,
+        withBase: Boolean = false,
+        isAnswer: Boolean = false,
+    ): List<Estimate> {
+        val errors = errors(fit)
+        val indices = (if (withBase) 0 until ResponseModel.BASE - 1 else listOf(0)) +
+            terms.flatMap { term ->
+                val own = fit.model.slotOrNull(term)?.let { (it until it + fit.model.width(term)).toList() }.orEmpty()
+                if (withBase) own else term.cause.baseNumbers.filter { it != ResponseModel.TIME_CONSTANT } + own
+            }
+        // An end of the range that the sensor does not have is no number.
+        return indices.filter { abs(fit.numbers[it]) < ResponseModel.NO_END }.map { i ->
+            val parameter = fit.model.parameters[i]
+            Estimate(parameter.name, parameter.unit, fit.numbers[i], interval(fit, i, errors[i], isAnswer))
+        }
+    }
+
+    private fun interval(fit: ModelFit, i: Int, error: Double, isAnswer: Boolean): Interval? {
+        val parameter = fit.model.parameters[i]
+        val value = fit.numbers[i]
+        if (!fit.free[i]) return null
+        if (parameter.atLower(value) || parameter.atUpper(value)) {
+            if (isAnswer) {
+                bounded += "${parameter.name} ends at ${if (parameter.atLower(value)) "the least" else "the most"} " +
+                    "that is looked for: its interval is open to that side."
+            }
+            return beside(fit, i)
+        }
+        val reach = NORMAL_95 * error
+        if (!reach.isFinite() || reach == 0.0) return null
+        if (!parameter.logarithmic) return Interval(value - reach, value + reach)
+        return Interval(value * exp(-minOf(reach, FAR)), value * exp(minOf(reach, FAR)))
+    }
+
+    /**
+     * From the end of the search at which number [i] of [fit] is to where the likelihood has fallen by what a one-sided
+     * 95 % allows, the other numbers fitted anew; at most the whole way to the other end.
+     */
+    private fun beside(fit: ModelFit, i: Int): Interval {
+        val parameter = fit.model.parameters[i]
+        val isLower = parameter.atLower(fit.numbers[i])
+        val end = if (isLower) parameter.lower else parameter.upper
+        val free = fit.free.copyOf().also { it[i] = false }
+        val numbers = fit.numbers.copyOf()
+        var step = if (parameter.logarithmic) ln(2.0) else (parameter.upper - parameter.lower) * SMALLEST_PART
+        var value = end
+        for (attempt in 0 until MOST_STEPS) {
+            value = when {
+                parameter.logarithmic -> end * exp(if (isLower) step else -step)
+                isLower -> end + step
+                else -> end - step
+            }
+            if (value !in parameter.lower..parameter.upper) return Interval(parameter.lower, parameter.upper)
+            numbers[i] = value
+            val moved = Fitting.fit(fit.model, numbers, free, used, fit.noise.time, noise = fit.noise)
+            if (fit.score - moved.score > ONE_SIDED_95) break
+            step *= 2
+        }
+        return if (isLower) Interval(end, value) else Interval(value, end)
+    }
+
+    /** Standard error of every parameter on the scale it is fitted on; 0 where it was not fitted or does not show. */
+    private fun errors(fit: ModelFit): DoubleArray {
+        val columns = fit.jacobian
+        val system = SymmetricSystem.of(columns, fit.whitened)
+        val errors = DoubleArray(fit.numbers.size)
+        val free = fit.free.indices.filter { fit.free[it] }
+        free.forEachIndexed { k, i -> errors[i] = sqrt(maxOf(system.inverseDiagonal(k), 0.0) * fit.variance) }
+        return errors
+    }
+
+    /** Standard error of the time constant of [fit], on a logarithmic scale. */
+    fun timeConstantError(fit: ModelFit): Double = errors(fit)[ResponseModel.TIME_CONSTANT]
+
+    private companion object {
+        const val NORMAL_95 = 1.96
+
+        /** Chi-square with one degree of freedom at 90 %: 95 % to one side. */
+        const val ONE_SIDED_95 = 2.71
+        const val FAR = 50.0
+        const val SMALLEST_PART = 1e-4
+        const val MOST_STEPS = 14
+    }
+}

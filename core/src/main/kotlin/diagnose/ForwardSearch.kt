@@ -1,0 +1,123 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.math.ln
+
+/**
+ * Finds the combination of causes that explains a log: the best is added as long as one is worth it, then those are
+ * dropped that the others make needless. Where more than one is found, the search is begun anew with each of the next
+ * likeliest, because a combination can imitate a single cause that was second at first.
+ *
+ * @param terms all that is tried. @param told called after each trial.
+ */
+internal class ForwardSearch(
+    private val search: CauseSearch,
+    private val base: ModelFit,
+    private val baseHeldOut: HeldOutScore,
+    private val terms: List<Term>,
+    private val settings: DiagnosisSettings,
+    private val told: () -> Unit,
+) {
+    /** Each of [terms] alone on top of the base. */
+    val first: List<Trial> = terms.map { attempt(base, baseHeldOut, it) }
+
+    /** The trials chosen one after the other; each fit holds all before it. */
+    fun chosen(): List<Trial> {
+        val worthy = worthy(first, baseHeldOut)
+        val best = best(worthy) ?: return emptyList()
+        val found = from(best)
+        if (found.size < 2 || best.term.cause.baseNumbers.isNotEmpty()) return found
+        val keys = found.map { it.term.key }
+        // That something is at work is certain here: what might be it need be likely only.
+        val others = first.filter { it.pValue < LIKELY && it.term.key !in keys }
+            .sortedByDescending { it.worth }.take(OTHER_BEGINNINGS)
+        return (listOf(found) + others.map(::from)).maxBy(::worth)
+    }
+
+    private fun attempt(fit: ModelFit, heldOut: HeldOutScore, term: Term) =
+        search.attempt(fit, heldOut, term).also { told() }
+
+    /** Those of [trials] that are more than chance and foretell held-out blocks better than [heldOut]. */
+    private fun worthy(trials: List<Trial>, heldOut: HeldOutScore): List<Trial> {
+        val adjusted = Evidence.holm(trials.map { it.pValue })
+        return trials.indices.filter { i ->
+            adjusted[i] < settings.level && trials[i].heldOut.logLikelihood > heldOut.logLikelihood
+        }.map { trials[it] }
+    }
+
+    /** A wrong number of the base makes everything else look significant: it comes first, if it is one. */
+    private fun best(worthy: List<Trial>): Trial? =
+        worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }.ifEmpty { worthy }.maxByOrNull { it.worth }
+
+    /** The search that begins with [beginning]. */
+    private fun from(beginning: Trial): List<Trial> {
+        val chosen = arrayListOf(beginning)
+        while (chosen.size < settings.mostCauses) {
+            val last = chosen.last()
+            val taken = chosen.map { it.term.key }
+            val rest = terms.filter { it.key !in taken && compatible(it, chosen) }
+            chosen += best(worthy(rest.map { attempt(last.fit, last.heldOut, it) }, last.heldOut)) ?: break
+        }
+        return pruned(chosen)
+    }
+
+    private fun compatible(term: Term, chosen: List<Trial>) =
+        chosen.none { it.term.cause == Cause.TWO_PATH_RESPONSE } || term.cause != Cause.SECOND_ORDER_RESPONSE
+
+    /** What [chosen] gains over the base, less what its numbers and the choice among all causes gain by chance. */
+    private fun worth(chosen: List<Trial>): Double = chosen.last().fit.score - base.score -
+        chosen.sumOf { it.cost + 2 * ln(terms.size.toDouble()) }
+
+    /** [chosen] without what the later ones have made needless. */
+    private fun pruned(chosen: List<Trial>): List<Trial> {
+        if (chosen.size < 2) return chosen
+        val full = chosen.last().fit
+        val needless = chosen.dropLast(1).filter { trial ->
+            val without = search.without(full, trial.term, base)
+            Evidence.pValue(full.score - without.score, trial.degrees) * terms.size > settings.level
+        }
+        if (needless.isEmpty()) return chosen
+        val kept = chosen.filter { it !in needless }
+        var fit = base
+        var heldOut = baseHeldOut
+        return kept.map { trial ->
+            attempt(fit, heldOut, trial.term.copy(times = emptyList())).also {
+                fit = it.fit
+                heldOut = it.heldOut
+            }
+        }
+    }
+
+    /** For each of [chosen], those that would explain what it explains as well on this track; itself first. */
+    fun alike(chosen: List<Trial>): List<List<Cause>> = chosen.map { trial ->
+        if (chosen.size == 1) return@map alike(trial, trial.worth, first)
+        val others = chosen.filter { it !== trial }.map { it.term.key }
+        val last = chosen.last().fit
+        val rest = search.without(last, trial.term, base)
+        val likely = first.filter { it.pValue < LIKELY && it.term.key !in others && it.term.key != trial.term.key }
+        val trials = likely.map { attempt(rest, baseHeldOut, it.term.copy(times = emptyList())) }
+        alike(trial, last.score - rest.score - trial.cost, trials)
+    }
+
+    /**
+     * The smallest set with [trial], worth [own], that holds the cause with the probability of the settings if each
+     * was as likely before.
+     */
+    private fun alike(trial: Trial, own: Double, trials: List<Trial>): List<Cause> {
+        val rivals = trials.filter { it.term.key != trial.term.key }.sortedByDescending { it.worth }
+        val weights = rivals.map { exp(minOf((it.worth - own) / 2 / trial.inflation, 0.0)) }
+        val total = 1 + weights.sum()
+        var covered = 1.0
+        val set = arrayListOf(trial.term.cause)
+        rivals.forEachIndexed { i, rival ->
+            if (covered < settings.setProbability * total) set += rival.term.cause
+            covered += weights[i]
+        }
+        return set.distinct()
+    }
+
+    private companion object {
+        const val OTHER_BEGINNINGS = 2
+        const val LIKELY = 0.01
+    }
+}

@@ -1,0 +1,78 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+
+/**
+ * Where jumps would explain most of what a [fit] leaves, s after the first row.
+ *
+ * A jump is a column of 0 and then 1; whitened, and made orthogonal to all that was fitted, its square share of the
+ * residuals is what it would gain. Looked at are [count] even places twice over, and the rows that surprise most: under
+ * noise that wanders a jump shows at its own row alone.
+ */
+internal class JumpPlaces(private val fit: ModelFit, private val count: Int) {
+    private val series = fit.model.series
+    private val n = series.size
+    private val basis = Evidence.orthonormal(fit.jacobian.toList())
+    private val edge = maxOf(n / 50, 3)
+    private val stride = maxOf(n / (2 * count), 1)
+    private val taken = fit.model.terms.flatMap { it.times }
+    private val rows: List<Int> = run {
+        val inner = edge until n - edge
+        val striking = inner.sortedByDescending { abs(fit.whitened[it]) }.take(STRIKING)
+        ((inner step stride) + striking).distinct().sorted().filter { row ->
+            taken.all { abs(it - (series.times[row] - series.times[0])) > series.duration / count }
+        }
+    }
+
+    /** The best place for one jump, or null where there is no room. */
+    fun single(): Double? = rows.maxByOrNull(::gain)?.let { timeBefore(refined(it)) }
+
+    /** The best places for two jumps, or null where there is no room. */
+    fun pair(): List<Double>? {
+        val columns = rows.map(::column)
+        val shares = DoubleArray(rows.size) { dot(columns[it], fit.whitened) }
+        val lengths = DoubleArray(rows.size) { squares(columns[it]) }
+        var best: Pair<Int, Int>? = null
+        var most = 0.0
+        for (i in rows.indices) {
+            for (j in i + 1 until rows.size) {
+                if (rows[j] - rows[i] < edge || !(lengths[i] > LEAST) || !(lengths[j] > LEAST)) continue
+                val common = dot(columns[i], columns[j])
+                val area = lengths[i] * lengths[j] - common * common
+                if (area < LEAST * lengths[i] * lengths[j]) continue
+                // bᵀ G⁻¹ b for the two columns' shares b and their inner products G.
+                val gain = (
+                    shares[i] * shares[i] * lengths[j] + shares[j] * shares[j] * lengths[i] -
+                        2 * shares[i] * shares[j] * common
+                    ) / area
+                if (gain > most) {
+                    most = gain
+                    best = rows[i] to rows[j]
+                }
+            }
+        }
+        return best?.let { (first, second) -> listOf(timeBefore(first), timeBefore(second)) }
+    }
+
+    private fun column(row: Int): DoubleArray {
+        val z = DoubleArray(n) { if (it >= row) 1.0 else 0.0 }
+        fit.noise.whiten(z, z)
+        return Evidence.without(z, basis)
+    }
+
+    private fun gain(row: Int): Double {
+        val rest = column(row)
+        val length = squares(rest)
+        val share = dot(rest, fit.whitened)
+        return if (length > LEAST) share * share / length else 0.0
+    }
+
+    private fun refined(row: Int) = (maxOf(row - stride, edge)..minOf(row + stride, n - edge - 1)).maxBy(::gain)
+
+    private fun timeBefore(row: Int) = (series.times[row] + series.times[row - 1]) / 2 - series.times[0]
+
+    private companion object {
+        const val STRIKING = 40
+        const val LEAST = 1e-9
+    }
+}

@@ -1,0 +1,53 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/**
+ * How well the truth is known between the rows of a reference that is sparser than the readings.
+ *
+ * Each row of the reference is foretold from two before and two after it (the cubic through them), and again with every
+ * other row left out; the first error over the second says how fast it falls with the distance, and so what it is
+ * within the gaps themselves. Readings see it through their lag, which evens it out.
+ */
+internal object ReferenceGaps {
+    /**
+     * How far what is not known of the truth may carry the fit of [base] as a whole, in standard deviations of its
+     * noise.
+     */
+    fun reach(base: ModelFit): Double {
+        val series = base.model.series
+        val truth = series.reference ?: return 0.0
+        val near = foretelling(series.times, truth, 1)
+        val far = foretelling(series.times, truth, 2)
+        if (near.isNaN() || far.isNaN() || !(near > 0)) return 0.0
+        val within = near / (far / near).coerceIn(1.0, FASTEST)
+        val tau = base.numbers[ResponseModel.TIME_CONSTANT]
+        val evened = sqrt(minOf(1.0, series.period / (2 * tau)))
+        val shown = abs(base.numbers[ResponseModel.GAIN]) * within * evened
+        return shown / sqrt(maxOf(base.variance, Double.MIN_VALUE)) * sqrt(series.size.toDouble())
+    }
+
+    /** Root mean square of the error of foretelling each row from those [apart] and twice [apart] rows beside it. */
+    private fun foretelling(times: DoubleArray, truth: DoubleArray, apart: Int): Double {
+        val rows = 2 * apart until times.size - 2 * apart
+        if (rows.isEmpty()) return Double.NaN
+        return sqrt(
+            rows.sumOf { i ->
+                val from = intArrayOf(i - 2 * apart, i - apart, i + apart, i + 2 * apart)
+                val error = truth[i] - from.sumOf { k -> truth[k] * weight(times, from, k, times[i]) }
+                error * error
+            } / rows.count(),
+        )
+    }
+
+    /** Lagrange's weight of row [k] among [from] at [time]. */
+    private fun weight(times: DoubleArray, from: IntArray, k: Int, time: Double): Double {
+        var product = 1.0
+        for (j in from) if (j != k) product *= (time - times[j]) / (times[k] - times[j])
+        return product
+    }
+
+    /** Seven times smaller an error in a gap half as long: what a cubic's is for smooth water. */
+    private const val FASTEST = 7.0
+}

@@ -1,0 +1,229 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import stillwater.model.Interval
+import java.util.Locale
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/**
+ * The weighing of all causes on top of [base], a model without them.
+ *
+ * @param used rows that are fitted. @param spikes rows that are not, because they are far off by themselves.
+ */
+internal class Weighing(
+    private val search: CauseSearch,
+    private val base: ModelFit,
+    private val used: BooleanArray,
+    private val spikes: List<Int>,
+    private val settings: DiagnosisSettings,
+    told: (Int) -> Unit,
+) {
+    private val series = base.model.series
+    private val scales = base.model.scales
+    private val report = FitReport(series, used)
+    private val baseHeldOut = HeldOut.score(base, used)
+    private val terms = terms()
+    private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings) { told(terms.size) }
+
+    private val water = ChangingWater(series, requireNotNull(series.reference) { "weighing needs a reference" })
+
+    /** All that is tried, outliers and a change of the water included. */
+    private val tried = terms.size + 2
+
+    /** What was chosen, one after the other. */
+    val chosen: List<Trial> = forward.chosen()
+
+    /** The model with all that was chosen. */
+    val last: ModelFit = chosen.lastOrNull()?.fit ?: base
+
+    /** Twice the log-likelihood of [last], less what its numbers would gain by chance. */
+    val explained: Double get() = last.score - chosen.sumOf { it.cost }
+
+    /** The answer. */
+    fun result(): DiagnosisResult {
+        val loose = LooseReadings(last)
+        val outliers = loose.pValue * tried < settings.level
+        val changing = water.pValue * tried < settings.level
+        val left = Structure(last, used, search.longest).dependences()
+        val certain = listOfNotNull(
+            Cause.OUTLIERS.takeIf { outliers },
+            Cause.TIME_VARYING_FIELD.takeIf { changing },
+        )
+        val verdict = verdict(forward.alike(chosen), certain, left.first())
+        val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
+        val size = loose.size().takeIf { outliers }
+        val sensor = ExtendedSensor(last, size)
+        val extended = if (named) sensor.spec("extended") else null
+        val candidates = candidates(size, loose.pValue)
+        val baseline = report.assessment(base, baseHeldOut)
+        val after = if (named) report.assessment(last, HeldOut.score(last, used)) else null
+        return DiagnosisResult(
+            verdict,
+            candidates,
+            baseline,
+            after,
+            settings.base ?: ExtendedSensor(base, null).spec("base"),
+            extended,
+            (verdict as? Verdict.Ambiguous)?.let { open ->
+                Manoeuvres.of(open.sets.filter { it.size > 1 }.flatten().toSet())
+            },
+            left,
+            spikes,
+            warnings(left.first(), named) + report.warnings +
+                if (named) sensor.losses + lost(changing) else emptyList(),
+            if (named) effects() else emptyList(),
+            water.revisits(),
+        )
+    }
+
+    private fun effects() = chosen.map { NamedEffect(it.term.cause, report.estimates(last, listOf(it.term))) }
+
+    private fun lost(changing: Boolean) = if (changing) {
+        listOf("A change of the water belongs to the field, not to the sensor: the sensor file does not hold it.")
+    } else {
+        emptyList()
+    }
+
+    private fun warnings(most: Dependence, named: Boolean): List<String> = buildList {
+        if (named && most.adjusted < settings.structureLevel) {
+            add("Structure is left beside what was named: the residuals depend on ${most.description}.")
+        }
+        if (base.model.held) {
+            add(
+                "The truth looks held over each step, as a simulation holds it; a sensor in water would have a time " +
+                    "constant half a step shorter.",
+            )
+        }
+        val off = spikes.size
+        if (off > 0) add("$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits.")
+    }
+
+    private fun terms(): List<Term> = buildList {
+        if (settings.base != null) {
+            add(Term(Cause.TIME_CONSTANT))
+            add(Term(Cause.GAIN_OFFSET))
+        }
+        add(Term(Cause.ASYMMETRIC_RESPONSE))
+        add(Term(Cause.SECOND_ORDER_RESPONSE))
+        add(Term(Cause.TWO_PATH_RESPONSE))
+        add(Term(Cause.DEAD_TIME))
+        add(Term(Cause.SLEW_LIMIT))
+        val spread = sqrt(scales.logSpeed.map { it * it }.average())
+        val moving = median(series.speed) > SLOWEST
+        if (moving && spread > LEAST_SPREAD) add(Term(Cause.FLOW_DEPENDENT_RESPONSE))
+        if (scales.warmth.any { abs(it) > LEAST_WARMTH }) add(Term(Cause.TEMPERATURE_DEPENDENT_RESPONSE))
+        for ((name, column) in scales.centred) {
+            if (name != Conditions.HEADING && column.any { it != 0.0 }) add(Term(Cause.CROSS_SENSITIVITY, name))
+        }
+        add(Term(Cause.DRIFT))
+        add(Term(Cause.OFFSET_STEPS))
+        add(Term(Cause.HYSTERESIS))
+        if (scales.resolution > COARSE * sqrt(base.variance)) add(Term(Cause.QUANTISATION))
+        add(Term(Cause.SATURATION))
+        if (moving && spread > LEAST_SPREAD) add(Term(Cause.POSITION_OFFSET))
+    }
+
+    private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
+        insufficient()?.let { return it }
+        val all = sets + certain.map { listOf(it) }
+        val structured = left.adjusted < settings.structureLevel
+        val least = chosen.minOfOrNull { it.ratio } ?: 0.0
+        val isTiming = structured || sets.flatten().any { it in TIMING }
+        return when {
+            isTiming && series.isSparse && ReferenceGaps.reach(base) > MOST_UNKNOWN -> Verdict.InsufficientData(
+                "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
+                    "went in between might explain what is left",
+            )
+            structured && left.ratio > LEFT * least -> Verdict.Unexplained(
+                "the residuals depend on ${left.description}",
+            )
+            all.isEmpty() -> Verdict.Consistent
+            all.any { it.size > 1 } -> Verdict.Ambiguous(all)
+            else -> Verdict.Named(all.map { it.single() })
+        }
+    }
+
+    private fun insufficient(): Verdict? {
+        if (series.size < FEWEST_ROWS) return Verdict.InsufficientData("there are ${series.size} rows only")
+        if (listOfNotNull(series.values, series.reference).all { column -> column.all { it == column[0] } }) {
+            return Verdict.InsufficientData("neither the readings nor the truth ever change")
+        }
+        val seen = base.free[ResponseModel.TIME_CONSTANT] &&
+            base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2
+        if (seen && report.timeConstantError(base) > 1) {
+            return Verdict.InsufficientData("the truth changes too little to show any lag")
+        }
+        return null
+    }
+
+    private fun candidates(size: SpikeSize?, outlierP: Double): List<Candidate> {
+        val first = forward.first
+        val adjusted = Evidence.holm(first.map { it.pValue } + outlierP + water.pValue)
+        val list = first.mapIndexed { i, trial ->
+            Candidate(
+                trial.term.cause,
+                trial.term.condition,
+                report.estimates(trial.fit, listOf(trial.term)),
+                report.rmse(trial.fit),
+                trial.heldOut.rmse,
+                trial.heldOut.logLikelihood,
+                trial.pValue,
+                adjusted[i],
+                report.predicted(trial.fit),
+            ) to trial.worth
+        }
+        val numbers = size?.let {
+            listOf(
+                Estimate("probability", "", it.probability, null),
+                Estimate("size", "sensor units", it.size, null),
+            )
+        }
+        val change = water.rate.takeIf { it.isFinite() }?.let { rate ->
+            val interval = Interval(rate - NORMAL_95 * water.error, rate + NORMAL_95 * water.error)
+            listOf(Estimate("rate_per_s", "sensor units/s", rate, interval))
+        }
+        return list.sortedByDescending { it.second }.map { it.first } +
+            beside(Cause.OUTLIERS, numbers.orEmpty(), outlierP, adjusted[first.size]) +
+            beside(Cause.TIME_VARYING_FIELD, change.orEmpty(), water.pValue, adjusted[first.size + 1])
+    }
+
+    /** A cause that changes nothing in what the model shows of the reference. */
+    private fun beside(cause: Cause, parameters: List<Estimate>, pValue: Double, adjusted: Double) = Candidate(
+        cause,
+        null,
+        parameters,
+        report.rmse(base),
+        baseHeldOut.rmse,
+        baseHeldOut.logLikelihood,
+        pValue,
+        adjusted,
+        report.predicted(base),
+    )
+
+    private companion object {
+        const val FEWEST_ROWS = 60
+        const val NORMAL_95 = 1.96
+        const val LEFT = 0.25
+        const val SLOWEST = 0.02
+        const val LEAST_SPREAD = 0.03
+        const val LEAST_WARMTH = 0.05
+        const val COARSE = 0.3
+
+        /** Standard errors by which what is not known of the truth may move a fit before its causes are in doubt. */
+        const val MOST_UNKNOWN = 2.0
+
+        /** Causes that show in how the reading follows the truth from row to row. */
+        val TIMING = setOf(
+            Cause.ASYMMETRIC_RESPONSE,
+            Cause.SECOND_ORDER_RESPONSE,
+            Cause.TWO_PATH_RESPONSE,
+            Cause.DEAD_TIME,
+            Cause.SLEW_LIMIT,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.HYSTERESIS,
+            Cause.POSITION_OFFSET,
+        )
+    }
+}
