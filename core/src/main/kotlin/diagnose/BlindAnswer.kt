@@ -33,7 +33,7 @@ internal class BlindAnswer(
         val all = sets + listOfNotNull(listOf(Cause.OUTLIERS).takeIf { isLoose })
         val verdict = verdict(all, left.first(), chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
-        val sensor = ExtendedSensor(asFit(last), outliers.size().takeIf { isLoose })
+        val sensor = ExtendedSensor(asFit(last), outliers.size()?.takeIf { isLoose })
         val extended = sensor.spec("extended").takeIf { isNamed }
         val baseline = assessment(base)
         val after = if (last === base) baseline else assessment(last)
@@ -56,12 +56,12 @@ internal class BlindAnswer(
     private fun verdict(all: List<List<Cause>>, left: Dependence, chosen: List<BlindStep>): Verdict {
         val isStructured = left.adjusted < settings.structureLevel
         val least = chosen.minOfOrNull { it.trial.ratio } ?: 0.0
-        val isOpen = lag.seen > LAG_SEEN && lag.preference < settings.separation
+        val isOpen = lag.isOpen(settings.separation)
         val sets = all + listOfNotNull(listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME).takeIf { isOpen })
         return when {
             isStructured && left.ratio > LEFT * least ->
                 Verdict.Unexplained("the residuals depend on ${left.description}")
-            sets.isEmpty() && lag.seen < LAG_SEEN && logError() > MOST_ERROR ->
+            sets.isEmpty() && !lag.isSeen && logError() > MOST_ERROR ->
                 Verdict.InsufficientData("passes over the same water are too few or too noisy to show a lag")
             sets.isEmpty() -> Verdict.Consistent
             sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
@@ -77,14 +77,14 @@ internal class BlindAnswer(
             add("The sensor given was not used: without a reference a lag is fitted in its place.")
         }
         add(
-            "No reference: the water was inferred from revisits as ${search.modes.size} waves, the shortest of half " +
-                "length ${three(search.modes.finest)} m; a gain or an offset cannot be seen.",
+            "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
+                "${three(search.modes.finest)} m; a gain or an offset cannot be seen.",
         )
-        if (lag.seen > LAG_SEEN) {
+        if (lag.isSeen) {
             add(
                 "The readings lag the water by ${three(lag.timeConstant.timeConstant)} s as a first-order lag, or by " +
                     "${three(lag.delay)} s as a dead time" +
-                    if (lag.preference < settings.separation) "." else ", which explains less.",
+                    if (lag.isOpen(settings.separation)) "." else ", which explains less.",
             )
         }
         if (isNamed && left.adjusted < settings.structureLevel) {
@@ -191,7 +191,6 @@ internal class BlindAnswer(
     }
 
     companion object {
-        private const val LAG_SEEN = 12.0
         private const val LEFT = 0.25
         private const val MOST_ERROR = 0.5
         private const val NORMAL_95 = 1.96

@@ -26,6 +26,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             base = search.improved(search.quieted(base))
         }
         val lag = BlindLag(search, base)
+        isShapeOpen = lag.isOpen(settings.separation)
         val first = Round(base)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: base
@@ -65,11 +66,16 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val adjustedLooks: List<Double> = adjusted.drop(causes.size)
     }
 
+    /** Whether not even a time constant and a dead time can be told apart: then nothing between them can be named. */
+    private var isShapeOpen = false
+
     private fun terms(): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
-        add(Term(Cause.SECOND_ORDER_RESPONSE))
-        add(Term(Cause.TWO_PATH_RESPONSE))
-        add(Term(Cause.DEAD_TIME))
+        if (!isShapeOpen) {
+            add(Term(Cause.SECOND_ORDER_RESPONSE))
+            add(Term(Cause.TWO_PATH_RESPONSE))
+            add(Term(Cause.DEAD_TIME))
+        }
         add(Term(Cause.SLEW_LIMIT))
         val scales = search.scales
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
@@ -117,7 +123,8 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val taken = chosen.filter { it !== step }.map { it.trial.name }
         val own = round.causes.firstOrNull { it.term?.cause == step.trial.term?.cause }?.worth ?: step.trial.worth
         val others = round.causes.filter {
-            it.name != step.trial.name && it.name !in taken && own - it.worth < settings.separation && it.ratio > 0
+            it.name != step.trial.name && it.name !in taken && own - it.worth < settings.separation &&
+                it.pValue < settings.level
         }.sortedByDescending { it.worth }.mapNotNull { it.term?.cause }
         val cause = checkNotNull(step.trial.term).cause
         val twin = if (cause == Cause.DRIFT) listOf(Cause.TIME_VARYING_FIELD) else emptyList()

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.sqrt
 
 /** Single readings that the model of [state] leaves far off, among all rows. */
@@ -12,24 +13,28 @@ internal class BlindOutliers(state: BlindState) {
         BlindNoise(CorrelatedNoise(series.times, noise.noise.share, noise.noise.time, all), noise.spread)
             .whiten(state.residuals, out)
     }
-    private val mixture = Spikes.ratio(z)
     private val residuals = state.residuals
+    private val resolution = state.model.scales.resolution
 
-    /** The rows that stick out. */
-    val rows: List<Int> = Spikes.of(z)
+    /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */
+    val rows: List<Int> = Spikes.of(z).filter { i -> i > 0 && i < residuals.size - 1 && isSingle(i) }
 
-    /** Of there being outliers, by their number or by the tails of all residuals. */
-    val pValue: Double = Evidence.poissonTail(rows.size, series.size * BEYOND).let { lone ->
-        if (mixture.size > FARTHEST * spread) minOf(lone, Evidence.pValue(mixture.ratio, DEGREES)) else lone
+    /** After a jump the next reading stays; after an outlier it comes back. */
+    private fun isSingle(i: Int): Boolean {
+        val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
+        return off > RETURNED * abs(residuals[i] - residuals[i - 1]) && off > STEPS * resolution
     }
 
-    /** How many and how far. */
-    fun size(): SpikeSize = SpikeSize.of(rows, residuals, spread) ?: SpikeSize(mixture.share, mixture.size)
+    /** Of there being as many: the tails of other residuals say nothing, because water that no wave holds has them too. */
+    val pValue: Double = Evidence.poissonTail(rows.size, series.size * BEYOND)
+
+    /** How many and how far; null where there are none. */
+    fun size(): SpikeSize? = SpikeSize.of(rows, residuals, spread)
 
     private companion object {
         /** Share of normal rows that stick out of their neighbours as far. */
         const val BEYOND = 4e-5
-        const val FARTHEST = 4.5
-        const val DEGREES = 3
+        const val RETURNED = 0.75
+        const val STEPS = 4
     }
 }

@@ -52,8 +52,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     val scales = Scales(series)
 
     /** The water's waves. */
-    val modes = WaterModes(series, track, (n / 3).coerceIn(FEWEST_WAVES, MOST_WAVES))
-    private val rough = WaterModes(series, track, (n / 6).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
+    val modes = WaterModes(series, track, (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES))
+    private val rough = WaterModes(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
     private val even = DoubleArray(n) { 1.0 }
 
     private fun noise(share: Double, steps: Double, spread: DoubleArray = even) =
@@ -69,6 +69,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         }
         val first = coarse.maxBy { it.score }
         var state = settled(emptyList(), first.numbers, guess, DoubleArray(0), FIRST_ROUNDS)
+        if (DEBUG) println("  jitter ${track.jitter} reach ${track.reach} finest ${modes.finest} size ${modes.size} tau ${state.timeConstant} sigma ${sqrt(state.variance)} ${modes.band.groupBy { it }.map { it.value.size }}")
         repeat(2) {
             state = quieted(state)
             state = improved(state)
@@ -204,7 +205,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     }
 
     companion object {
-        const val MOST_WAVES = 400
+        val DEBUG = System.getenv("BLIND_DEBUG") != null
+        const val MOST_WAVES = 450
         const val FEWEST_WAVES = 30
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0

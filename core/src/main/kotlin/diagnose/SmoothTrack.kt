@@ -11,7 +11,7 @@ import stillwater.estimate.TrackSeries
  * @property x metres east, length n. @property y metres north, length n. @property jitter the fixes' spread about the
  *   parabolas in each direction, m.
  */
-internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray, val jitter: Double) {
+internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray, val jitter: Double, val reach: Int = 0) {
     companion object {
         private val REACHES = intArrayOf(2, 3, 5, 8, 12)
 
@@ -20,7 +20,7 @@ internal class SmoothTrack private constructor(val x: DoubleArray, val y: Double
             val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
             val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, it) }
             val best = fits.minBy { it.missed }
-            return SmoothTrack(best.x, best.y, best.jitter)
+            return SmoothTrack(best.x, best.y, best.jitter, best.reach)
         }
     }
 

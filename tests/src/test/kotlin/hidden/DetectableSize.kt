@@ -12,27 +12,38 @@ import kotlin.math.sqrt
  * and P
  * the projection off what the unknowns can imitate. Strength 1x is where √λ = 6.36: at a level of 0.1 %, shared by 18
  * causes (two-sided 4.03 standard deviations), the test then has a power of 99 % (2.33 more).
+ *
+ * Without a reference nobody knows the water either, nor where the boat was better than its fixes say: [unseen] then
+ * takes the place of P W.
  */
 internal class DetectableSize(
     private val noise: HiddenNoise,
     private val readings: (Map<HiddenEffect, Double>) -> DoubleArray,
     private val base: (Double) -> DoubleArray,
     private val timeConstant: Double,
+    private val unseen: ((List<DoubleArray>) -> UnseenWater)? = null,
 ) {
     private val clean = base(timeConstant)
+    private val unknowns = unknowns()
     private val imitable: List<DoubleArray> = imitable()
+    private val water = unseen?.invoke(unknowns)
 
-    private fun imitable(): List<DoubleArray> {
+    /** What the sensor's unknown numbers change, near enough. */
+    private fun unknowns(): List<DoubleArray> {
         val n = clean.size
         val longer = base(timeConstant * 1.01)
-        val columns = listOf(
+        return listOf(
             DoubleArray(n) { longer[it] - clean[it] },
             DoubleArray(n) { clean[it] - clean.average() },
             DoubleArray(n) { 1.0 },
             DoubleArray(n) { exp(-it / 10.0) },
         )
+    }
+
+    private fun imitable(): List<DoubleArray> {
+        val n = clean.size
         val found = ArrayList<DoubleArray>()
-        for (column in columns) {
+        for (column in unknowns) {
             val rest = off(noise.innovations(column), found)
             val length = sqrt(rest.sumOf { it * it })
             if (length > 0) found += DoubleArray(n) { rest[it] / length }
@@ -79,6 +90,7 @@ internal class DetectableSize(
 
     private fun distance(shown: DoubleArray): Double {
         val difference = DoubleArray(clean.size) { shown[it] - clean[it] }
+        if (water != null) return water.distance(difference)
         return sqrt(off(noise.innovations(difference), imitable).sumOf { it * it })
     }
 

@@ -37,6 +37,11 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
     private val timeConstant = period * exp(ln(3.0) + random.nextDouble() * ln(5.0))
     private val speed = 0.6 + 0.8 * random.nextDouble()
     private val per = 20
+
+    // The shortest wave, half of it at the highest speed, still has some eight rows.
+    private val length by lazy {
+        maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
+    }
     private val world = world()
     private val gain = 0.85 + 0.3 * random.nextDouble()
     private val offset = world.amplitude * (random.nextDouble() - 0.5)
@@ -72,8 +77,7 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         val size = rows * per + 1
         val step = period / per
         val track = HiddenTrack.draw(kind, random, size, step, speed)
-        // The shortest wave, half of it at the highest speed, still has some eight rows.
-        val length = maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
+        val length = length
         val field: Field =
             if (kind == TrackKind.BENCH) {
                 BenchField(random, size * step, 6 * period, 6 * timeConstant)
@@ -115,7 +119,13 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
             else -> listOf(strange[random.nextInt(strange.size)])
         }
         val multiple = exp(ln(0.25) + random.nextDouble() * ln(16.0))
-        val size = DetectableSize(noise, { sensor(it).readings() }, { sensor(emptyMap(), it).readings() }, timeConstant)
+        val size = DetectableSize(
+            noise,
+            { sensor(it).readings() },
+            { sensor(emptyMap(), it).readings() },
+            timeConstant,
+            if (withReference) null else { flat -> UnseenWater(world, noise, timeConstant, length, jitter, flat) },
+        )
         val found = wanted.associateWith { size.of(it, multiple) }
         // What no strength makes detectable on this track is not asked for.
         return if (found.values.any {
