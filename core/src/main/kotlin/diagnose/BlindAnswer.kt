@@ -36,7 +36,7 @@ internal class BlindAnswer(
         val sensor = ExtendedSensor(asFit(last), outliers.size()?.takeIf { isLoose })
         val extended = sensor.spec("extended").takeIf { isNamed }
         val baseline = assessment(base)
-        val after = if (last === base) baseline else assessment(last)
+        val after = if (chosen.isEmpty()) baseline else assessment(last)
         return DiagnosisResult(
             verdict,
             candidates(first),
@@ -114,7 +114,7 @@ internal class BlindAnswer(
         val variance = squares(z) / fit.rows
         val errors = DoubleArray(numbers.size)
         free.forEachIndexed { k, i ->
-            val inflation = Evidence.inflation(listOf(columns[k]), z)
+            val inflation = BlindEvidence.inflation(listOf(columns[k]), z)
             errors[i] = sqrt(maxOf(system.inverseDiagonal(k), 0.0) * variance * inflation)
         }
         return errors
@@ -169,17 +169,18 @@ internal class BlindAnswer(
     }
 
     private fun candidates(first: BlindDiagnosis.Round): List<Candidate> {
-        val predicted = DoubleArray(n) { series.values[it] - base.residuals[it] }
+        val state = first.state
+        val predicted = DoubleArray(n) { series.values[it] - state.residuals[it] }
         val list = first.causes.mapIndexed { i, trial ->
             val model = checkNotNull(trial.model)
             val point = checkNotNull(trial.point)
             val term = checkNotNull(trial.term)
-            val z = base.fit.residual(point.residuals)
+            val z = state.fit.residual(point.residuals)
             Candidate(
                 term.cause,
                 term.condition,
-                estimates(model, point.numbers, errors(base.fit, model, point.numbers, z), listOf(model.terms.last())),
-                rmse(base.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
+                estimates(model, point.numbers, errors(state.fit, model, point.numbers, z), listOf(model.terms.last())),
+                rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
                 Double.NaN,
                 Double.NaN,
                 trial.pValue,

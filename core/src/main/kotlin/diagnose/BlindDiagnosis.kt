@@ -23,15 +23,17 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val loose = BlindOutliers(base)
         if (loose.rows.isNotEmpty()) {
             loose.rows.forEach { search.used[it] = false }
-            base = search.improved(search.quieted(base))
+            base = search.improved(search.evened(base))
         }
         val lag = BlindLag(search, base)
         isShapeOpen = lag.isOpen(settings.separation)
-        val first = Round(base)
+        // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
+        val start = if (isShapeOpen) lag.both() else base
+        val first = Round(start)
         val chosen = forward(first)
-        val last = chosen.lastOrNull()?.state ?: base
+        val last = chosen.lastOrNull()?.state ?: start
         val end = if (chosen.isEmpty()) first else Round(last)
-        val sets = sets(base, chosen)
+        val sets = sets(start, chosen)
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last))
             .of(first, chosen, sets, end.looks, end.adjustedLooks)
     }
@@ -56,7 +58,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
             terms().filter { term -> state.model.terms.none { it.key == term.key } }.map { tries.attempt(it) }
 
         /** What no cause explains. */
-        val looks: List<BlindTrial> = BlindLooks(state, tries).all()
+        val looks: List<BlindTrial> = BlindLooks(state, tries, isShapeOpen).all()
         private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
 
         /** p-values of [causes] for all that was tried. */
@@ -90,7 +92,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val noise = sqrt(search.lastVariance)
         if (scales.resolution > COARSE * noise) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
-        if (spread > EVEN) add(Term(Cause.POSITION_OFFSET))
+        if (spread > EVEN && !isShapeOpen) add(Term(Cause.POSITION_OFFSET))
     }
 
     private fun forward(first: Round): List<BlindStep> {
@@ -114,7 +116,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val model = checkNotNull(trial.model)
         val numbers = checkNotNull(trial.point).numbers
         val next = search.settled(model.terms, numbers, state.fit.design.noise, state.variances, before = state)
-        return search.improved(search.quieted(search.improved(next)))
+        return search.improved(search.evened(search.improved(next)))
     }
 
     /** For each chosen cause those that explain as much in its place. */

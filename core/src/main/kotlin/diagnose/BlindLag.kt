@@ -32,13 +32,20 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         return search.settled(state.model.terms, found.numbers, noise, state.variances, before = state)
     }
 
+    /** The model with a dead time beside the lag, or with the lag alone where that is not worth it. */
+    fun both(): BlindState {
+        val half = timeConstant.timeConstant / 2
+        val next = search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half))
+        return if ((next.score - timeConstant.score) / inflation > WORTH) next else timeConstant
+    }
+
     /** The dead time, s. */
     val delay: Double get() = deadTime.numbers.last()
 
     /** How much more often than by the noise's model the log's stretches sway: what correlation inflates. */
     private val inflation: Double = run {
         val column = timeConstant.fit.unlike(timeConstant.derivative(ResponseModel.TIME_CONSTANT))
-        Evidence.inflation(listOf(column), timeConstant.whitened)
+        BlindEvidence.inflation(listOf(column), timeConstant.whitened)
     }
 
     /** Twice the gain in log-likelihood of a lag of either kind, over [inflation]. */
@@ -71,6 +78,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
 
     private companion object {
         const val LAG_SEEN = 12.0
+        const val WORTH = 4.0
 
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
         const val SURE = 2.8

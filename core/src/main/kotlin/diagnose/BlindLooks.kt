@@ -11,7 +11,11 @@ import kotlin.math.sin
 import kotlin.math.sqrt
 
 /** Looks for what no cause of the list explains in a log without a reference. */
-internal class BlindLooks(private val state: BlindState, private val trials: BlindTrials) {
+internal class BlindLooks(
+    private val state: BlindState,
+    private val trials: BlindTrials,
+    private val isShapeOpen: Boolean,
+) {
     private val series = state.model.series
     private val n = series.size
     private val prediction = DoubleArray(n) { series.values[it] - state.residuals[it] }
@@ -31,7 +35,8 @@ internal class BlindLooks(private val state: BlindState, private val trials: Bli
         add(trials.look("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
         add(trials.look("the rate of change, more at some values than at others", listOf(followed(product(rate, value)))))
         add(trials.look("the value, more at some times than at others", listOf(product(value, age))))
-        add(trials.look("what was there before (the response has another shape)", earlier()))
+        // Where not even a time constant and a dead time can be told apart, no other shape can be ruled in.
+        if (!isShapeOpen) add(trials.look("what was there before (the response has another shape)", earlier()))
         if (median(series.speed) > SLOWEST) heading()
         add(periodic())
     }
@@ -76,31 +81,36 @@ internal class BlindLooks(private val state: BlindState, private val trials: Bli
         val lowest = 3 / maxOf(series.duration, 1e-9)
         val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
         if (count < 2) return trials.look("time, periodically", emptyList())
-        var best = 0.0
-        var frequency = lowest
-        val z = trials.residual
-        for (k in 0 until count) {
-            val f = lowest + (highest - lowest) * k / (count - 1)
-            var even = 0.0
-            var odd = 0.0
-            // A turn by the same angle each row; rows are near enough to even for the choice.
-            for (i in 0 until n) {
-                val phase = 2 * PI * f * (series.times[i] - series.times[0])
-                even += z[i] * cos(phase)
-                odd += z[i] * sin(phase)
-            }
-            val power = even * even + odd * odd
-            if (power > best) {
-                best = power
-                frequency = f
-            }
-        }
+        val powers = powers(count, lowest, highest)
+        val best = powers.indices.maxBy { powers[it] / beside(powers, it) }
+        val frequency = lowest + (highest - lowest) * best / (count - 1)
+        // Noise has its own colours: a period must stand out of those beside it.
+        val floor = beside(powers, best) / (squares(trials.residual) / 2)
         val waves = listOf(
             DoubleArray(n) { cos(2 * PI * frequency * (series.times[it] - series.times[0])) },
             DoubleArray(n) { sin(2 * PI * frequency * (series.times[it] - series.times[0])) },
         )
         val period = "%.3g".format(java.util.Locale.ROOT, 1 / frequency)
-        return trials.look("time, with a period of $period s", waves, 2 * ln(count.toDouble()))
+        return trials.look("time, with a period of $period s", waves, 2 * ln(count.toDouble()), floor)
+    }
+
+    private fun powers(count: Int, lowest: Double, highest: Double) = DoubleArray(count) { k ->
+        val f = lowest + (highest - lowest) * k / (count - 1)
+        val z = trials.residual
+        var even = 0.0
+        var odd = 0.0
+        for (i in 0 until n) {
+            val phase = 2 * PI * f * (series.times[i] - series.times[0])
+            even += z[i] * cos(phase)
+            odd += z[i] * sin(phase)
+        }
+        even * even + odd * odd
+    }
+
+    /** The mean power of frequencies near the [k]-th, which and whose neighbours are left out. */
+    private fun beside(powers: DoubleArray, k: Int): Double {
+        val near = (maxOf(0, k - BESIDE)..minOf(powers.size - 1, k + BESIDE)).filter { abs(it - k) > 1 }
+        return maxOf(near.sumOf { powers[it] } / maxOf(near.size, 1), 1e-300)
     }
 
     private fun product(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
@@ -116,6 +126,7 @@ internal class BlindLooks(private val state: BlindState, private val trials: Bli
     private companion object {
         const val SLOWEST = 0.02
         const val MOST_FREQUENCIES = 500
+        const val BESIDE = 12
         val SHARES = doubleArrayOf(0.1, 0.5, 2.0, 5.0).toList()
     }
 }

@@ -70,10 +70,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         val first = coarse.maxBy { it.score }
         var state = settled(emptyList(), first.numbers, guess, DoubleArray(0), FIRST_ROUNDS)
         if (DEBUG) println("  jitter ${track.jitter} reach ${track.reach} finest ${modes.finest} size ${modes.size} tau ${state.timeConstant} sigma ${sqrt(state.variance)} ${modes.band.groupBy { it }.map { it.value.size }}")
-        repeat(2) {
-            state = quieted(state)
-            state = improved(state)
-        }
+        state = improved(quieted(state))
+        state = improved(evened(state))
         return improved(state).also { lastVariance = it.variance }
     }
 
@@ -96,6 +94,13 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         }
         return best
     }
+
+    /** [state] with each row's spread of noise as its residuals say. */
+    fun evened(state: BlindState): BlindState =
+        again(state, BlindNoise(state.fit.design.noise.noise.with(series, used), spread(state)))
+
+    private fun CorrelatedNoise.with(series: MeasuredSeries, used: BooleanArray) =
+        CorrelatedNoise(series.times, share, time, used.copyOf())
 
     private fun again(state: BlindState, noise: BlindNoise) =
         settled(state.model.terms, state.numbers, noise, state.variances, before = state)
@@ -143,7 +148,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         modes: WaterModes = this.modes,
         before: BlindState? = null,
     ): BlindState {
-        val design = BlindDesign(shown(terms, numbers, modes), noise)
+        val design = BlindDesign(shown(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes), noise)
         var heights = before?.fit?.heights ?: DoubleArray(design.size)
         var bands = if (variances.size == modes.bands) variances else DoubleArray(modes.bands) { FIRST_RATIO / design.size }
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
@@ -170,6 +175,19 @@ internal class BlindSearch(private val series: MeasuredSeries) {
 
     /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
     private fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
+        val last = shownLast
+        val isSame = shownAs != null && shownAs == Triple(terms, numbers.toList(), modes)
+        if (last != null && isSame) return last
+        return seen(terms, numbers, modes).also {
+            shownLast = it
+            shownAs = Triple(terms, numbers.toList(), modes)
+        }
+    }
+
+    private var shownLast: Array<DoubleArray>? = null
+    private var shownAs: Triple<List<Term>, List<Double>, WaterModes>? = null
+
+    private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
         val whole = ResponseModel(series.withReference(modes.columns[0]), terms, false, scales)
         val linear = terms.filter { it.cause in LINEAR }
         val truth = DoubleArray(n)

@@ -56,7 +56,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val kept = state.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, kept + term, false, scales)
         val free = search.free(model)
-        val rough = Starts(asFit, model, term, small = true).all().map { descent.from(model, it, free, FIRST_STEPS) }
+        val starts = Starts(asFit, model, term, small = true).all()
+        val rough = (if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts).map { descent.from(model, it, free, FIRST_STEPS) }
             .minBy { it.left }
         val best = descent.from(model, rough.numbers, free, STEPS)
         val slot = model.slot(term)
@@ -67,6 +68,21 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
     }
 
+    /** Places where the range may end: beyond ever fewer of the readings. */
+    private fun ends(model: ResponseModel, term: Term, start: DoubleArray): List<DoubleArray> {
+        val sorted = series.values.sortedArray()
+        val slot = model.slot(term)
+        return BEYOND.flatMap { share ->
+            val out = (share * (n - 1)).toInt()
+            listOf(-FAR to sorted[n - 1 - out], sorted[out] to FAR).map { (lower, upper) ->
+                start.copyOf().also {
+                    it[slot] = lower
+                    it[slot + 1] = upper
+                }
+            }
+        }
+    }
+
     private class Weighed(val term: Term?, val name: String, val model: ResponseModel?, val point: BlindPoint?)
 
     private fun weighed(
@@ -75,11 +91,12 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         left: Double,
         change: DoubleArray,
         searched: Double,
+        floor: Double = 1.0,
     ): BlindTrial {
         val extra = Evidence.orthonormal(columns, ownBasis)
         val gain = Evidence.ratio(base.left, left, state.fit.rows)
         val after = what.point?.let { state.fit.residual(it.residuals) } ?: z
-        val inflation = Evidence.inflation(extra, after)
+        val inflation = maxOf(BlindEvidence.inflation(extra, after), floor)
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val t = between(Evidence.without(state.fit.unlike(change), ownBasis))
@@ -134,8 +151,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return (series.times[row] + series.times[row - 1]) / 2 - series.times[0] to column(row)
     }
 
-    /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained. */
-    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0): BlindTrial {
+    /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
+     * [floor] what the ratio is divided by at least. */
+    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial {
         val directions = Evidence.orthonormal(columns.map { state.fit.unlike(it) }, ownBasis)
         var change = DoubleArray(n)
         if (directions.isEmpty()) return BlindTrial(null, name, null, null, change, 0.0, 1.0, 1, 1.0)
@@ -146,7 +164,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val share = SymmetricSystem(matrix, DoubleArray(off.size) { dot(off[it], z) }).solve(1e-9)
         change = DoubleArray(n) { i -> columns.indices.sumOf { share[it] * columns[it][i] } }
         val gained = off.indices.sumOf { share[it] * dot(off[it], z) }
-        return weighed(Weighed(null, name, null, null), off, base.left - maxOf(gained, 0.0), change, searched)
+        return weighed(Weighed(null, name, null, null), off, base.left - maxOf(gained, 0.0), change, searched, floor)
     }
 
     /** The whitened residuals of the base. */
@@ -157,6 +175,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val FIRST_STEPS = 3
         const val STEPS = 6
         const val STRETCHES = 24
+        const val FAR = 1e12
+        val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
         const val PLACES = 48
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 20.0
