@@ -55,8 +55,8 @@ internal class BlindAnswer(
 
     private fun verdict(all: List<List<Cause>>, left: Dependence, chosen: List<BlindStep>): Verdict {
         val isStructured = left.adjusted < settings.structureLevel
-        val least = chosen.minOfOrNull { it.trial.ratio } ?: 0.0
         val isOpen = lag.isOpen(settings.separation)
+        val least = (chosen.map { it.trial.ratio } + listOfNotNull(lag.seen.takeIf { isOpen })).minOrNull() ?: 0.0
         val sets = all + listOfNotNull(listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME).takeIf { isOpen })
         return when {
             isStructured && left.ratio > LEFT * least ->

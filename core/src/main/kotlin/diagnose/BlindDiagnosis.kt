@@ -17,7 +17,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
 
     /** The answer. */
     fun run(): DiagnosisResult {
-        val why = tooLittle()
+        val why = tooLittle(series)
         if (why != null) return BlindAnswer.none(series, why)
         var base = search.best()
         val loose = BlindOutliers(base)
@@ -37,17 +37,6 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last))
             .of(first, chosen, sets, end.looks, end.adjustedLooks)
     }
-
-    private fun tooLittle(): String? = when {
-        n < FEWEST_ROWS -> "there are $n rows only"
-        isFlat(series.values) -> "the readings never change"
-        series.values.max() - series.values.min() < SMALLEST_RANGE -> "the readings change by less than can be reckoned with"
-        isFlat(series.x) && isFlat(series.y) ->
-            "the boat never moves, so that no pass comes back to the same water"
-        else -> null
-    }
-
-    private fun isFlat(column: DoubleArray) = column.all { it == column[0] }
 
     /** All causes and looks on top of one model. */
     inner class Round(val state: BlindState) {
@@ -149,12 +138,25 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         )
     }
 
-    private companion object {
-        const val FEWEST_ROWS = 60
-        const val SMALLEST_RANGE = 1e-100
-        const val EVEN = 0.03
-        const val LEAST_WARMTH = 0.05
-        const val COARSE = 0.3
+    companion object {
+        private const val FEWEST_ROWS = 60
+        private const val SMALLEST_RANGE = 1e-100
+        private const val EVEN = 0.03
+        private const val LEAST_WARMTH = 0.05
+        private const val COARSE = 0.3
+
+        /** Why [series] cannot show anything, or null where it may. */
+        fun tooLittle(series: MeasuredSeries): String? = when {
+            series.size < FEWEST_ROWS -> "there are ${series.size} rows only"
+            isFlat(series.values) -> "the readings never change"
+            series.values.max() - series.values.min() < SMALLEST_RANGE ->
+                "the readings change by less than can be reckoned with"
+            isFlat(series.x) && isFlat(series.y) ->
+                "the boat never moves, so that no pass comes back to the same water"
+            else -> null
+        }
+
+        private fun isFlat(column: DoubleArray) = column.all { it == column[0] }
     }
 }
 

@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import kotlin.math.sqrt
+
 /**
  * Whether a log without a reference shows a lag at all, and whether it shows which: a time constant or a dead time.
  *
@@ -41,6 +43,14 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
 
     /** The dead time, s. */
     val delay: Double get() = deadTime.numbers.last()
+
+    /** Standard error of [delay], s, with what correlation inflates. */
+    val delayError: Double get() {
+        val state = deadTime
+        val column = state.fit.unlike(state.derivative(state.numbers.size - 1))
+        val inflation = BlindEvidence.inflation(listOf(column), state.whitened)
+        return sqrt(state.variance * inflation / maxOf(squares(column), 1e-300))
+    }
 
     /** How much more often than by the noise's model the log's stretches sway: what correlation inflates. */
     private val inflation: Double = run {

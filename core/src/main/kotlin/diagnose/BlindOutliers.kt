@@ -22,7 +22,15 @@ internal class BlindOutliers(state: BlindState) {
     /** After a jump the next reading stays; after an outlier it comes back. */
     private fun isSingle(i: Int): Boolean {
         val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
-        return off > RETURNED * abs(residuals[i] - residuals[i - 1]) && off > STEPS * resolution
+        return off > RETURNED * abs(residuals[i] - residuals[i - 1]) && off > STEPS * resolution && isAlone(i)
+    }
+
+    /** Whether reading [i] is off the line between its neighbours as none about it is: a sharp front is no outlier. */
+    private fun isAlone(i: Int): Boolean {
+        val values = series.values
+        fun bend(k: Int) = abs(values[k] - (values[k - 1] + values[k + 1]) / 2)
+        val about = (maxOf(1, i - WINDOW)..minOf(values.size - 2, i + WINDOW)).filter { abs(it - i) > 1 }
+        return bend(i) > ALONE * median(DoubleArray(about.size) { bend(about[it]) })
     }
 
     /** Of there being as many: the tails of other residuals say nothing, because water that no wave holds has them too. */
@@ -32,8 +40,12 @@ internal class BlindOutliers(state: BlindState) {
     fun size(): SpikeSize? = SpikeSize.of(rows, residuals, spread)
 
     private companion object {
-        /** Share of normal rows that stick out of their neighbours as far. */
-        const val BEYOND = 4e-5
+        /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
+        const val BEYOND = 1.5e-4
+        const val WINDOW = 12
+
+        /** Seven median bends are 4.7 normal standard deviations. */
+        const val ALONE = 7.0
         const val RETURNED = 0.75
         const val STEPS = 4
     }

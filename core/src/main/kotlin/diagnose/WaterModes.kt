@@ -32,10 +32,11 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
         found += DoubleArray(n) { 1.0 }
         bandOf += 0
         var next = 1
+        val isLine = isLine()
+        val room = ((if (isLine) LINE_MOVING else MOVING) * most / (TIMES.size * SHARES.size)).toInt()
         for (part in TIMES) {
-            for (share in SHARES) {
-                val columns = factor(extent / share, series.duration / part, (most * MOVING / (TIMES.size * SHARES.size)).toInt())
-                add(columns, next++)
+            for (share in if (isLine) LINE_SHARES else SHARES) {
+                add(factor(extent / share, series.duration / part, room), next++)
             }
         }
         // The shortest takes what it needs first; those above it need ever fewer.
@@ -43,12 +44,19 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
         finest = shortest((FINEST * still).toInt())
         var length = finest
         val ladder = ArrayList<List<DoubleArray>>()
-        var room = still
-        while (length < extent && room > 0) {
-            ladder += factor(length, Double.POSITIVE_INFINITY, room).also { room -= it.size }
+        var free = still
+        while (length < extent && free > 0) {
+            ladder += factor(length, Double.POSITIVE_INFINITY, free).also { free -= it.size }
             length *= FACTOR
         }
         ladder.reversed().forEach { add(it, next++) }
+    }
+
+    /** Whether the track is a line gone to and fro, as a float's casts: then it comes back often, to changed water. */
+    private fun isLine(): Boolean {
+        val east = track.x.max() - track.x.min()
+        val north = track.y.max() - track.y.min()
+        return minOf(east, north) < 1e-3 * maxOf(east, north)
     }
 
     /** The shortest length of which [columns] columns hold all that the track can tell, m. */
@@ -139,9 +147,11 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
         const val SHORTEST = 2.0
         const val ENOUGH = 1e-4
         const val MOVING = 0.15
+        const val LINE_MOVING = 0.6
         const val THINNED = 1200
         const val HALVINGS = 6
         val TIMES = doubleArrayOf(2.0, 8.0).toList()
         val SHARES = doubleArrayOf(1.5, 5.0).toList()
+        val LINE_SHARES = doubleArrayOf(4.0, 16.0).toList()
     }
 }
