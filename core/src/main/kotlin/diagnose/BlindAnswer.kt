@@ -14,6 +14,7 @@ internal class BlindAnswer(
     private val last: BlindState,
     private val lag: BlindLag,
     private val outliers: BlindOutliers,
+    private val given: GivenLag?,
 ) {
     private val n = series.size
     private val bounds = ArrayList<String>()
@@ -29,20 +30,24 @@ internal class BlindAnswer(
         val left = looks.mapIndexed { i, look ->
             Dependence(look.name, look.ratio, look.degrees, look.pValue, adjustedLooks[i])
         }.sortedBy { it.pValue }
-        val isLoose = outliers.pValue * (first.causes.size + 1) < settings.level
+        val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         val all = sets + listOfNotNull(listOf(Cause.OUTLIERS).takeIf { isLoose })
         val verdict = verdict(all, left.first(), chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val sensor = ExtendedSensor(asFit(last), outliers.size()?.takeIf { isLoose })
         val extended = sensor.spec("extended").takeIf { isNamed }
-        val baseline = assessment(base)
-        val after = if (chosen.isEmpty()) baseline else assessment(last)
+        val tried = candidates(first)
+        // Of what was only tried nobody need know that it ended at a bound.
+        bounds.clear()
+        val lagging = assessment(base)
+        val baseline = given?.state?.let { assessment(it) } ?: lagging
+        val after = if (chosen.isEmpty()) lagging else assessment(last)
         return DiagnosisResult(
             verdict,
-            candidates(first),
+            tried,
             baseline,
             after.takeIf { isNamed },
-            ExtendedSensor(asFit(base), null).spec("base"),
+            settings.base?.takeIf { given?.state != null } ?: ExtendedSensor(asFit(base), null).spec("base"),
             extended,
             (verdict as? Verdict.Ambiguous)?.let { v ->
                 Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet())
@@ -54,14 +59,14 @@ internal class BlindAnswer(
     }
 
     private fun verdict(all: List<List<Cause>>, left: Dependence, chosen: List<BlindStep>): Verdict {
-        val isStructured = left.adjusted < settings.structureLevel
+        val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel
         val isOpen = lag.isOpen(settings.separation)
         val least = (chosen.map { it.trial.ratio } + listOfNotNull(lag.seen.takeIf { isOpen })).minOrNull() ?: 0.0
-        val sets = all + listOfNotNull(listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME).takeIf { isOpen })
+        val sets = all + listOfNotNull(lagSet(isOpen))
         return when {
             isStructured && left.ratio > LEFT * least ->
                 Verdict.Unexplained("the residuals depend on ${left.description}")
-            sets.isEmpty() && !lag.isSeen && logError() > MOST_ERROR ->
+            sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
                 Verdict.InsufficientData("passes over the same water are too few or too noisy to show a lag")
             sets.isEmpty() -> Verdict.Consistent
             sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
@@ -69,12 +74,23 @@ internal class BlindAnswer(
         }
     }
 
-    /** Standard error of the time constant's logarithm. */
-    private fun logError(): Double = errors(base)[ResponseModel.TIME_CONSTANT]
+    /** What is to be said of the lag: that it is not the given one, or that it is of one kind or the other. */
+    private fun lagSet(isOpen: Boolean): List<Cause>? = when {
+        given?.state != null && given.pValue > settings.level -> null
+        isOpen -> listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
+        given?.state != null -> listOf(Cause.TIME_CONSTANT)
+        else -> null
+    }
+
+    /** The longest time constant that the log allows, s. */
+    private fun longest(): Double =
+        base.timeConstant * exp(minOf(NORMAL_95 * errors(base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
-        if (settings.base != null) {
-            add("The sensor given was not used: without a reference a lag is fitted in its place.")
+        if (given?.isPartial == true) {
+            val what = if (given.state == null) "was not used: without a reference a lag is fitted in its place" else
+                "was looked at for its time constant alone, because there is no reference"
+            add("The sensor given $what.")
         }
         add(
             "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
@@ -87,7 +103,7 @@ internal class BlindAnswer(
                     if (lag.isOpen(settings.separation)) "." else ", which explains less.",
             )
         }
-        if (isNamed && left.adjusted < settings.structureLevel) {
+        if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${left.description}.")
         }
         val off = outliers.rows.size
@@ -155,11 +171,12 @@ internal class BlindAnswer(
     private fun assessment(state: BlindState): ModelAssessment {
         val spread = sqrt(maxOf(state.variance, 1e-300))
         val noise = state.fit.design.noise.noise
+        val heldOut = BlindHeldOut.score(state)
         return ModelAssessment(
             estimates(state.model, state.numbers, errors(state), state.model.terms),
             rmse(state.residuals),
-            Double.NaN,
-            Double.NaN,
+            heldOut.rmse,
+            heldOut.logLikelihood,
             DoubleArray(n) { series.values[it] - state.residuals[it] },
             spread,
             noise.share,
@@ -188,12 +205,28 @@ internal class BlindAnswer(
                 DoubleArray(n) { predicted[it] + trial.change[it] },
             ) to trial.worth
         }
-        return list.sortedByDescending { it.second }.map { it.first }
+        return listOfNotNull(givenCandidate()) + list.sortedByDescending { it.second }.map { it.first }
+    }
+
+    private fun givenCandidate(): Candidate? = given?.state?.let {
+        val free = assessment(base)
+        val p = given.pValue
+        Candidate(
+            Cause.TIME_CONSTANT,
+            null,
+            free.parameters,
+            free.trainRmse,
+            Double.NaN,
+            Double.NaN,
+            p,
+            p,
+            free.predicted,
+        )
     }
 
     companion object {
         private const val LEFT = 0.25
-        private const val MOST_ERROR = 0.5
+        private const val MOST_STEPS = 3
         private const val NORMAL_95 = 1.96
         private const val MOST_REACH = 50.0
         private const val AT_END = 1e-6

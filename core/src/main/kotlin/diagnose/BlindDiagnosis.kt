@@ -34,17 +34,26 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val last = chosen.lastOrNull()?.state ?: start
         val end = if (chosen.isEmpty()) first else Round(last)
         val sets = sets(start, chosen)
-        return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last))
+        val given = settings.base?.let { GivenLag(search, base, it) }
+        return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
             .of(first, chosen, sets, end.looks, end.adjustedLooks)
     }
 
     /** All causes and looks on top of one model. */
     inner class Round(val state: BlindState) {
         private val tries = BlindTrials(search, state)
+        private val still = search.still(state)
+        private val stillTries = BlindTrials(search, still)
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> =
-            terms().filter { term -> state.model.terms.none { it.key == term.key } }.map { tries.attempt(it) }
+            terms().filter { term -> state.model.terms.none { it.key == term.key } }.map {
+                if (it.cause in SLOW) slow(it) else tries.attempt(it)
+            }
+
+        /** Water that changes in time could imitate a drift: the two are held against each other. */
+        private fun slow(term: Term): BlindTrial =
+            stillTries.attempt(term).instead(still.score - state.score)
 
         /** What no cause explains. */
         val looks: List<BlindTrial> = BlindLooks(state, tries, isShapeOpen).all()
@@ -88,9 +97,9 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val chosen = ArrayList<BlindStep>()
         var round = first
         while (chosen.size < settings.mostCauses) {
-            val significant = round.causes.indices.filter { round.adjustedCauses[it] < settings.level }
+            val significant = round.causes.indices.filter { round.adjustedCauses[it] < STRICTER * settings.level }
             val best = significant.map { round.causes[it] }.maxByOrNull { it.worth } ?: break
-            val look = round.looks.indices.filter { round.adjustedLooks[it] < settings.structureLevel }
+            val look = round.looks.indices.filter { round.adjustedLooks[it] < STRICTER * settings.structureLevel }
                 .map { round.looks[it] }.maxByOrNull { it.worth }
             // What no cause explains comes first where it is the stronger: a cause would be named for its shadow.
             if (look != null && look.worth > best.worth + settings.separation) break
@@ -139,8 +148,11 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     }
 
     companion object {
+        /** Water that is not wholly resolved makes p-values too small by a few times: levels are lower by as much. */
+        const val STRICTER = 0.4
         private const val FEWEST_ROWS = 60
         private const val SMALLEST_RANGE = 1e-100
+        private val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
         private const val EVEN = 0.03
         private const val LEAST_WARMTH = 0.05
         private const val COARSE = 0.3

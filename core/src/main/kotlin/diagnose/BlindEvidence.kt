@@ -2,6 +2,8 @@ package stillwater.diagnose
 
 /** How strongly residuals speak where the noise is not what its model says. */
 internal object BlindEvidence {
+    /** Stretches of a log that must agree. */
+    const val STRETCHES = 24
     private val BLOCKS = intArrayOf(40, 20, 12)
 
     /**
@@ -24,5 +26,18 @@ internal object BlindEvidence {
             total += if (rows > 0) squares(sums) / rows else 1.0
         }
         return if (columns.isEmpty()) 1.0 else maxOf(1.0, total / columns.size)
+    }
+
+    /**
+     * How sure stretches of the log together are that [better] leaves less than [worse]: Student's t.
+     *
+     * Source: Vuong 1989, Likelihood ratio tests for model selection and non-nested hypotheses, doi:10.2307/1912557.
+     */
+    fun between(worse: BlindState, better: BlindState): Double {
+        val a = worse.whitened
+        val b = better.whitened
+        val gains = DoubleArray(STRETCHES)
+        for (i in a.indices) gains[(i.toLong() * STRETCHES / a.size).toInt()] += a[i] * a[i] - b[i] * b[i]
+        return Evidence.t(gains)
     }
 }

@@ -73,6 +73,9 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
         }
     }
 
+    /** Row [i] of R, length [size]; new. */
+    fun row(i: Int): DoubleArray = rows.copyOfRange(i * size, (i + 1) * size)
+
     /** Rᵀ [z], length [size]. */
     fun transposed(z: DoubleArray): DoubleArray {
         val out = DoubleArray(size)
@@ -245,6 +248,9 @@ internal class BlindFit(val design: BlindDesign, val precisions: DoubleArray, va
         for (i in 0 until n) white[i] -= shown[i]
         return white
     }
+
+    /** L⁻¹ of row [i] of the derivatives, L Lᵀ the posterior's precision. */
+    fun halfRow(i: Int): DoubleArray = factor.half(design.row(i))
 
     /** [column] whitened. */
     fun whitened(column: DoubleArray): DoubleArray = DoubleArray(n).also { design.noise.whiten(column, it) }

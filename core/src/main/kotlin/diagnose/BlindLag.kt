@@ -66,25 +66,16 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
 
     /** Whether stretches of the log agree that there is a lag of either kind: Student's t. */
     val sureness: Double = minOf(
-        between(none, timeConstant),
-        between(none, deadTime),
+        BlindEvidence.between(none, timeConstant),
+        BlindEvidence.between(none, deadTime),
     )
 
     /** Whether the log cannot tell a time constant from a dead time. */
     fun isOpen(separation: Double): Boolean =
-        isSeen && (preference < separation || between(deadTime, timeConstant) < SURE)
+        isSeen && (preference < separation || BlindEvidence.between(deadTime, timeConstant) < SURE)
 
     /** Whether the log shows a lag of either kind. */
     val isSeen: Boolean get() = seen > LAG_SEEN && sureness > SURE
-
-    /** How sure stretches of the log together are that [better] leaves less than [worse]: Student's t (Vuong 1989). */
-    private fun between(worse: BlindState, better: BlindState): Double {
-        val a = worse.whitened
-        val b = better.whitened
-        val gains = DoubleArray(STRETCHES)
-        for (i in a.indices) gains[(i.toLong() * STRETCHES / a.size).toInt()] += a[i] * a[i] - b[i] * b[i]
-        return Evidence.t(gains)
-    }
 
     private companion object {
         const val LAG_SEEN = 12.0
@@ -92,7 +83,6 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
 
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
         const val SURE = 2.8
-        const val STRETCHES = 24
         const val STEPS = 6
         val STARTS = listOf(0.5, 1.0)
     }

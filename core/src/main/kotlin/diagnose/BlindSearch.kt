@@ -69,7 +69,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         }
         val first = coarse.maxBy { it.score }
         var state = settled(emptyList(), first.numbers, guess, DoubleArray(0), FIRST_ROUNDS)
-        if (DEBUG) println("  jitter ${track.jitter} reach ${track.reach} finest ${modes.finest} size ${modes.size} tau ${state.timeConstant} sigma ${sqrt(state.variance)} ${modes.band.groupBy { it }.map { it.value.size }}")
+        // The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
+        state = improved(improved(state))
         state = improved(quieted(state))
         state = improved(evened(state))
         return improved(state).also { lastVariance = it.variance }
@@ -127,6 +128,12 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     fun improved(state: BlindState): BlindState {
         val found = BlindDescent(state).from(state.model, state.numbers, free(state.model), STEPS)
         return settled(state.model.terms, found.numbers, state.fit.design.noise, state.variances, before = state)
+    }
+
+    /** [state] with water that does not change in time. */
+    fun still(state: BlindState): BlindState {
+        val variances = DoubleArray(modes.bands) { if (it in modes.moving) LEAST else state.variances[it] }
+        return settled(state.model.terms, state.numbers, state.fit.design.noise, variances, before = state)
     }
 
     /** Which numbers of [model] are fitted: the lag's and the terms'. */
@@ -219,11 +226,13 @@ internal class BlindSearch(private val series: MeasuredSeries) {
             squares[band] += fit.heights[k] * fit.heights[k] / variance
             known[band] += (1 - fit.precisions[k] * spreads[k]).coerceIn(0.0, 1.0)
         }
-        return DoubleArray(modes.bands) { (squares[it] / maxOf(known[it], 1e-6)).coerceIn(LEAST, MOST) }
+        return DoubleArray(modes.bands) {
+            val isOff = 1 / fit.precisions[modes.band.indexOf(it)] <= LEAST && it > 0
+            if (isOff) LEAST else (squares[it] / maxOf(known[it], 1e-6)).coerceIn(LEAST, MOST)
+        }
     }
 
     companion object {
-        val DEBUG = System.getenv("BLIND_DEBUG") != null
         const val MOST_WAVES = 450
         const val FEWEST_WAVES = 30
         const val FIRST_SHARE = 0.8

@@ -24,6 +24,13 @@ internal class BlindTrial(
 ) {
     /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
     val worth: Double get() = ratio - 2 * degrees
+
+    /** This trial on top of a model whose twice log-likelihood is higher by [score] than that of the one it stands for. */
+    fun instead(score: Double): BlindTrial {
+        val weaker = minOf(ratio, maxOf(ratio + score / inflation, 0.0))
+        val p = maxOf(pValue, Evidence.pValue(weaker, degrees))
+        return BlindTrial(term, name, model, point, change, weaker, inflation, degrees, p)
+    }
 }
 
 /** Weighs causes and looks on top of [state]; the water takes whatever it can imitate. */
@@ -174,7 +181,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val BASE_STEPS = 4
         const val FIRST_STEPS = 3
         const val STEPS = 6
-        const val STRETCHES = 24
+        const val STRETCHES = BlindEvidence.STRETCHES
         const val FAR = 1e12
         val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
         const val PLACES = 48

@@ -8,10 +8,9 @@ import stillwater.estimate.TrackSeries
  *
  * A fix that is repeated until the receiver has a new one is put on the way between the two first.
  *
- * @property x metres east, length n. @property y metres north, length n. @property jitter the fixes' spread about the
- *   parabolas in each direction, m.
+ * @property x metres east, length n. @property y metres north, length n.
  */
-internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray, val jitter: Double, val reach: Int = 0) {
+internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray) {
     companion object {
         private val REACHES = intArrayOf(2, 3, 5, 8, 12)
 
@@ -20,7 +19,7 @@ internal class SmoothTrack private constructor(val x: DoubleArray, val y: Double
             val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
             val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, it) }
             val best = fits.minBy { it.missed }
-            return SmoothTrack(best.x, best.y, best.jitter, best.reach)
+            return SmoothTrack(best.x, best.y)
         }
     }
 
@@ -29,24 +28,18 @@ internal class SmoothTrack private constructor(val x: DoubleArray, val y: Double
         val x = from.copyOf()
         val y = north.copyOf()
         var missed = 0.0
-        var jitter = 0.0
         private val sums = DoubleArray(5)
         private val right = DoubleArray(3)
 
         init {
-            var squares = 0.0
-            var count = 0
             for (i in x.indices) {
                 val rows = rows(i)
                 if (rows.last - rows.first < FEWEST) continue
                 for ((column, out) in listOf(from to x, north to y)) {
                     missed += (column[i] - middle(column, rows, i, true)).let { it * it }
                     out[i] = middle(column, rows, i, false)
-                    squares += (column[i] - out[i]).let { it * it }
-                    count++
                 }
             }
-            jitter = kotlin.math.sqrt(squares / maxOf(count, 1))
         }
 
         private fun rows(i: Int): IntRange {

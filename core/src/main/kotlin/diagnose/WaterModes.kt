@@ -28,6 +28,9 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
     var finest: Double = extent
         private set
 
+    /** The processes that change in time. */
+    val moving: IntRange
+
     init {
         found += DoubleArray(n) { 1.0 }
         bandOf += 0
@@ -39,6 +42,7 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
                 add(factor(extent / share, series.duration / part, room), next++)
             }
         }
+        moving = 1 until next
         // The shortest takes what it needs first; those above it need ever fewer.
         val still = most - found.size
         finest = shortest((FINEST * still).toInt())

@@ -43,6 +43,12 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         if (name.isEmpty() || column.isEmpty()) throw BadFlag(this.name, "NAME=COLUMN", "'$text'")
         name to column
     }.multiple()
+    private val compare by option(
+        "--compare",
+        metavar = "COLUMN",
+        help = "another channel of the same boat: what it and the readings lag alike is antenna, receiver or clock, not " +
+            "the sensor. Repeatable; costs as much again for each",
+    ).multiple()
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
@@ -65,6 +71,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             "stillwater diagnose tow.csv --value slow_mg_l --reference fast_mg_l --condition speed=speed_mps",
             "stillwater diagnose bench.csv --value probe --reference sample --sensor believed.json --out bench",
             "stillwater diagnose survey.csv --value odo_percent_sat --out lake --json",
+            "stillwater diagnose survey.csv --value odo_percent_sat --compare temp_c",
         ),
     )
 
@@ -72,18 +79,23 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         val twice = conditions.map { it.first }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }
         if (twice != null) throw BadFlag("--condition", "each name once", "'${twice.key}' several times")
         val given = sensor?.let { SensorFile.read(it) }
-        val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
+        val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it }) +
+            compare.map { DiagnosisLog.compared(it) to it }
         val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
+        compare.firstOrNull { it == opened.quantity }?.let {
+            throw BadFlag("--compare", "another column than the readings'", "'$it'")
+        }
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
         OutputDirectory(Path.of(out)).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference)
+            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference, compare.distinct())
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
             val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
-            val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
+            val channels = read.channels()
+            val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null, channels)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {
@@ -112,7 +124,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private fun commandLine(): String {
         val own = listOf("--reference" to reference) +
             conditions.map { (name, column) -> "--condition" to "$name=$column" } +
-            listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
+            compare.map { "--compare" to it } + listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
         return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
     }
 

@@ -2,6 +2,7 @@ package stillwater.diagnosis
 
 import stillwater.diagnose.Candidate
 import stillwater.diagnose.Cause
+import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
@@ -12,13 +13,14 @@ import stillwater.report.SignificantDigits
  *
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
- * @param isGiven whether the base is a sensor that was given.
+ * @property channels how late other channels of the boat are, or null. @param isGiven whether the base is a sensor that was given.
  */
 class Diagnosed(
     val log: DiagnosisLog,
     val result: DiagnosisResult,
     val worth: MapWorth?,
     private val isGiven: Boolean = false,
+    val channels: ChannelLags? = null,
 ) {
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
@@ -35,6 +37,7 @@ class Diagnosed(
     /** What the reader must know beside the answer. */
     val warnings: List<String> = buildList {
         addAll(result.warnings)
+        channels?.let { add(ChannelWording.of(it)) }
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
         if (log.missing > 0) {
             add("${log.missing} rows left out: no number in the column ${log.reference}.")

@@ -45,13 +45,13 @@ class LogColumns(private val conditions: Collection<String>) {
         names.indexOf(name).takeIf { it >= 0 }?.let { column(FIXED + 1 + it) }
 
     /** The columns as a diagnosis takes them. */
-    fun series(withReference: Boolean) = MeasuredSeries(
+    fun series(withReference: Boolean, conditions: Collection<String> = names) = MeasuredSeries(
         times,
         x,
         y,
         values,
         if (withReference) reference else null,
-        names.associateWith { checkNotNull(condition(it)) },
+        conditions.associateWith { checkNotNull(condition(it)) },
     )
 
     private companion object {

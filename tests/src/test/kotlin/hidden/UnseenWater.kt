@@ -9,13 +9,13 @@ import kotlin.math.sin
 import kotlin.math.sqrt
 
 /**
- * What of an effect shows to one who knows the law of the water but not the water, and where the boat was but for the
+ * What of an effect shows to one who knows how short the water's waves are but not the water, and where the boat was but for the
  * jitter of its fixes.
  *
- * The water is a sum of plane waves of all directions, of the lengths that the field is drawn from, with unknown
- * heights. Jitter of a fix moves the water that is believed to be at the probe; seen through the lag that is noise with
- * the lag's own correlation, of the variance (gradient · jitter)² period / (2 τ). Smoothing the fixes does not help: it
- * leaves what is slower than the lag as it is.
+ * The water is a sum of plane waves of all directions, of the lengths that the field is drawn from, of whose heights
+ * nothing is known. Jitter of a fix moves the water that is believed to be at the probe; seen through the lag that is
+ * noise with the lag's own correlation, of the variance (gradient · jitter)² period / (2 τ). Smoothing the fixes does
+ * not help: it leaves what is slower than the lag as it is.
  *
  * @param world the world. @param noise the sensor's. @param timeConstant τ, s. @param length the waves' middle length,
  * m. @param jitter of fixes, m. @param flat columns of which nothing is known: what the sensor's numbers change.
@@ -37,7 +37,8 @@ internal class UnseenWater(
 
     init {
         val count = columns.size
-        val variance = world.amplitude * world.amplitude * 2 / maxOf(count - flat.size, 1)
+        // Heights of which nothing is known: what a lag does to them could as well be the water's.
+        val variance = UNKNOWN * world.amplitude * world.amplitude / maxOf(count - flat.size, 1)
         factor = Array(count) { a ->
             DoubleArray(a + 1) { b ->
                 var sum = if (a == b) if (a < count - flat.size) 1 / variance else 1e-12 else 0.0
@@ -119,5 +120,9 @@ internal class UnseenWater(
             q = keep[1] * keep[1] * qq + still[1] * (1 - keep[1] * keep[1])
             surprise / sqrt(total)
         }
+    }
+
+    private companion object {
+        const val UNKNOWN = 1e4
     }
 }
