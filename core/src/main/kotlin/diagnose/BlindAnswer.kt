@@ -148,6 +148,8 @@ internal class BlindAnswer(
         var lower = if (parameter.logarithmic) value * exp(-minOf(reach, MOST_REACH)) else value - reach
         var upper = if (parameter.logarithmic) value * exp(minOf(reach, MOST_REACH)) else value + reach
         if (isLowest) {
+            // On the scale of the number itself; what is far below half a row nobody sees.
+            upper = maxOf(value * (1 + minOf(reach, MOST_FACTOR)), if (parameter.unit == "s") series.period / 2 else 0.0)
             bounds += "${words(parameter)} is at the low end of what was searched: it may be anything below " +
                 "${three(upper)} ${parameter.unit}."
             lower = 0.0
@@ -229,6 +231,7 @@ internal class BlindAnswer(
         private const val MOST_STEPS = 3
         private const val NORMAL_95 = 1.96
         private const val MOST_REACH = 50.0
+        private const val MOST_FACTOR = 1e9
         private const val AT_END = 1e-6
 
         private fun three(value: Double) = "%.3g".format(java.util.Locale.ROOT, value)

@@ -136,7 +136,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val full = chosen.last().state
         val dropped = chosen[left].trial.name
         val terms = full.model.terms.filter { it.key != dropped }
-        val model = ResponseModel(series.withReference(full.water), terms, false, search.scales)
+        val model = ResponseModel(series.withReference(full.water), terms, search.held, search.scales)
         val numbers = DoubleArray(model.parameters.size)
         for (k in 0 until ResponseModel.BASE) numbers[k] = full.numbers[k]
         for (term in terms) {

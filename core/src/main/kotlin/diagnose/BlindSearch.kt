@@ -70,7 +70,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         val first = coarse.maxBy { it.score }
         var state = settled(emptyList(), first.numbers, guess, DoubleArray(0), FIRST_ROUNDS)
         // The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
-        state = improved(improved(state))
+        state = stepped(improved(improved(state)))
         state = improved(quieted(state))
         state = improved(evened(state))
         return improved(state).also { lastVariance = it.variance }
@@ -79,6 +79,21 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     /** The noise's variance that [best] found, sensor units². */
     var lastVariance: Double = 0.0
         private set
+
+    /** Whether the truth is held over each step, as the simulator's own sensors do, in place of going on evenly. */
+    var held: Boolean = false
+        private set
+
+    /** [state], or the same with held steps where the log says so. */
+    private fun stepped(state: BlindState): BlindState {
+        held = true
+        shownAs = null
+        val other = improved(again(state, state.fit.design.noise))
+        if (other.score > state.score + HELD) return other
+        held = false
+        shownAs = null
+        return state
+    }
 
     /** Numbers of a lag of [timeConstant] s. */
     private fun base(timeConstant: Double) = doubleArrayOf(timeConstant, 1.0, 0.0, 0.0)
@@ -159,12 +174,12 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         var heights = before?.fit?.heights ?: DoubleArray(design.size)
         var bands = if (variances.size == modes.bands) variances else DoubleArray(modes.bands) { FIRST_RATIO / design.size }
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-        var model = ResponseModel(series.withReference(modes.along(heights)), terms, false, scales)
+        var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
         var fit = BlindFit(design, precisions(bands, modes), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
-            model = ResponseModel(series.withReference(modes.along(heights)), terms, false, scales)
+            model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             if (round < rounds) bands = variances(BlindFit(design, fit.precisions, heights), residuals(model, at), modes)
             fit = BlindFit(design, precisions(bands, modes), heights)
@@ -195,10 +210,10 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     private var shownAs: Triple<List<Term>, List<Double>, WaterModes>? = null
 
     private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
-        val whole = ResponseModel(series.withReference(modes.columns[0]), terms, false, scales)
+        val whole = ResponseModel(series.withReference(modes.columns[0]), terms, held, scales)
         val linear = terms.filter { it.cause in LINEAR }
         val truth = DoubleArray(n)
-        val model = ResponseModel(series.withReference(truth), linear, false, scales)
+        val model = ResponseModel(series.withReference(truth), linear, held, scales)
         val own = base(numbers[ResponseModel.TIME_CONSTANT]).copyOf(model.parameters.size)
         for (term in linear) {
             for (k in 0 until model.width(term)) own[model.slot(term) + k] = numbers[whole.slot(term) + k]
@@ -239,6 +254,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
         const val ROUNDS = 2
+        const val HELD = 6.0
         const val STEPS = 8
         const val FIRST_RATIO = 1e4
         const val FLAT = 1e-8

@@ -61,7 +61,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     private fun fitted(term: Term, searched: Double): BlindTrial {
         val kept = state.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, kept + term, false, scales)
+        val model = ResponseModel(series, kept + term, search.held, scales)
         val free = search.free(model)
         val starts = Starts(asFit, model, term, small = true).all()
         val rough = (if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts).map { descent.from(model, it, free, FIRST_STEPS) }

@@ -11,6 +11,7 @@ import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import kotlinx.coroutines.runBlocking
 import stillwater.diagnose.Diagnosis
+import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnosis.Diagnosed
 import stillwater.diagnosis.DiagnosisFiles
@@ -19,6 +20,7 @@ import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
+import stillwater.sensor.SensorSpec
 import java.nio.file.Path
 
 /** `stillwater diagnose`: what the simulation gets wrong about a log, by name, with an extended sensor and the gain. */
@@ -52,8 +54,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
-        help = "sensor spec (JSON) as it is believed to be, taken as given where there is a --reference; without " +
-            "either a first-order lag is fitted",
+        help = "sensor spec (JSON) as it is believed to be, taken as given; without a --reference its time constant " +
+            "alone is looked at. Without this a first-order lag is fitted",
     )
     private val numbersOnly by option(
         "--numbers-only",
@@ -95,7 +97,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             }
             val result = Diagnosis(read.series, DiagnosisSettings(base = given)).run()
             val channels = read.channels()
-            val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null, channels)
+            val diagnosed = Diagnosed(read, result, worth(read, result), isGiven(given, result), channels)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {
@@ -114,7 +116,10 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         }
     }
 
-    private fun worth(read: DiagnosisLog, result: stillwater.diagnose.DiagnosisResult): MapWorth? {
+    /** Whether the base is the sensor given: one that could not be used stands for nothing. */
+    private fun isGiven(given: SensorSpec?, result: DiagnosisResult) = given != null && result.baseSensor == given
+
+    private fun worth(read: DiagnosisLog, result: DiagnosisResult): MapWorth? {
         val extended = result.extendedSensor?.takeIf { !numbersOnly } ?: return null
         val truth = if (reference != null) read.columns.reference else read.columns.values
         val threads = Runtime.getRuntime().availableProcessors()

@@ -105,17 +105,15 @@ class Diagnosed(
         )
     }
 
-    /** Without a reference nothing is held out. */
+    /** Where too little was there nothing is held out. */
     private fun heldOut(model: ModelAssessment, three: SignificantDigits) =
         if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}"
 
-    private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String = when {
-        !after.heldOutRmse.isNaN() ->
+    private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String =
+        if (after === base) {
+            "extended: the base, whose lag is what was named"
+        } else {
             "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
                 "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
-        after === base -> "extended: the base, whose lag is what was named; no blocks are held out without a reference"
-        else ->
-            "extended: residuals ${three.format(after.trainRmse)} (root mean square); no blocks are held out without " +
-                "a reference"
-    }
+        }
 }
