@@ -120,7 +120,7 @@ internal class BlindAnswer(
         state.score,
     )
 
-    /** Standard error of every number on the scale it is fitted on, with what correlation inflates; 0 of those fixed. */
+    /** Standard errors of the numbers on the scales they are fitted on, as correlation inflates them; 0 of those fixed. */
     private fun errors(state: BlindState): DoubleArray = errors(state.fit, state.model, state.numbers, state.whitened)
 
     private fun errors(fit: BlindFit, model: ResponseModel, numbers: DoubleArray, z: DoubleArray): DoubleArray {
@@ -149,7 +149,8 @@ internal class BlindAnswer(
         var upper = if (parameter.logarithmic) value * exp(minOf(reach, MOST_REACH)) else value + reach
         if (isLowest) {
             // On the scale of the number itself; what is far below half a row nobody sees.
-            upper = maxOf(value * (1 + minOf(reach, MOST_FACTOR)), if (parameter.unit == "s") series.period / 2 else 0.0)
+            val unseen = if (parameter.unit == "s") series.period / 2 else 0.0
+            upper = maxOf(value * (1 + minOf(reach, MOST_FACTOR)), unseen)
             bounds += "${words(parameter)} is at the low end of what was searched: it may be anything below " +
                 "${three(upper)} ${parameter.unit}."
             lower = 0.0

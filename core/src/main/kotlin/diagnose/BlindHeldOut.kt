@@ -14,8 +14,8 @@ internal object BlindHeldOut {
     private const val STRETCHES = 16
 
     /**
-     * The score of [state]. Its errors are in noise's measure: what the rows before tell is taken off, and an error where
-     * no other pass comes near counts by how little could be foretold there.
+     * The score of [state]. Its errors are in noise's measure: what the rows before tell is taken off, and an error
+     * where no other pass comes near counts by how little could be foretold there.
      */
     fun score(state: BlindState): HeldOutScore {
         val fit = state.fit

@@ -33,7 +33,8 @@ internal class BlindLooks(
         val age = standard(series.times)
         add(trials.look("the value itself (a curved calibration)", listOf(product(value, value), cube(value))))
         add(trials.look("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
-        add(trials.look("the rate of change, more at some values than at others", listOf(followed(product(rate, value)))))
+        val uneven = listOf(followed(product(rate, value)))
+        add(trials.look("the rate of change, more at some values than at others", uneven))
         add(trials.look("the value, more at some times than at others", listOf(product(value, age))))
         // Where not even a time constant and a dead time can be told apart, no other shape can be ruled in.
         if (!isShapeOpen) add(trials.look("what was there before (the response has another shape)", earlier()))
@@ -66,7 +67,7 @@ internal class BlindLooks(
     }
 
     /** [column] as a lag of [tau] s shows it. */
-    private fun followed(column: DoubleArray, tau: Double = maxOf(state.timeConstant, series.period / 50)): DoubleArray {
+    private fun followed(column: DoubleArray, tau: Double = state.timeConstant): DoubleArray {
         var s = column[0]
         return DoubleArray(n) { i ->
             val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]

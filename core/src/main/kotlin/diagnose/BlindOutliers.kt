@@ -17,7 +17,8 @@ internal class BlindOutliers(state: BlindState) {
     private val resolution = state.model.scales.resolution
 
     /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */
-    val rows: List<Int> = (Spikes.of(z) + sharp()).distinct().sorted().filter { i -> i > 0 && i < residuals.size - 1 && isSingle(i) }
+    val rows: List<Int> =
+        (Spikes.of(z) + sharp()).distinct().sorted().filter { it > 0 && it < residuals.size - 1 && isSingle(it) }
 
     /**
      * The rows that stick out of the readings themselves: a parabola through the rows beside them foretells them badly.
@@ -54,7 +55,7 @@ internal class BlindOutliers(state: BlindState) {
         return bend(i) > ALONE * median(DoubleArray(about.size) { bend(about[it]) })
     }
 
-    /** Of there being as many: the tails of other residuals say nothing, because water that no wave holds has them too. */
+    /** Of there being as many: tails of other residuals say nothing, because water that is not resolved has them too. */
     val pValue: Double = Evidence.poissonTail(rows.size, series.size * BEYOND)
 
     /** How many and how far; null where there are none. */

@@ -104,7 +104,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         var best = state
         val now = state.fit.design.noise.noise
         for ((share, steps) in NOISES) {
-            if (best !== state && abs(share - now.share) < 1e-9 && abs(steps * series.period - now.time) < 1e-9) continue
+            val isSame = abs(share - now.share) < 1e-9 && abs(steps * series.period - now.time) < 1e-9
+            if (best !== state && isSame) continue
             val next = again(state, noise(share, steps, spread))
             if (best === state || next.score > best.score) best = next
         }
@@ -172,7 +173,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     ): BlindState {
         val design = BlindDesign(shown(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes), noise)
         var heights = before?.fit?.heights ?: DoubleArray(design.size)
-        var bands = if (variances.size == modes.bands) variances else DoubleArray(modes.bands) { FIRST_RATIO / design.size }
+        var bands = variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / design.size }
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
         var fit = BlindFit(design, precisions(bands, modes), heights)
@@ -181,8 +182,11 @@ internal class BlindSearch(private val series: MeasuredSeries) {
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
             model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-            if (round < rounds) bands = variances(BlindFit(design, fit.precisions, heights), residuals(model, at), modes)
-            fit = BlindFit(design, precisions(bands, modes), heights)
+            fit = BlindFit(design, fit.precisions, heights)
+            if (round < rounds) {
+                bands = variances(fit, residuals(model, at), modes)
+                fit = BlindFit(design, precisions(bands, modes), heights)
+            }
         }
         val residuals = residuals(model, at)
         return BlindState(model, at, fit, bands, residuals, fit.left(residuals))

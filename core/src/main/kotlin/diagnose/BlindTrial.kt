@@ -8,8 +8,8 @@ import kotlin.math.sqrt
  * @property term the cause; null for a look. @property name what was tried, in words. @property point its numbers; null
  *   for a look. @property model the model with it. @property change what it adds to the prediction, length n.
  * @property ratio twice the gain in log-likelihood over what the scores' correlation inflates it.
- * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how stretches
- *   of the log agree about it.
+ * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how
+ *   stretches of the log agree about it.
  */
 internal class BlindTrial(
     val term: Term?,
@@ -25,7 +25,7 @@ internal class BlindTrial(
     /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
     val worth: Double get() = ratio - 2 * degrees
 
-    /** This trial on top of a model whose twice log-likelihood is higher by [score] than that of the one it stands for. */
+    /** This trial where it is on top of a model whose twice log-likelihood is higher by [score] than the base's. */
     fun instead(score: Double): BlindTrial {
         val weaker = minOf(ratio, maxOf(ratio + score / inflation, 0.0))
         val p = maxOf(pValue, Evidence.pValue(weaker, degrees))
@@ -64,7 +64,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val model = ResponseModel(series, kept + term, search.held, scales)
         val free = search.free(model)
         val starts = Starts(asFit, model, term, small = true).all()
-        val rough = (if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts).map { descent.from(model, it, free, FIRST_STEPS) }
+        val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
+        val rough = places.map { descent.from(model, it, free, FIRST_STEPS) }
             .minBy { it.left }
         val best = descent.from(model, rough.numbers, free, STEPS)
         val slot = model.slot(term)
@@ -167,7 +168,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         // The columns' own sum that explains most: normal equations off the base's numbers.
         val off = columns.map { Evidence.without(state.fit.unlike(it), ownBasis) }
         val white = columns.map { state.fit.whitened(it) }
-        val matrix = Array(off.size) { i -> DoubleArray(off.size) { j -> (dot(off[i], white[j]) + dot(off[j], white[i])) / 2 } }
+        val matrix = Array(off.size) { i ->
+            DoubleArray(off.size) { j -> (dot(off[i], white[j]) + dot(off[j], white[i])) / 2 }
+        }
         val share = SymmetricSystem(matrix, DoubleArray(off.size) { dot(off[it], z) }).solve(1e-9)
         change = DoubleArray(n) { i -> columns.indices.sumOf { share[it] * columns[it][i] } }
         val gained = off.indices.sumOf { share[it] * dot(off[it], z) }

@@ -46,7 +46,8 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
 
     /** Where [own] lies at 95 %, s. */
     public val ownInterval: Interval? = own?.let {
-        val error = ChannelLag.NORMAL_95 * sqrt(first.error * first.error + checkNotNull(quickest).error.let { e -> e * e })
+        val other = checkNotNull(quickest).error
+        val error = ChannelLag.NORMAL_95 * sqrt(first.error * first.error + other * other)
         Interval(maxOf(it - error, 0.0), it + error)
     }
 
@@ -64,7 +65,8 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
             if (BlindDiagnosis.tooLittle(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
             val search = BlindSearch(series)
             val found = BlindLag(search, search.best())
-            return if (found.isSeen) ChannelLag(name, found.delay, found.delayError) else ChannelLag(name, Double.NaN, Double.NaN)
+            if (!found.isSeen) return ChannelLag(name, Double.NaN, Double.NaN)
+            return ChannelLag(name, found.delay, found.delayError)
         }
     }
 }

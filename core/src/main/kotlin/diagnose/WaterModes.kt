@@ -20,7 +20,8 @@ import kotlin.math.sqrt
 internal class WaterModes(private val series: MeasuredSeries, private val track: SmoothTrack, most: Int) {
     private val n = series.size
     private val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
-    private val step = median(DoubleArray(n - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) })
+    private val step =
+        median(DoubleArray(n - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) })
     private val found = ArrayList<DoubleArray>()
     private val bandOf = ArrayList<Int>()
 
@@ -71,7 +72,8 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
         if (factor(low, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns) return low
         repeat(HALVINGS) {
             val middle = sqrt(low * high)
-            if (factor(middle, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns) high = middle else low = middle
+            val isEnough = factor(middle, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns
+            if (isEnough) high = middle else low = middle
         }
         return high
     }

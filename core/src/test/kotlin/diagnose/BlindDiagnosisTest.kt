@@ -34,7 +34,8 @@ class BlindDiagnosisTest {
     @Test
     fun aPlainLagIsFoundAndNothingElseIsNamed() {
         val result = Diagnosis(log(SensorStage.Lag(5.0))).run()
-        assertTrue(causes(result.verdict).all { it == Cause.TIME_CONSTANT || it == Cause.DEAD_TIME }, "${result.verdict}")
+        val lag = setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
+        assertTrue(causes(result.verdict).all { it in lag }, "${result.verdict}")
         // The sensor holds its input over a step, which is half a step less of a delay.
         assertEquals(5.0, result.baseline.parameters.first().value, 0.7)
     }

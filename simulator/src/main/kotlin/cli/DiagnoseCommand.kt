@@ -48,8 +48,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private val compare by option(
         "--compare",
         metavar = "COLUMN",
-        help = "another channel of the same boat: what it and the readings lag alike is antenna, receiver or clock, not " +
-            "the sensor. Repeatable; costs as much again for each",
+        help = "another channel of the same boat: what it and the readings lag alike is antenna, receiver or clock, " +
+            "not the sensor. Repeatable; costs as much again for each",
     ).multiple()
     private val sensor by option(
         "--sensor",
@@ -129,7 +129,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private fun commandLine(): String {
         val own = listOf("--reference" to reference) +
             conditions.map { (name, column) -> "--condition" to "$name=$column" } +
-            compare.map { "--compare" to it } + listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
+            compare.map { "--compare" to it } +
+            listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
         return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
     }
 

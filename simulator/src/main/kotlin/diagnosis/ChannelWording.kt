@@ -18,7 +18,8 @@ internal object ChannelWording {
             "What of it is common to all channels cannot be told."
         } else {
             "At most ${three.format(common)} s can be common to all channels (antenna, receiver or clock); at least " +
-                "${three.format(own)} s [${three.format(reach.lower)}, ${three.format(reach.upper)}] are the sensor's own."
+                "${three.format(own)} s [${three.format(reach.lower)}, ${three.format(reach.upper)}] are the " +
+                "sensor's own."
         }
         return "Lags as dead times: $all. $rest"
     }

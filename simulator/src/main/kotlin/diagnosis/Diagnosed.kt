@@ -13,7 +13,8 @@ import stillwater.report.SignificantDigits
  *
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
- * @property channels how late other channels of the boat are, or null. @param isGiven whether the base is a sensor that was given.
+ * @property channels how late other channels of the boat are, or null. @param isGiven whether the base is a sensor that
+ * was given.
  */
 class Diagnosed(
     val log: DiagnosisLog,

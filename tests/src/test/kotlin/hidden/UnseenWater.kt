@@ -9,8 +9,8 @@ import kotlin.math.sin
 import kotlin.math.sqrt
 
 /**
- * What of an effect shows to one who knows how short the water's waves are but not the water, and where the boat was but for the
- * jitter of its fixes.
+ * What of an effect shows to one who knows how short the water's waves are but not the water, and where the boat was
+ * but for the jitter of its fixes.
  *
  * The water is a sum of plane waves of all directions, of the lengths that the field is drawn from, of whose heights
  * nothing is known. Jitter of a fix moves the water that is believed to be at the probe; seen through the lag that is
