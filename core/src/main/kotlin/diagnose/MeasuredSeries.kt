@@ -85,6 +85,13 @@ public class MeasuredSeries(
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
 
+    /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
+    internal fun withValues(column: DoubleArray): MeasuredSeries {
+        val rows = column.indices.filter { column[it].isFinite() }
+        fun of(all: DoubleArray) = DoubleArray(rows.size) { all[rows[it]] }
+        return MeasuredSeries(of(times), of(x), of(y), of(column), null)
+    }
+
     private companion object {
         const val GAP_STEPS = 20
         const val GAP_SECONDS = 60.0

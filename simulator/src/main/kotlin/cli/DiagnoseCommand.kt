@@ -7,9 +7,11 @@ import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import kotlinx.coroutines.runBlocking
 import stillwater.diagnose.Diagnosis
+import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnosis.Diagnosed
 import stillwater.diagnosis.DiagnosisFiles
@@ -18,6 +20,7 @@ import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
+import stillwater.sensor.SensorSpec
 import java.nio.file.Path
 
 /** `stillwater diagnose`: what the simulation gets wrong about a log, by name, with an extended sensor and the gain. */
@@ -35,11 +38,17 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own causes. " +
             "Repeatable",
     )
+    private val compare by option(
+        "--compare",
+        metavar = "COLUMN",
+        help = "another channel of the same boat: what it and the readings lag alike is antenna, receiver or clock, " +
+            "not the sensor. Repeatable; costs as much again for each",
+    ).multiple()
     private val sensor by option(
         "--sensor",
         metavar = "FILE",
-        help = "sensor spec (JSON) as it is believed to be, taken as given where there is a --reference; without " +
-            "either a first-order lag is fitted",
+        help = "sensor spec (JSON) as it is believed to be, taken as given; without a --reference its time constant " +
+            "alone is looked at. Without this a first-order lag is fitted",
     )
     private val numbersOnly by option(
         "--numbers-only",
@@ -57,18 +66,23 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             "stillwater diagnose tow.csv --value slow_mg_l --reference fast_mg_l --condition speed=speed_mps",
             "stillwater diagnose bench.csv --value probe --reference sample --sensor believed.json --out bench",
             "stillwater diagnose survey.csv --value odo_percent_sat --out lake --json",
+            "stillwater diagnose survey.csv --value odo_percent_sat --compare temp_c",
         ),
     )
 
     override fun work() {
         val given = sensor?.let { SensorFile.read(it) }
-        val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it })
+        val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it }) +
+            compare.map { DiagnosisLog.compared(it) to it }
         val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
+        compare.firstOrNull { it == opened.quantity }?.let {
+            throw BadFlag("--compare", "another column than the readings'", "'$it'")
+        }
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
         OutputDirectory(Path.of(out)).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference)
+            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference, compare.distinct())
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
@@ -77,7 +91,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                 val settings = DiagnosisSettings(base = given)
                 Diagnosis(read.series, settings) { progress.advance((it * WHOLE).toLong()) }.run()
             }
-            val diagnosed = Diagnosed(read, result, worth(read, result), given != null && reference != null)
+            val diagnosed = Diagnosed(read, result, worth(read, result), isGiven(given, result), read.channels())
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {
@@ -96,7 +110,10 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         }
     }
 
-    private fun worth(read: DiagnosisLog, result: stillwater.diagnose.DiagnosisResult): MapWorth? {
+    /** Whether the base is the sensor given: one that could not be used stands for nothing. */
+    private fun isGiven(given: SensorSpec?, result: DiagnosisResult) = given != null && result.baseSensor == given
+
+    private fun worth(read: DiagnosisLog, result: DiagnosisResult): MapWorth? {
         val extended = result.extendedSensor?.takeIf { !numbersOnly } ?: return null
         val truth = if (reference != null) read.columns.reference else read.columns.values
         val threads = Runtime.getRuntime().availableProcessors()
@@ -106,6 +123,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private fun commandLine(): String {
         val own = listOf("--reference" to reference) +
             conditions.map { (name, column) -> "--condition" to "$name=$column" } +
+            compare.map { "--compare" to it } +
             listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
         return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
     }

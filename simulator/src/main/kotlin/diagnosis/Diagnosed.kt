@@ -1,6 +1,7 @@
 package stillwater.diagnosis
 
 import stillwater.diagnose.Cause
+import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
@@ -12,13 +13,15 @@ import stillwater.report.SignificantDigits
  *
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
- * @param isGiven whether the base is a sensor that was given.
+ * @property channels how late other channels of the boat are, or null. @param isGiven whether the base is a sensor that
+ * was given.
  */
 class Diagnosed(
     val log: DiagnosisLog,
     val result: DiagnosisResult,
     val worth: MapWorth?,
     private val isGiven: Boolean = false,
+    val channels: ChannelLags? = null,
 ) {
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
@@ -35,6 +38,7 @@ class Diagnosed(
     /** What the reader must know beside the answer. */
     val warnings: List<String> = buildList {
         addAll(result.warnings)
+        channels?.let { add(ChannelWording.of(it)) }
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
         if (log.missing > 0) {
             add("${log.missing} rows left out: no number in the column ${log.reference}.")
@@ -103,17 +107,15 @@ class Diagnosed(
         )
     }
 
-    /** Without a reference nothing is held out. */
+    /** Where too little was there nothing is held out. */
     private fun heldOut(model: ModelAssessment, three: SignificantDigits) =
         if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}"
 
-    private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String = when {
-        !after.heldOutRmse.isNaN() ->
+    private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String =
+        if (after === base) {
+            "extended: the base, whose lag is what was named"
+        } else {
             "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
                 "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
-        after === base -> "extended: the base, whose lag is what was named; no blocks are held out without a reference"
-        else ->
-            "extended: residuals ${three.format(after.trainRmse)} (root mean square); no blocks are held out without " +
-                "a reference"
-    }
+        }
 }

@@ -5,6 +5,7 @@ import kotlinx.serialization.json.JsonArrayBuilder
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.JsonObjectBuilder
 import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.add
 import kotlinx.serialization.json.addJsonArray
@@ -15,9 +16,11 @@ import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonArray
 import kotlinx.serialization.json.putJsonObject
 import stillwater.diagnose.Candidate
+import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
+import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
 
 /** diagnosis.json: a [Diagnosed] log for machines; numbers unrounded, null where there is none. */
@@ -41,6 +44,7 @@ internal object DiagnosisJson {
             }
         }
         put("separatingManoeuvre", result.separatingManoeuvre)
+        diagnosed.channels?.let { put("channels", channels(it)) }
         putJsonArray("warnings") { diagnosed.warnings.forEach { add(it) } }
     }
 
@@ -99,6 +103,27 @@ internal object DiagnosisJson {
                 } ?: JsonNull,
             )
         }
+    }
+
+    /** Which part of the lag all channels share, and which is the sensor's own. */
+    private fun channels(lags: ChannelLags) = buildJsonObject {
+        putJsonArray("deadTimes") {
+            for (channel in lags.channels) {
+                addJsonObject {
+                    put("name", channel.name)
+                    put("isSeen", channel.isSeen)
+                    interval("dead_time_s", channel.delay, channel.interval)
+                }
+            }
+        }
+        put("mostCommon_s", number(lags.common ?: Double.NaN))
+        putJsonObject("leastOwn") { interval("dead_time_s", lags.own ?: Double.NaN, lags.ownInterval) }
+    }
+
+    private fun JsonObjectBuilder.interval(name: String, value: Double, interval: Interval?) {
+        put(name, number(value))
+        put("lower", number(interval?.lower ?: Double.NaN))
+        put("upper", number(interval?.upper ?: Double.NaN))
     }
 
     private fun number(value: Double): JsonElement = if (value.isFinite()) JsonPrimitive(value) else JsonNull

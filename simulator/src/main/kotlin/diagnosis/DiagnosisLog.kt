@@ -1,5 +1,6 @@
 package stillwater.diagnosis
 
+import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.MeasuredSeries
 import stillwater.io.LogPass
 import stillwater.io.SquareReach
@@ -24,17 +25,33 @@ class DiagnosisLog private constructor(
     val pass: LogPass,
     val missing: Int,
     val cut: Long,
+    private val compare: List<String> = emptyList(),
 ) {
+    /** The lags of the readings and of the columns to compare; null where there are none. */
+    fun channels(): ChannelLags? = if (compare.isEmpty()) {
+        null
+    } else {
+        ChannelLags.of(series, quantity, compare.associateWith { checkNotNull(columns.condition(compared(it))) })
+    }
+
     companion object {
         /** Key under which the reader keeps the reference: no name of a condition. */
         const val REFERENCE = "(reference)"
+
+        /** Key under which the reader keeps a [column] that is compared: no name of a condition. */
+        fun compared(column: String) = "(compared) $column"
 
         /** More rows than this are not looked at. */
         const val MOST_ROWS = 20_000
 
         /** Reads [log], whose conditions hold the [reference] under [REFERENCE] where there is one. */
-        fun of(log: SurveyLog, conditions: Collection<String>, reference: String?): DiagnosisLog {
-            val columns = LogColumns(conditions)
+        fun of(
+            log: SurveyLog,
+            conditions: Collection<String>,
+            reference: String?,
+            compare: List<String> = emptyList(),
+        ): DiagnosisLog {
+            val columns = LogColumns(conditions + compare.map { compared(it) })
             var missing = 0
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
@@ -44,18 +61,19 @@ class DiagnosisLog private constructor(
                     else -> columns.add(time.seconds, x, y, value, others)
                 }
             }
-            val others = conditions.mapNotNull { columns.condition(it) }.toTypedArray()
+            val others = (conditions + compare.map { compared(it) }).mapNotNull { columns.condition(it) }.toTypedArray()
             SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
                 log.file,
                 log.format,
                 log.quantity,
                 reference,
-                columns.series(reference != null, missing > 0),
+                columns.series(reference != null, missing > 0, conditions),
                 columns,
                 pass,
                 missing,
                 cut,
+                compare,
             )
         }
     }

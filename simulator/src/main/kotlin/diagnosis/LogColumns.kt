@@ -44,14 +44,17 @@ class LogColumns(private val conditions: Collection<String>) {
     fun condition(name: String): DoubleArray? =
         names.indexOf(name).takeIf { it >= 0 }?.let { column(FIXED + 1 + it) }
 
-    /** The columns as a diagnosis takes them; [isSparse] where rows between them have no reference. */
-    fun series(withReference: Boolean, isSparse: Boolean) = MeasuredSeries(
+    /**
+     * The columns as a diagnosis takes them, of the [conditions] alone; [isSparse] where rows between them have no
+     * reference.
+     */
+    fun series(withReference: Boolean, isSparse: Boolean, conditions: Collection<String> = names) = MeasuredSeries(
         times,
         x,
         y,
         values,
         if (withReference) reference else null,
-        names.associateWith { checkNotNull(condition(it)) },
+        conditions.associateWith { checkNotNull(condition(it)) },
         isSparse,
     )
 

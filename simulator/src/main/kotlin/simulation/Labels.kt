@@ -14,14 +14,4 @@ internal val PlannerName.label: String get() = name(PlannerName.serializer().des
 /** The quantity's name for people. */
 internal val Quantity.label: String get() = name(Quantity.serializer().descriptor, ordinal).replace('-', ' ')
 
-/** The quantity's unit; empty where it has none. */
-internal val Quantity.unit: String
-    get() = when (this) {
-        Quantity.DISSOLVED_OXYGEN -> "mg/L"
-        Quantity.ACIDITY -> ""
-        Quantity.CONDUCTIVITY -> "µS/cm"
-        Quantity.TEMPERATURE -> "°C"
-        Quantity.DEPTH -> "m"
-    }
-
 private fun name(descriptor: SerialDescriptor, index: Int) = descriptor.getElementName(index)

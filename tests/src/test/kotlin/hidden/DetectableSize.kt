@@ -14,6 +14,8 @@ import kotlin.math.sqrt
  * causes (two-sided 4.03 standard deviations), the test then has a power of 99 % (2.33 more).
  *
  * Where a sensor is given ([isGiven], with [offset]) its numbers are not unknown: only the first state is.
+ * Without a reference nobody knows the water either, nor where the boat was better than its fixes say: [unseen] then
+ * takes the place of P W.
  */
 internal class DetectableSize(
     private val noise: HiddenNoise,
@@ -22,25 +24,30 @@ internal class DetectableSize(
     private val timeConstant: Double,
     private val isGiven: Boolean,
     private val offset: Double,
+    private val unseen: ((List<DoubleArray>) -> UnseenWater)? = null,
 ) {
     private val clean = base(timeConstant)
+    private val unknowns = unknowns()
     private val imitable: List<DoubleArray> = imitable()
+    private val water = unseen?.invoke(unknowns)
 
-    private fun imitable(): List<DoubleArray> {
+    /** What the sensor's unknown numbers change, near enough. */
+    private fun unknowns(): List<DoubleArray> {
         val n = clean.size
         val longer = base(timeConstant * 1.01)
         val first = listOf(DoubleArray(n) { exp(-it / 10.0) })
-        val columns = if (isGiven) {
-            first
-        } else {
-            listOf(
-                DoubleArray(n) { longer[it] - clean[it] },
-                DoubleArray(n) { clean[it] - clean.average() },
-                DoubleArray(n) { 1.0 },
-            ) + first
-        }
+        if (isGiven) return first
+        return listOf(
+            DoubleArray(n) { longer[it] - clean[it] },
+            DoubleArray(n) { clean[it] - clean.average() },
+            DoubleArray(n) { 1.0 },
+        ) + first
+    }
+
+    private fun imitable(): List<DoubleArray> {
+        val n = clean.size
         val found = ArrayList<DoubleArray>()
-        for (column in columns) {
+        for (column in unknowns) {
             val rest = off(noise.innovations(column), found)
             val length = sqrt(rest.sumOf { it * it })
             if (length > 0) found += DoubleArray(n) { rest[it] / length }
@@ -89,6 +96,7 @@ internal class DetectableSize(
 
     private fun distance(shown: DoubleArray): Double {
         val difference = DoubleArray(clean.size) { shown[it] - clean[it] }
+        if (water != null) return water.distance(difference)
         return sqrt(off(noise.innovations(difference), imitable).sumOf { it * it })
     }
 

@@ -42,6 +42,11 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
     private val timeConstant = period * exp(ln(3.0) + random.nextDouble() * ln(5.0))
     private val speed = 0.6 + 0.8 * random.nextDouble()
     private val per = 20
+
+    // The shortest wave, half of it at the highest speed, still has some eight rows.
+    private val length by lazy {
+        maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
+    }
     private val world = world()
     private val gain = 0.85 + 0.3 * random.nextDouble()
     private val offset = world.amplitude * (random.nextDouble() - 0.5)
@@ -79,8 +84,7 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         val size = rows * per + 1
         val step = period / per
         val track = HiddenTrack.draw(kind, random, size, step, speed)
-        // The shortest wave, half of it at the highest speed, still has some eight rows.
-        val length = maxOf(speed * timeConstant * (3 + 5 * random.nextDouble()), 24 * speed * period)
+        val length = length
         val field: Field =
             if (kind == TrackKind.BENCH) {
                 BenchField(random, size * step, 6 * period, 6 * timeConstant)
@@ -132,6 +136,7 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
             timeConstant,
             isGiven,
             offset,
+            if (withReference) null else { flat -> UnseenWater(world, noise, timeConstant, length, jitter, flat) },
         )
         val found = wanted.associateWith { effect ->
             if (effect != HiddenEffect.TIME_VARYING || !withReference) return@associateWith size.of(effect, multiple)

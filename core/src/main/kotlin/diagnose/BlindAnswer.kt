@@ -1,0 +1,267 @@
+package stillwater.diagnose
+
+import stillwater.model.Interval
+import stillwater.sensor.SensorSpec
+import kotlin.math.exp
+import kotlin.math.sqrt
+
+/** Puts what was found in a log without a reference into words and numbers. */
+internal class BlindAnswer(
+    private val series: MeasuredSeries,
+    private val settings: DiagnosisSettings,
+    private val search: BlindSearch,
+    private val base: BlindState,
+    private val last: BlindState,
+    private val lag: BlindLag,
+    private val outliers: BlindOutliers,
+    private val given: GivenLag?,
+) {
+    private val n = series.size
+    private val bounds = ArrayList<String>()
+
+    /** The result. */
+    fun of(
+        first: BlindDiagnosis.Round,
+        chosen: List<BlindStep>,
+        sets: List<List<Cause>>,
+        looks: List<BlindTrial>,
+        adjustedLooks: List<Double>,
+    ): DiagnosisResult {
+        val left = looks.mapIndexed { i, look ->
+            Dependence(look.name, look.ratio, look.degrees, look.pValue, adjustedLooks[i])
+        }.sortedBy { it.pValue }
+        val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
+        val all = sets + listOfNotNull(listOf(Cause.OUTLIERS).takeIf { isLoose })
+        val verdict = verdict(all, left.first(), chosen)
+        val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
+        val sensor = ExtendedSensor(asFit(last), outliers.size()?.takeIf { isLoose })
+        val extended = sensor.spec("extended").takeIf { isNamed }
+        val tried = candidates(first)
+        // Of what was only tried nobody need know that it ended at a bound.
+        bounds.clear()
+        val lagging = assessment(base)
+        val baseline = given?.state?.let { assessment(it) } ?: lagging
+        val after = if (chosen.isEmpty()) lagging else assessment(last)
+        return DiagnosisResult(
+            verdict,
+            tried,
+            baseline,
+            after.takeIf { isNamed },
+            settings.base?.takeIf { given?.state != null } ?: ExtendedSensor(asFit(base), null).spec("base"),
+            extended,
+            (verdict as? Verdict.Ambiguous)?.let { v ->
+                Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet())
+            },
+            left,
+            outliers.rows,
+            warnings(left.first(), isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() + bounds.distinct(),
+        )
+    }
+
+    private fun verdict(all: List<List<Cause>>, left: Dependence, chosen: List<BlindStep>): Verdict {
+        val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel
+        val isOpen = lag.isOpen(settings.separation)
+        val least = (chosen.map { it.trial.ratio } + listOfNotNull(lag.seen.takeIf { isOpen })).minOrNull() ?: 0.0
+        val sets = all + listOfNotNull(lagSet(isOpen))
+        return when {
+            isStructured && left.ratio > LEFT * least ->
+                Verdict.Unexplained("the residuals depend on ${left.description}")
+            sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
+                Verdict.InsufficientData("passes over the same water are too few or too noisy to show a lag")
+            sets.isEmpty() -> Verdict.Consistent
+            sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
+            else -> Verdict.Named(sets.map { it.single() })
+        }
+    }
+
+    /** What is to be said of the lag: that it is not the given one, or that it is of one kind or the other. */
+    private fun lagSet(isOpen: Boolean): List<Cause>? = when {
+        given?.state != null && given.pValue > settings.level -> null
+        isOpen -> listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
+        given?.state != null -> listOf(Cause.TIME_CONSTANT)
+        else -> null
+    }
+
+    /** The longest time constant that the log allows, s. */
+    private fun longest(): Double =
+        base.timeConstant * exp(minOf(NORMAL_95 * errors(base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
+
+    private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
+        if (given?.isPartial == true) {
+            val what = if (given.state == null) "was not used: without a reference a lag is fitted in its place" else
+                "was looked at for its time constant alone, because there is no reference"
+            add("The sensor given $what.")
+        }
+        add(
+            "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
+                "${three(search.modes.finest)} m; a gain or an offset cannot be seen.",
+        )
+        if (lag.isSeen) {
+            add(
+                "The readings lag the water by ${three(lag.timeConstant.timeConstant)} s as a first-order lag, or by " +
+                    "${three(lag.delay)} s as a dead time" +
+                    if (lag.isOpen(settings.separation)) "." else ", which explains less.",
+            )
+        }
+        if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {
+            add("Structure is left beside what was named: the residuals depend on ${left.description}.")
+        }
+        val off = outliers.rows.size
+        if (off > 0) add("$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits.")
+    }
+
+    private fun asFit(state: BlindState) = ModelFit(
+        state.model,
+        state.numbers,
+        search.free(state.model),
+        state.fit.design.noise.noise,
+        state.residuals,
+        state.whitened,
+        state.score,
+    )
+
+    /** Standard errors of the numbers on the scales they are fitted on, as correlation inflates them; 0 of those fixed. */
+    private fun errors(state: BlindState): DoubleArray = errors(state.fit, state.model, state.numbers, state.whitened)
+
+    private fun errors(fit: BlindFit, model: ResponseModel, numbers: DoubleArray, z: DoubleArray): DoubleArray {
+        val free = search.free(model).let { f -> f.indices.filter { f[it] } }
+        val columns = free.map { fit.unlike(BlindDescent.derivative(model, numbers, it)) }.toTypedArray()
+        val system = SymmetricSystem.of(columns, z)
+        val variance = squares(z) / fit.rows
+        val errors = DoubleArray(numbers.size)
+        free.forEachIndexed { k, i ->
+            val inflation = BlindEvidence.inflation(listOf(columns[k]), z)
+            errors[i] = sqrt(maxOf(system.inverseDiagonal(k), 0.0) * variance * inflation)
+        }
+        return errors
+    }
+
+    private fun estimates(model: ResponseModel, numbers: DoubleArray, errors: DoubleArray, terms: List<Term>) =
+        (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
+            .map { i -> estimate(model.parameters[i], numbers[i], errors[i]) }
+
+    private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
+        val reach = NORMAL_95 * error
+        if (!reach.isFinite()) return Estimate(parameter.name, parameter.unit, value, null)
+        val isLowest = value <= parameter.lower * (1 + AT_END) && parameter.logarithmic
+        val isHighest = value >= parameter.upper * (1 - AT_END) && parameter.logarithmic
+        var lower = if (parameter.logarithmic) value * exp(-minOf(reach, MOST_REACH)) else value - reach
+        var upper = if (parameter.logarithmic) value * exp(minOf(reach, MOST_REACH)) else value + reach
+        if (isLowest) {
+            // On the scale of the number itself; what is far below half a row nobody sees.
+            val unseen = if (parameter.unit == "s") series.period / 2 else 0.0
+            upper = maxOf(value * (1 + minOf(reach, MOST_FACTOR)), unseen)
+            bounds += "${words(parameter)} is at the low end of what was searched: it may be anything below " +
+                "${three(upper)} ${parameter.unit}."
+            lower = 0.0
+        }
+        if (isHighest) {
+            bounds += "${words(parameter)} is at the high end of what was searched: it may be anything above " +
+                "${three(lower)} ${parameter.unit}."
+            upper = Double.MAX_VALUE
+        }
+        return Estimate(parameter.name, parameter.unit, value, Interval(lower, upper))
+    }
+
+    private fun words(parameter: Parameter) =
+        "The ${parameter.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')}"
+
+    private fun rmse(residuals: DoubleArray): Double {
+        val rows = residuals.indices.filter { search.used[it] }
+        return sqrt(rows.sumOf { residuals[it] * residuals[it] } / maxOf(rows.size, 1))
+    }
+
+    private fun assessment(state: BlindState): ModelAssessment {
+        val spread = sqrt(maxOf(state.variance, 1e-300))
+        val noise = state.fit.design.noise.noise
+        val heldOut = BlindHeldOut.score(state)
+        return ModelAssessment(
+            estimates(state.model, state.numbers, errors(state), state.model.terms),
+            rmse(state.residuals),
+            heldOut.rmse,
+            heldOut.logLikelihood,
+            DoubleArray(n) { series.values[it] - state.residuals[it] },
+            spread,
+            noise.share,
+            noise.time,
+            DoubleArray(n) { state.whitened[it] / spread },
+        )
+    }
+
+    private fun candidates(first: BlindDiagnosis.Round): List<Candidate> {
+        val state = first.state
+        val predicted = DoubleArray(n) { series.values[it] - state.residuals[it] }
+        val list = first.causes.mapIndexed { i, trial ->
+            val model = checkNotNull(trial.model)
+            val point = checkNotNull(trial.point)
+            val term = checkNotNull(trial.term)
+            val z = state.fit.residual(point.residuals)
+            Candidate(
+                term.cause,
+                term.condition,
+                estimates(model, point.numbers, errors(state.fit, model, point.numbers, z), listOf(model.terms.last())),
+                rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
+                Double.NaN,
+                Double.NaN,
+                trial.pValue,
+                first.adjustedCauses[i],
+                DoubleArray(n) { predicted[it] + trial.change[it] },
+            ) to trial.worth
+        }
+        return listOfNotNull(givenCandidate()) + list.sortedByDescending { it.second }.map { it.first }
+    }
+
+    private fun givenCandidate(): Candidate? = given?.state?.let {
+        val free = assessment(base)
+        val p = given.pValue
+        Candidate(
+            Cause.TIME_CONSTANT,
+            null,
+            free.parameters,
+            free.trainRmse,
+            Double.NaN,
+            Double.NaN,
+            p,
+            p,
+            free.predicted,
+        )
+    }
+
+    companion object {
+        private const val LEFT = 0.25
+        private const val MOST_STEPS = 3
+        private const val NORMAL_95 = 1.96
+        private const val MOST_REACH = 50.0
+        private const val MOST_FACTOR = 1e9
+        private const val AT_END = 1e-6
+
+        private fun three(value: Double) = "%.3g".format(java.util.Locale.ROOT, value)
+
+        /** The result for a log that cannot show anything, because of [why]. */
+        fun none(series: MeasuredSeries, why: String): DiagnosisResult {
+            val nothing = ModelAssessment(
+                emptyList(),
+                0.0,
+                Double.NaN,
+                Double.NaN,
+                series.values.copyOf(),
+                0.0,
+                0.0,
+                0.0,
+                DoubleArray(series.size),
+            )
+            return DiagnosisResult(
+                Verdict.InsufficientData(why),
+                emptyList(),
+                nothing,
+                null,
+                SensorSpec("base", emptyList()),
+                null,
+                null,
+                emptyList(),
+                emptyList(),
+                emptyList(),
+            )
+        }
+    }
+}

@@ -1,0 +1,94 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.exp
+
+/**
+ * Numbers that were found, and what they leave.
+ *
+ * @property left square sum of the residuals once the water has taken what it can. @property residuals readings less
+ *   what the model shows of the water before that.
+ */
+internal class BlindPoint(val numbers: DoubleArray, val residuals: DoubleArray, val left: Double)
+
+/** Levenberg-Marquardt with the water free to take what it can at each step; the water's part is that of [state]. */
+internal class BlindDescent(private val state: BlindState) {
+    private val n = state.residuals.size
+    private val values = state.model.series.values
+
+    /** What [model] at [numbers] leaves. */
+    fun at(model: ResponseModel, numbers: DoubleArray): BlindPoint {
+        val r = DoubleArray(n)
+        model.predict(numbers, r)
+        for (i in 0 until n) r[i] = values[i] - r[i]
+        return BlindPoint(numbers, r, state.fit.left(r))
+    }
+
+    /** The best numbers of [model], whose truth is the state's water, near [start] in at most [steps] steps. */
+    fun from(model: ResponseModel, start: DoubleArray, free: BooleanArray, steps: Int): BlindPoint {
+        var best = at(model, start)
+        var damping = 1e-3
+        val indices = free.indices.filter { free[it] }
+        repeat(steps) {
+            val columns = indices.map { state.fit.unlike(derivative(model, best.numbers, it)) }
+            val z = state.fit.residual(best.residuals)
+            val whitened = indices.map { state.fit.whitened(derivative(model, best.numbers, it)) }
+            val matrix = Array(columns.size) { i -> DoubleArray(columns.size) { j -> dot(columns[i], whitened[j]) } }
+            val system = SymmetricSystem(matrix, DoubleArray(columns.size) { dot(whitened[it], z) })
+            val before = best.left
+            var tries = 0
+            while (tries++ < TRIES) {
+                val next = at(model, moved(model, best.numbers, indices, system.solve(damping)))
+                if (next.left < best.left) {
+                    best = next
+                    damping = maxOf(damping / 10, 1e-9)
+                    break
+                }
+                damping = if (damping < 1e-3) 1e-2 else damping * 10
+            }
+            if (!(before - best.left > ENOUGH * before / n)) return best
+        }
+        return best
+    }
+
+    private fun moved(model: ResponseModel, at: DoubleArray, free: List<Int>, step: DoubleArray): DoubleArray {
+        val numbers = at.copyOf()
+        free.forEachIndexed { k, i ->
+            val parameter = model.parameters[i]
+            if (!step[k].isFinite()) return@forEachIndexed
+            val next =
+                if (parameter.logarithmic) numbers[i] * exp(step[k].coerceIn(-1.0, 1.0)) else numbers[i] + step[k]
+            numbers[i] = next.coerceIn(parameter.lower, parameter.upper)
+        }
+        return numbers
+    }
+
+    companion object {
+        private const val TRIES = 4
+        private const val ENOUGH = 0.02
+        private const val STEP = 1e-3
+
+        /** How what [model] shows changes with parameter [i] on the scale it is fitted on, length n. */
+        fun derivative(model: ResponseModel, numbers: DoubleArray, i: Int): DoubleArray {
+            val parameter = model.parameters[i]
+            val size = if (parameter.logarithmic) STEP else STEP * maxOf(abs(numbers[i]), scale(model, parameter))
+            val moved = numbers.copyOf()
+            val forward = if (parameter.logarithmic) numbers[i] * exp(size) else numbers[i] + size
+            val sign = if (forward > parameter.upper) -1 else 1
+            moved[i] = if (parameter.logarithmic) numbers[i] * exp(sign * size) else numbers[i] + sign * size
+            val after = DoubleArray(model.series.size)
+            val before = DoubleArray(model.series.size)
+            model.predict(moved, after)
+            model.predict(numbers, before)
+            for (r in after.indices) after[r] = (after[r] - before[r]) / (sign * size)
+            return after
+        }
+
+        private fun scale(model: ResponseModel, parameter: Parameter): Double = when (parameter.unit) {
+            "s", "m" -> model.series.period
+            "sensor units" -> model.scales.range
+            "sensor units/s" -> model.scales.range / maxOf(model.series.duration, 1.0)
+            else -> 0.1
+        }
+    }
+}

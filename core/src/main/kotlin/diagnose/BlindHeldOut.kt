@@ -1,0 +1,42 @@
+package stillwater.diagnose
+
+import kotlin.math.PI
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * How well stretches of a log without a reference are foretold by all others: the water there is what other passes say.
+ *
+ * With z the whitened residuals and R_b a stretch's rows of the derivatives, the errors of the forecast are
+ * (I − R_b H⁻¹ R_bᵀ)⁻¹ z_b, H the posterior's precision; the sensor's numbers stay as they are.
+ */
+internal object BlindHeldOut {
+    private const val STRETCHES = 16
+
+    /**
+     * The score of [state]. Its errors are in noise's measure: what the rows before tell is taken off, and an error
+     * where no other pass comes near counts by how little could be foretold there.
+     */
+    fun score(state: BlindState): HeldOutScore {
+        val fit = state.fit
+        val z = state.whitened
+        val variance = maxOf(state.variance, 1e-300)
+        var errors = 0.0
+        var twice = 0.0
+        for (stretch in 0 until STRETCHES) {
+            val from = (stretch.toLong() * z.size / STRETCHES).toInt()
+            val to = ((stretch + 1).toLong() * z.size / STRETCHES).toInt()
+            val halves = Array(to - from) { fit.halfRow(from + it) }
+            val count = halves.size
+            val left = DoubleArray(count * count)
+            for (a in 0 until count) {
+                for (b in 0..a) left[a * count + b] = (if (a == b) 1.0 else 0.0) - dot(halves[a], halves[b])
+            }
+            val factor = FlatCholesky(left, count)
+            val half = factor.half(DoubleArray(count) { z[from + it] })
+            errors += squares(half)
+            twice += squares(half) / variance - factor.logDeterminant + count * ln(2 * PI * variance)
+        }
+        return HeldOutScore(sqrt(errors / maxOf(fit.rows, 1)), -(twice + fit.design.noise.logDeterminant) / 2)
+    }
+}

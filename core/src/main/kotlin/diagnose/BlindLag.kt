@@ -1,0 +1,89 @@
+package stillwater.diagnose
+
+import kotlin.math.sqrt
+
+/**
+ * Whether a log without a reference shows a lag at all, and whether it shows which: a time constant or a dead time.
+ *
+ * @property timeConstant the model with a lag alone.
+ */
+internal class BlindLag(private val search: BlindSearch, val timeConstant: BlindState) {
+    private val period = timeConstant.model.series.period
+    private val noise = timeConstant.fit.design.noise
+
+    /** The model of a sensor that follows at once. */
+    val none: BlindState = settled(emptyList(), period / 50, null)
+
+    /** The model with a dead time in place of the lag. */
+    val deadTime: BlindState = STARTS.map { share ->
+        settled(listOf(Term(Cause.DEAD_TIME)), period / 50, share * timeConstant.timeConstant)
+    }.maxBy { it.score }.let { refined(it) }
+
+    private fun settled(terms: List<Term>, tau: Double, delay: Double?) = search.settled(
+        terms,
+        listOfNotNull(tau, 1.0, 0.0, 0.0, delay).toDoubleArray(),
+        noise,
+        timeConstant.variances,
+        before = timeConstant,
+    )
+
+    /** [state] with the dead time alone fitted. */
+    private fun refined(state: BlindState): BlindState {
+        val free = BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }
+        val found = BlindDescent(state).from(state.model, state.numbers, free, STEPS)
+        return search.settled(state.model.terms, found.numbers, noise, state.variances, before = state)
+    }
+
+    /** The model with a dead time beside the lag, or with the lag alone where that is not worth it. */
+    fun both(): BlindState {
+        val half = timeConstant.timeConstant / 2
+        val next = search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half))
+        return if ((next.score - timeConstant.score) / inflation > WORTH) next else timeConstant
+    }
+
+    /** The dead time, s. */
+    val delay: Double get() = deadTime.numbers.last()
+
+    /** Standard error of [delay], s, with what correlation inflates. */
+    val delayError: Double get() {
+        val state = deadTime
+        val column = state.fit.unlike(state.derivative(state.numbers.size - 1))
+        val inflation = BlindEvidence.inflation(listOf(column), state.whitened)
+        return sqrt(state.variance * inflation / maxOf(squares(column), 1e-300))
+    }
+
+    /** How much more often than by the noise's model the log's stretches sway: what correlation inflates. */
+    private val inflation: Double = run {
+        val column = timeConstant.fit.unlike(timeConstant.derivative(ResponseModel.TIME_CONSTANT))
+        BlindEvidence.inflation(listOf(column), timeConstant.whitened)
+    }
+
+    /** Twice the gain in log-likelihood of a lag of either kind, over [inflation]. */
+    val seen: Double = (maxOf(timeConstant.score, deadTime.score) - none.score) / inflation
+
+    /** The same of a time constant against a dead time. */
+    val preference: Double = (timeConstant.score - deadTime.score) / inflation
+
+    /** Whether stretches of the log agree that there is a lag of either kind: Student's t. */
+    val sureness: Double = minOf(
+        BlindEvidence.between(none, timeConstant),
+        BlindEvidence.between(none, deadTime),
+    )
+
+    /** Whether the log cannot tell a time constant from a dead time. */
+    fun isOpen(separation: Double): Boolean =
+        isSeen && (preference < separation || BlindEvidence.between(deadTime, timeConstant) < SURE)
+
+    /** Whether the log shows a lag of either kind. */
+    val isSeen: Boolean get() = seen > LAG_SEEN && sureness > SURE
+
+    private companion object {
+        const val LAG_SEEN = 12.0
+        const val WORTH = 4.0
+
+        /** Student's t with 23 degrees of freedom, two-sided 1 %. */
+        const val SURE = 2.8
+        const val STEPS = 6
+        val STARTS = listOf(0.5, 1.0)
+    }
+}

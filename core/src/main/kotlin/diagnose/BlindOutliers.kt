@@ -1,0 +1,81 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/** Single readings that the model of [state] leaves far off, among all rows. */
+internal class BlindOutliers(state: BlindState) {
+    private val series = state.model.series
+    private val noise = state.fit.design.noise
+    private val spread = sqrt(state.variance)
+    private val z = DoubleArray(series.size).also { out ->
+        val all = BooleanArray(series.size) { true }
+        BlindNoise(CorrelatedNoise(series.times, noise.noise.share, noise.noise.time, all), noise.spread)
+            .whiten(state.residuals, out)
+    }
+    private val residuals = state.residuals
+    private val resolution = state.model.scales.resolution
+
+    /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */
+    val rows: List<Int> =
+        (Spikes.of(z) + sharp()).distinct().sorted().filter { it > 0 && it < residuals.size - 1 && isSingle(it) }
+
+    /**
+     * The rows that stick out of the readings themselves: a parabola through the rows beside them foretells them badly.
+     * Fixes that jitter do no harm here.
+     */
+    private fun sharp(): List<Int> {
+        val values = series.values
+        val inside = REACH until values.size - REACH
+        val off = DoubleArray(values.size) { if (it in inside) values[it] - parabola(values, it) else 0.0 }
+        return inside.filter { i ->
+            val about = (maxOf(REACH, i - NEAR)..minOf(values.size - 1 - REACH, i + NEAR)).filter { it != i }
+            abs(off[i]) > FAR * NORMAL * median(DoubleArray(about.size) { abs(off[about[it]]) })
+        }
+    }
+
+    /** What a parabola through the three rows on either side says of row [i], even steps. */
+    private fun parabola(values: DoubleArray, i: Int): Double {
+        var sum = 0.0
+        for (k in 1..REACH) sum += WEIGHTS[k - 1] * (values[i - k] + values[i + k])
+        return sum
+    }
+
+    /** After a jump the next reading stays; after an outlier it comes back. */
+    private fun isSingle(i: Int): Boolean {
+        val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
+        return off > RETURNED * abs(residuals[i] - residuals[i - 1]) && off > STEPS * resolution && isAlone(i)
+    }
+
+    /** Whether reading [i] is off the line between its neighbours as none about it is: a sharp front is no outlier. */
+    private fun isAlone(i: Int): Boolean {
+        val values = series.values
+        fun bend(k: Int) = abs(values[k] - (values[k - 1] + values[k + 1]) / 2)
+        val about = (maxOf(1, i - WINDOW)..minOf(values.size - 2, i + WINDOW)).filter { abs(it - i) > 1 }
+        return bend(i) > ALONE * median(DoubleArray(about.size) { bend(about[it]) })
+    }
+
+    /** Of there being as many: tails of other residuals say nothing, because water that is not resolved has them too. */
+    val pValue: Double = Evidence.poissonTail(rows.size, series.size * BEYOND)
+
+    /** How many and how far; null where there are none. */
+    fun size(): SpikeSize? = SpikeSize.of(rows, residuals, spread)
+
+    private companion object {
+        /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
+        const val BEYOND = 1.5e-4
+        const val WINDOW = 12
+        const val REACH = 3
+        const val NEAR = 30
+        const val FAR = 5.0
+        const val NORMAL = 1.4826
+
+        /** Of the rows 1, 2 and 3 away in the intercept of a least-squares parabola without the middle row. */
+        val WEIGHTS = doubleArrayOf(3.0 / 7, 3.0 / 14, -1.0 / 7).toList()
+
+        /** Seven median bends are 4.7 normal standard deviations. */
+        const val ALONE = 7.0
+        const val RETURNED = 0.75
+        const val STEPS = 4
+    }
+}

@@ -1,0 +1,281 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.exp
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * A model of a log without a reference, with the water that suits it.
+ *
+ * @property model the sensor's model, whose truth is the water along the track. @property numbers its parameters.
+ * @property fit the water's part. @property variances of the waves in each band over the noise's.
+ * @property residuals readings less what the model shows, length n. @property left their square sum once the water has
+ *   taken what it can.
+ */
+internal class BlindState(
+    val model: ResponseModel,
+    val numbers: DoubleArray,
+    val fit: BlindFit,
+    val variances: DoubleArray,
+    val residuals: DoubleArray,
+    val left: Double,
+) {
+    /** Twice the log-likelihood, less a constant. */
+    val score: Double = fit.score(left)
+
+    /** The noise's variance, sensor units². */
+    val variance: Double get() = left / fit.rows
+
+    /** Residuals, whitened, without what the water takes. */
+    val whitened: DoubleArray by lazy { fit.residual(residuals) }
+
+    /** The lag's time, s. */
+    val timeConstant: Double get() = numbers[ResponseModel.TIME_CONSTANT]
+
+    /** The water along the track, sensor units. */
+    val water: DoubleArray get() = checkNotNull(model.series.reference)
+
+    /** How fast what the model shows goes down with parameter [i] on the scale it is fitted on, length n. */
+    fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, numbers, i)
+}
+
+/** Finds the likeliest numbers of models of a log without a reference. */
+internal class BlindSearch(private val series: MeasuredSeries) {
+    private val n = series.size
+
+    /** Rows that are fitted. */
+    val used = BooleanArray(n) { true }
+    private val track = SmoothTrack.of(series)
+
+    /** Quantities of the log. */
+    val scales = Scales(series)
+
+    /** The water's waves. */
+    val modes = WaterModes(series, track, (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES))
+    private val rough = WaterModes(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
+    private val even = DoubleArray(n) { 1.0 }
+
+    private fun noise(share: Double, steps: Double, spread: DoubleArray = even) =
+        BlindNoise(CorrelatedNoise(series.times, share, steps * series.period, used.copyOf()), spread)
+
+    /** The likeliest model with a lag alone. */
+    fun best(): BlindState {
+        val guess = noise(FIRST_SHARE, FIRST_STEPS)
+        var variances = DoubleArray(0)
+        val coarse = LAGS.map { steps ->
+            settled(emptyList(), base(steps * series.period), guess, variances, modes = rough)
+                .also { variances = it.variances }
+        }
+        val first = coarse.maxBy { it.score }
+        var state = settled(emptyList(), first.numbers, guess, DoubleArray(0), FIRST_ROUNDS)
+        // The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
+        state = stepped(improved(improved(state)))
+        state = improved(quieted(state))
+        state = improved(evened(state))
+        return improved(state).also { lastVariance = it.variance }
+    }
+
+    /** The noise's variance that [best] found, sensor units². */
+    var lastVariance: Double = 0.0
+        private set
+
+    /** Whether the truth is held over each step, as the simulator's own sensors do, in place of going on evenly. */
+    var held: Boolean = false
+        private set
+
+    /** [state], or the same with held steps where the log says so. */
+    private fun stepped(state: BlindState): BlindState {
+        held = true
+        shownAs = null
+        val other = improved(again(state, state.fit.design.noise))
+        if (other.score > state.score + HELD) return other
+        held = false
+        shownAs = null
+        return state
+    }
+
+    /** Numbers of a lag of [timeConstant] s. */
+    private fun base(timeConstant: Double) = doubleArrayOf(timeConstant, 1.0, 0.0, 0.0)
+
+    /** [state] with the noise that suits it best. */
+    fun quieted(state: BlindState): BlindState {
+        val spread = spread(state)
+        var best = state
+        val now = state.fit.design.noise.noise
+        for ((share, steps) in NOISES) {
+            val isSame = abs(share - now.share) < 1e-9 && abs(steps * series.period - now.time) < 1e-9
+            if (best !== state && isSame) continue
+            val next = again(state, noise(share, steps, spread))
+            if (best === state || next.score > best.score) best = next
+        }
+        return best
+    }
+
+    /** [state] with each row's spread of noise as its residuals say. */
+    fun evened(state: BlindState): BlindState =
+        again(state, BlindNoise(state.fit.design.noise.noise.with(series, used), spread(state)))
+
+    private fun CorrelatedNoise.with(series: MeasuredSeries, used: BooleanArray) =
+        CorrelatedNoise(series.times, share, time, used.copyOf())
+
+    private fun again(state: BlindState, noise: BlindNoise) =
+        settled(state.model.terms, state.numbers, noise, state.variances, before = state)
+
+    /** Relative spread of each row's noise: fixes that are off do more harm where the water is steep. */
+    private fun spread(state: BlindState): DoubleArray {
+        val steep = modes.steepness(state.fit.heights)
+        val tau = maxOf(state.timeConstant, series.period)
+        var felt = 0.0
+        for (i in 0 until n) {
+            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
+            felt += (1 - exp(-dt / tau)) * (steep[i] * steep[i] - felt)
+            steep[i] = felt
+        }
+        val usual = maxOf(steep.average(), 1e-290)
+        val z = state.whitened
+        val now = state.fit.design.noise.spread
+        return UNEVEN.map { share -> DoubleArray(n) { 1 + share * steep[it] / usual } }.maxBy { v ->
+            -n * ln(z.indices.sumOf { z[it] * z[it] * now[it] * now[it] / v[it] } / n) - v.sumOf { ln(it) }
+        }.let { v -> DoubleArray(n) { sqrt(v[it]) } }
+    }
+
+    /** [state] with the numbers that fit better, and the water for them. */
+    fun improved(state: BlindState): BlindState {
+        val found = BlindDescent(state).from(state.model, state.numbers, free(state.model), STEPS)
+        return settled(state.model.terms, found.numbers, state.fit.design.noise, state.variances, before = state)
+    }
+
+    /** [state] with water that does not change in time. */
+    fun still(state: BlindState): BlindState {
+        val variances = DoubleArray(modes.bands) { if (it in modes.moving) LEAST else state.variances[it] }
+        return settled(state.model.terms, state.numbers, state.fit.design.noise, variances, before = state)
+    }
+
+    /** Which numbers of [model] are fitted: the lag's and the terms'. */
+    fun free(model: ResponseModel) =
+        BooleanArray(model.parameters.size) { it == ResponseModel.TIME_CONSTANT || it >= ResponseModel.BASE }
+
+    /**
+     * The water for the sensor with [terms] and [numbers].
+     *
+     * @param variances of the bands to begin with; empty for none. @param rounds times that variances are fitted.
+     * @param before a state whose water is near.
+     */
+    fun settled(
+        terms: List<Term>,
+        numbers: DoubleArray,
+        noise: BlindNoise,
+        variances: DoubleArray,
+        rounds: Int = ROUNDS,
+        modes: WaterModes = this.modes,
+        before: BlindState? = null,
+    ): BlindState {
+        val design = BlindDesign(shown(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes), noise)
+        var heights = before?.fit?.heights ?: DoubleArray(design.size)
+        var bands = variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / design.size }
+        var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
+        var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
+        var fit = BlindFit(design, precisions(bands, modes), heights)
+        for (round in 0..rounds) {
+            val change = fit.change(residuals(model, at))
+            heights = DoubleArray(heights.size) { heights[it] + change[it] }
+            model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
+            at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
+            fit = BlindFit(design, fit.precisions, heights)
+            if (round < rounds) {
+                bands = variances(fit, residuals(model, at), modes)
+                fit = BlindFit(design, precisions(bands, modes), heights)
+            }
+        }
+        val residuals = residuals(model, at)
+        return BlindState(model, at, fit, bands, residuals, fit.left(residuals))
+    }
+
+    private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
+        val out = DoubleArray(n)
+        model.predict(numbers, out)
+        for (i in 0 until n) out[i] = series.values[i] - out[i]
+        return out
+    }
+
+    /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
+    private fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
+        val last = shownLast
+        val isSame = shownAs != null && shownAs == Triple(terms, numbers.toList(), modes)
+        if (last != null && isSame) return last
+        return seen(terms, numbers, modes).also {
+            shownLast = it
+            shownAs = Triple(terms, numbers.toList(), modes)
+        }
+    }
+
+    private var shownLast: Array<DoubleArray>? = null
+    private var shownAs: Triple<List<Term>, List<Double>, WaterModes>? = null
+
+    private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
+        val whole = ResponseModel(series.withReference(modes.columns[0]), terms, held, scales)
+        val linear = terms.filter { it.cause in LINEAR }
+        val truth = DoubleArray(n)
+        val model = ResponseModel(series.withReference(truth), linear, held, scales)
+        val own = base(numbers[ResponseModel.TIME_CONSTANT]).copyOf(model.parameters.size)
+        for (term in linear) {
+            for (k in 0 until model.width(term)) own[model.slot(term) + k] = numbers[whole.slot(term) + k]
+        }
+        val columns = Array(modes.size) { k ->
+            modes.columns[k].copyInto(truth)
+            DoubleArray(n).also { model.predict(own, it) }
+        }
+        val fading = DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / own[0]) }
+        return columns + fading
+    }
+
+    private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
+        if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, MOST)
+    }
+
+    /** MacKay's fixed point: what the waves of a band have been found to be over how well they are determined. */
+    private fun variances(fit: BlindFit, residuals: DoubleArray, modes: WaterModes): DoubleArray {
+        val squares = DoubleArray(modes.bands)
+        val known = DoubleArray(modes.bands)
+        val spreads = fit.spreads()
+        val variance = fit.left(residuals) / fit.rows
+        for (k in 0 until modes.size) {
+            val band = modes.band[k]
+            squares[band] += fit.heights[k] * fit.heights[k] / variance
+            known[band] += (1 - fit.precisions[k] * spreads[k]).coerceIn(0.0, 1.0)
+        }
+        return DoubleArray(modes.bands) {
+            val isOff = 1 / fit.precisions[modes.band.indexOf(it)] <= LEAST && it > 0
+            if (isOff) LEAST else (squares[it] / maxOf(known[it], 1e-6)).coerceIn(LEAST, MOST)
+        }
+    }
+
+    companion object {
+        const val MOST_WAVES = 450
+        const val FEWEST_WAVES = 30
+        const val FIRST_SHARE = 0.8
+        const val FIRST_STEPS = 5.0
+        const val FIRST_ROUNDS = 5
+        const val ROUNDS = 2
+        const val HELD = 6.0
+        const val STEPS = 8
+        const val FIRST_RATIO = 1e4
+        const val FLAT = 1e-8
+        const val LEAST = 1e-8
+        const val MOST = 1e10
+        val LAGS = doubleArrayOf(0.1, 1.5, 3.0, 6.0, 12.0, 24.0).toList()
+        val NOISES = listOf(0.0 to 1.0, 0.5 to 3.0, 0.5 to 10.0, 0.9 to 4.0, 0.9 to 12.0, 0.98 to 12.0, 0.98 to 40.0)
+        val UNEVEN = listOf(0.0, 0.3, 1.0, 3.0, 10.0, 100.0)
+
+        /** Causes that show a sum of waters as the sum of what they show of each. */
+        val LINEAR = setOf(
+            Cause.SECOND_ORDER_RESPONSE,
+            Cause.TWO_PATH_RESPONSE,
+            Cause.DEAD_TIME,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.POSITION_OFFSET,
+        )
+    }
+}

@@ -1,0 +1,194 @@
+package stillwater.diagnose
+
+import kotlin.math.sqrt
+
+/**
+ * A cause tried on top of a model of a log without a reference, or a look at what no cause explains.
+ *
+ * @property term the cause; null for a look. @property name what was tried, in words. @property point its numbers; null
+ *   for a look. @property model the model with it. @property change what it adds to the prediction, length n.
+ * @property ratio twice the gain in log-likelihood over what the scores' correlation inflates it.
+ * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how
+ *   stretches of the log agree about it.
+ */
+internal class BlindTrial(
+    val term: Term?,
+    val name: String,
+    val model: ResponseModel?,
+    val point: BlindPoint?,
+    val change: DoubleArray,
+    val ratio: Double,
+    val inflation: Double,
+    val degrees: Int,
+    val pValue: Double,
+) {
+    /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
+    val worth: Double get() = ratio - 2 * degrees
+
+    /** This trial where it is on top of a model whose twice log-likelihood is higher by [score] than the base's. */
+    fun instead(score: Double): BlindTrial {
+        val weaker = minOf(ratio, maxOf(ratio + score / inflation, 0.0))
+        val p = maxOf(pValue, Evidence.pValue(weaker, degrees))
+        return BlindTrial(term, name, model, point, change, weaker, inflation, degrees, p)
+    }
+}
+
+/** Weighs causes and looks on top of [state]; the water takes whatever it can imitate. */
+internal class BlindTrials(private val search: BlindSearch, private val state: BlindState) {
+    private val series = state.model.series
+    private val scales = search.scales
+    private val n = series.size
+    private val descent = BlindDescent(state)
+    private val base = descent.from(state.model, state.numbers, search.free(state.model), BASE_STEPS)
+    private val z = state.fit.residual(base.residuals)
+
+    /** What the base's own numbers change, whitened and off the water. */
+    private val own = search.free(state.model).indices.filter { search.free(state.model)[it] }
+        .map { state.fit.unlike(BlindDescent.derivative(state.model, base.numbers, it)) }
+    private val ownBasis = Evidence.orthonormal(own)
+    private val asFit = ModelFit(
+        state.model,
+        base.numbers,
+        search.free(state.model),
+        state.fit.design.noise.noise,
+        base.residuals,
+        z,
+        state.fit.score(base.left),
+    )
+
+    /** [term] as it serves best. */
+    fun attempt(term: Term): BlindTrial = if (term.cause == Cause.OFFSET_STEPS) jumps() else fitted(term, 0.0)
+
+    private fun fitted(term: Term, searched: Double): BlindTrial {
+        val kept = state.model.terms.filter { it.key != term.key }
+        val model = ResponseModel(series, kept + term, search.held, scales)
+        val free = search.free(model)
+        val starts = Starts(asFit, model, term, small = true).all()
+        val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
+        val rough = places.map { descent.from(model, it, free, FIRST_STEPS) }
+            .minBy { it.left }
+        val best = descent.from(model, rough.numbers, free, STEPS)
+        val slot = model.slot(term)
+        val columns = (slot until slot + model.width(term)).map {
+            state.fit.unlike(BlindDescent.derivative(model, best.numbers, it))
+        }
+        val change = DoubleArray(n) { base.residuals[it] - best.residuals[it] }
+        return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
+    }
+
+    /** Places where the range may end: beyond ever fewer of the readings. */
+    private fun ends(model: ResponseModel, term: Term, start: DoubleArray): List<DoubleArray> {
+        val sorted = series.values.sortedArray()
+        val slot = model.slot(term)
+        return BEYOND.flatMap { share ->
+            val out = (share * (n - 1)).toInt()
+            listOf(-FAR to sorted[n - 1 - out], sorted[out] to FAR).map { (lower, upper) ->
+                start.copyOf().also {
+                    it[slot] = lower
+                    it[slot + 1] = upper
+                }
+            }
+        }
+    }
+
+    private class Weighed(val term: Term?, val name: String, val model: ResponseModel?, val point: BlindPoint?)
+
+    private fun weighed(
+        what: Weighed,
+        columns: List<DoubleArray>,
+        left: Double,
+        change: DoubleArray,
+        searched: Double,
+        floor: Double = 1.0,
+    ): BlindTrial {
+        val extra = Evidence.orthonormal(columns, ownBasis)
+        val gain = Evidence.ratio(base.left, left, state.fit.rows)
+        val after = what.point?.let { state.fit.residual(it.residuals) } ?: z
+        val inflation = maxOf(BlindEvidence.inflation(extra, after), floor)
+        val ratio = maxOf(gain / inflation - searched, 0.0)
+        val degrees = maxOf(columns.size, 1)
+        val t = between(Evidence.without(state.fit.unlike(change), ownBasis))
+        // Several numbers give the sum of what they change a good look of chance: the t is held against that.
+        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
+        val p = maxOf(Evidence.pValue(ratio, degrees), if (t > 0) Evidence.student(fewer, STRETCHES - 1) else 1.0)
+        return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
+    }
+
+    /** How sure stretches of the log together are of the change [unlike], whitened: Student's t, whatever the noise. */
+    private fun between(unlike: DoubleArray): Double {
+        val scores = DoubleArray(STRETCHES)
+        val weights = DoubleArray(STRETCHES)
+        for (i in 0 until n) {
+            val stretch = (i.toLong() * STRETCHES / n).toInt()
+            scores[stretch] += unlike[i] * z[i]
+            weights[stretch] += unlike[i] * unlike[i]
+        }
+        val size = scores.sum() / maxOf(weights.sum(), 1e-300)
+        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
+        return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
+    }
+
+    /** The jumps that serve best, one after the other while each is worth it. */
+    private fun jumps(): BlindTrial {
+        val times = ArrayList<Double>()
+        var best: BlindTrial? = null
+        var rest = z
+        while (times.size < MOST_JUMPS) {
+            val (time, column) = place(rest, times) ?: break
+            times += time
+            val places = times.size * 2 * kotlin.math.ln(minOf(PLACES, n / 10).toDouble())
+            val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), places)
+            if (best != null && next.ratio - best.ratio < JUMP_WORTH) break
+            best = next
+            rest = Evidence.without(rest, Evidence.orthonormal(listOf(column)))
+        }
+        return best ?: fitted(Term(Cause.OFFSET_STEPS, times = listOf(series.duration / 2)), 0.0)
+    }
+
+    private fun place(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
+        fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })
+        fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), 1e-9) }
+        val stride = maxOf(n / PLACES, 1)
+        val edge = maxOf(n / 50, 3)
+        val rows = (edge until n - edge step stride).filter { row ->
+            taken.all { kotlin.math.abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
+        }
+        val coarse = rows.maxByOrNull(::gain) ?: return null
+        val fine = (maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)) step maxOf(stride / 8, 1)
+        val row = fine.maxBy(::gain)
+        return (series.times[row] + series.times[row - 1]) / 2 - series.times[0] to column(row)
+    }
+
+    /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
+     * [floor] what the ratio is divided by at least. */
+    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial {
+        val directions = Evidence.orthonormal(columns.map { state.fit.unlike(it) }, ownBasis)
+        var change = DoubleArray(n)
+        if (directions.isEmpty()) return BlindTrial(null, name, null, null, change, 0.0, 1.0, 1, 1.0)
+        // The columns' own sum that explains most: normal equations off the base's numbers.
+        val off = columns.map { Evidence.without(state.fit.unlike(it), ownBasis) }
+        val white = columns.map { state.fit.whitened(it) }
+        val matrix = Array(off.size) { i ->
+            DoubleArray(off.size) { j -> (dot(off[i], white[j]) + dot(off[j], white[i])) / 2 }
+        }
+        val share = SymmetricSystem(matrix, DoubleArray(off.size) { dot(off[it], z) }).solve(1e-9)
+        change = DoubleArray(n) { i -> columns.indices.sumOf { share[it] * columns[it][i] } }
+        val gained = off.indices.sumOf { share[it] * dot(off[it], z) }
+        return weighed(Weighed(null, name, null, null), off, base.left - maxOf(gained, 0.0), change, searched, floor)
+    }
+
+    /** The whitened residuals of the base. */
+    val residual: DoubleArray get() = z
+
+    private companion object {
+        const val BASE_STEPS = 4
+        const val FIRST_STEPS = 3
+        const val STEPS = 6
+        const val STRETCHES = BlindEvidence.STRETCHES
+        const val FAR = 1e12
+        val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
+        const val PLACES = 48
+        const val MOST_JUMPS = 3
+        const val JUMP_WORTH = 20.0
+    }
+}

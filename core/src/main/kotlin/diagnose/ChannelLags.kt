@@ -1,0 +1,72 @@
+package stillwater.diagnose
+
+import stillwater.model.Interval
+import kotlin.math.sqrt
+
+/**
+ * How late one channel of a log is, as a dead time.
+ *
+ * @property name its column. @property delay s; NaN where the log does not show it. @property error its standard error,
+ * s.
+ */
+public class ChannelLag internal constructor(
+    public val name: String,
+    public val delay: Double,
+    internal val error: Double,
+) {
+    /** Whether the log shows that the channel is late. */
+    public val isSeen: Boolean get() = delay.isFinite()
+
+    /** Where the delay lies at 95 %, s; null where none is seen. */
+    public val interval: Interval? get() =
+        if (isSeen) Interval(maxOf(delay - NORMAL_95 * error, 0.0), delay + NORMAL_95 * error) else null
+
+    internal companion object {
+        const val NORMAL_95 = 1.96
+    }
+}
+
+/**
+ * What of a channel's lag is its sensor's own: channels that share clock, receiver and place on the boat are late alike
+ * by what those do, so that no more can be common to all than the lag of the quickest.
+ *
+ * @property channels all, the diagnosed one first.
+ */
+public class ChannelLags private constructor(public val channels: List<ChannelLag>) {
+    private val first = channels.first()
+
+    /** The quickest of the others whose lag is seen; null where none is. */
+    public val quickest: ChannelLag? = channels.drop(1).filter { it.isSeen }.minByOrNull { it.delay }
+
+    /** The most of the first channel's lag that can be common to all, s; null where too little is seen. */
+    public val common: Double? = quickest?.takeIf { first.isSeen }?.let { minOf(it.delay, first.delay) }
+
+    /** What the first channel's sensor adds at least, s; null where too little is seen. */
+    public val own: Double? = common?.let { first.delay - it }
+
+    /** Where [own] lies at 95 %, s. */
+    public val ownInterval: Interval? = own?.let {
+        val other = checkNotNull(quickest).error
+        val error = ChannelLag.NORMAL_95 * sqrt(first.error * first.error + other * other)
+        Interval(maxOf(it - error, 0.0), it + error)
+    }
+
+    public companion object {
+        /**
+         * Learns the lags of the channel in [series], called [name], and of [others], columns of the same rows by name,
+         * NaN where a row has none.
+         */
+        public fun of(series: MeasuredSeries, name: String, others: Map<String, DoubleArray>): ChannelLags =
+            ChannelLags(
+                listOf(lag(name, series)) + others.map { (other, column) -> lag(other, series.withValues(column)) },
+            )
+
+        private fun lag(name: String, series: MeasuredSeries): ChannelLag {
+            if (BlindDiagnosis.tooLittle(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
+            val search = BlindSearch(series)
+            val found = BlindLag(search, search.best())
+            if (!found.isSeen) return ChannelLag(name, Double.NaN, Double.NaN)
+            return ChannelLag(name, found.delay, found.delayError)
+        }
+    }
+}

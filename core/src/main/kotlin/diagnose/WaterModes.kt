@@ -1,0 +1,163 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.math.hypot
+import kotlin.math.sqrt
+
+/**
+ * The water where nobody knows it: a sum of Gaussian processes of several lengths, the shorter ones as short as the log
+ * can tell, and of some that also change in time.
+ *
+ * Each has the covariance exp(-d²/2ℓ² - Δt²/2T²) between rows and a variance of its own, which the log tells: so no
+ * smoothness is assumed, and a lag that weakens short waves is not told by that. Rows of one process are F β with β of
+ * one variance and F a pivoted Cholesky factor, which has as many columns as the track needs, wherever it goes.
+ *
+ * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
+ * doi:10.1016/j.apnum.2011.10.001.
+ *
+ * @param most columns at most.
+ */
+internal class WaterModes(private val series: MeasuredSeries, private val track: SmoothTrack, most: Int) {
+    private val n = series.size
+    private val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
+    private val step =
+        median(DoubleArray(n - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) })
+    private val found = ArrayList<DoubleArray>()
+    private val bandOf = ArrayList<Int>()
+
+    /** Length of the shortest process, m. */
+    var finest: Double = extent
+        private set
+
+    /** The processes that change in time. */
+    val moving: IntRange
+
+    init {
+        found += DoubleArray(n) { 1.0 }
+        bandOf += 0
+        var next = 1
+        val isLine = isLine()
+        val room = ((if (isLine) LINE_MOVING else MOVING) * most / (TIMES.size * SHARES.size)).toInt()
+        for (part in TIMES) {
+            for (share in if (isLine) LINE_SHARES else SHARES) {
+                add(factor(extent / share, series.duration / part, room), next++)
+            }
+        }
+        moving = 1 until next
+        // The shortest takes what it needs first; those above it need ever fewer.
+        val still = most - found.size
+        finest = shortest((FINEST * still).toInt())
+        var length = finest
+        val ladder = ArrayList<List<DoubleArray>>()
+        var free = still
+        while (length < extent && free > 0) {
+            ladder += factor(length, Double.POSITIVE_INFINITY, free).also { free -= it.size }
+            length *= FACTOR
+        }
+        ladder.reversed().forEach { add(it, next++) }
+    }
+
+    /** Whether the track is a line gone to and fro, as a float's casts: then it comes back often, to changed water. */
+    private fun isLine(): Boolean {
+        val east = track.x.max() - track.x.min()
+        val north = track.y.max() - track.y.min()
+        return minOf(east, north) < 1e-3 * maxOf(east, north)
+    }
+
+    /** The shortest length of which [columns] columns hold all that the track can tell, m. */
+    private fun shortest(columns: Int): Double {
+        var low = SHORTEST * maxOf(step, 1e-9 * extent)
+        var high = maxOf(extent / 2, 2 * low)
+        val thin = maxOf(1, n / THINNED)
+        if (factor(low, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns) return low
+        repeat(HALVINGS) {
+            val middle = sqrt(low * high)
+            val isEnough = factor(middle, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns
+            if (isEnough) high = middle else low = middle
+        }
+        return high
+    }
+
+    private fun add(columns: List<DoubleArray>, band: Int) {
+        found += columns
+        repeat(columns.size) { bandOf += band }
+    }
+
+    /** Number of columns. */
+    val size: Int get() = found.size
+
+    /** The process of each column; 0 is the level. */
+    val band: IntArray = bandOf.toIntArray()
+
+    /** Number of processes. */
+    val bands: Int = band.max() + 1
+
+    /** Each column along the track at height 1. */
+    val columns: Array<DoubleArray> = found.toTypedArray()
+
+    /** The first columns of the pivoted Cholesky factor of the process with [length], m, and [time], s. */
+    private fun factor(length: Double, time: Double, most: Int, thin: Int = 1): List<DoubleArray> {
+        val count = (n + thin - 1) / thin
+        val columns = ArrayList<DoubleArray>()
+        val left = DoubleArray(count) { 1.0 }
+        while (columns.size < most) {
+            val pivot = left.indices.maxBy { left[it] }
+            if (left[pivot] < ENOUGH) break
+            val scale = 1 / sqrt(left[pivot])
+            val column = DoubleArray(count) { alike(it * thin, pivot * thin, length, time) }
+            for (other in columns) {
+                val share = other[pivot]
+                if (share != 0.0) for (i in 0 until count) column[i] -= share * other[i]
+            }
+            for (i in 0 until count) {
+                column[i] *= scale
+                left[i] = maxOf(left[i] - column[i] * column[i], 0.0)
+            }
+            left[pivot] = 0.0
+            columns += column
+        }
+        return columns
+    }
+
+    private fun alike(a: Int, b: Int, length: Double, time: Double): Double {
+        val dx = (track.x[a] - track.x[b]) / length
+        val dy = (track.y[a] - track.y[b]) / length
+        val dt = (series.times[a] - series.times[b]) / time
+        return exp(-(dx * dx + dy * dy + dt * dt) / 2)
+    }
+
+    /** The water along the track with heights [beta], of which the first [size] count. */
+    fun along(beta: DoubleArray): DoubleArray {
+        val out = DoubleArray(n)
+        for (k in 0 until size) {
+            val column = columns[k]
+            val height = beta[k]
+            for (i in 0 until n) out[i] += height * column[i]
+        }
+        return out
+    }
+
+    /** How steep the water with heights [beta] is along the way at each row, sensor units/m. */
+    fun steepness(beta: DoubleArray): DoubleArray {
+        val u = along(beta)
+        return DoubleArray(n) { i ->
+            val from = maxOf(i - 1, 0)
+            val to = minOf(i + 1, n - 1)
+            (u[to] - u[from]) / maxOf(hypot(track.x[to] - track.x[from], track.y[to] - track.y[from]), step)
+        }
+    }
+
+    private companion object {
+        const val FINEST = 0.75
+        const val FACTOR = 2.2
+        const val SHORTEST = 2.0
+        const val ENOUGH = 1e-4
+        const val MOVING = 0.15
+        const val LINE_MOVING = 0.6
+        const val THINNED = 1200
+        const val HALVINGS = 6
+        val TIMES = doubleArrayOf(2.0, 8.0).toList()
+        val SHARES = doubleArrayOf(1.5, 5.0).toList()
+        val LINE_SHARES = doubleArrayOf(4.0, 16.0).toList()
+    }
+}
