@@ -50,6 +50,7 @@ public enum class Danger {
 
     /** A person wants the boat to come home. */
     OPERATOR_RETURN,
+
     /** What is left of the budget is needed for the way home. */
     BUDGET_SPENT,
 
@@ -160,6 +161,7 @@ public class Situation {
 
     /** Whether the log can't be written. */
     public var logLost: Boolean = false
+
     /** Whether what is left of the budget is needed for the way home. */
     public var budgetSpent: Boolean = false
 

@@ -88,8 +88,11 @@ internal class BlindAnswer(
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {
-            val what = if (given.state == null) "was not used: without a reference a lag is fitted in its place" else
+            val what = if (given.state == null) {
+                "was not used: without a reference a lag is fitted in its place"
+            } else {
                 "was looked at for its time constant alone, because there is no reference"
+            }
             add("The sensor given $what.")
         }
         add(

@@ -173,7 +173,8 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     ): BlindState {
         val design = BlindDesign(shown(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes), noise)
         var heights = before?.fit?.heights ?: DoubleArray(design.size)
-        var bands = variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / design.size }
+        var bands =
+            variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / design.size }
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
         var fit = BlindFit(design, precisions(bands, modes), heights)

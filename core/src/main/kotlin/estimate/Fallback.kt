@@ -19,6 +19,7 @@ import kotlin.math.sqrt
 internal class Fallback(private val grid: Grid, prior: Interval) {
     private val filter = BoundedExtendedFilter(grid, prior)
     private val sums = DoubleArray(grid.size)
+
     /** Farther from the first cell than any other is. */
     private val outside = grid.centerX(0) - 2 * (grid.columns * grid.cellWidth + grid.rows * grid.cellHeight)
     private var seconds = 0.0

@@ -77,9 +77,21 @@ public class MedianWindow(public val size: Int) {
         const val THREE = 3
 
         fun middle(a: Double, b: Double, c: Double): Double = if (a < b) {
-            if (c < a) a else if (c < b) c else b
+            if (c < a) {
+                a
+            } else if (c < b) {
+                c
+            } else {
+                b
+            }
         } else {
-            if (c < b) b else if (c < a) c else a
+            if (c < b) {
+                b
+            } else if (c < a) {
+                c
+            } else {
+                a
+            }
         }
     }
 }

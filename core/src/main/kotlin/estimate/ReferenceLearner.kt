@@ -147,7 +147,8 @@ public class ReferenceLearner(
         val delays = List(DELAYS) { ln(series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble())) }
         fun likelihood(logs: DoubleArray) = total(ResponseKind.FIRST_ORDER, logs)
         val start = delays.maxBy { likelihood(doubleArrayOf(it)) }
-        return 2 * likelihood(Search.simplex(doubleArrayOf(start), doubleArrayOf(0.3), EVALUATIONS, CLOSE, ::likelihood))
+        return 2 *
+            likelihood(Search.simplex(doubleArrayOf(start), doubleArrayOf(0.3), EVALUATIONS, CLOSE, ::likelihood))
     }
 
     public companion object {

@@ -54,7 +54,8 @@ public class Mission(
     }
 
     private val water = spec.area.water()
-    private val pose = PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
+    private val pose =
+        PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
     private val survey = Survey(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),

@@ -157,7 +157,11 @@ class SensorSpecTest {
         fun stage(json: String) = """{"name": "x", "stages": [{"type": "noise", "standard_deviation": 1}, $json]}"""
         for ((json, words) in listOf(
             stage("""{"type": "warp", "factor": 9}""") to
-                listOf("type", "asymmetric-lag, combined-lag, cross-sensitivity, dead-time, drift, first-order-lag", "$.stages[1]"),
+                listOf(
+                    "type",
+                    "asymmetric-lag, combined-lag, cross-sensitivity, dead-time, drift, first-order-lag",
+                    "$.stages[1]",
+                ),
             stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to
                 listOf("timeConstant (-2.0 s) must be above 0", "$.stages[1]"),
             stage("""{"type": "first-order-lag"}""") to listOf("time_constant_s", "$.stages[1]"),

@@ -267,7 +267,6 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         private const val MOST_LAGS = 60
         private const val PARTS = 20
 
-
         /** All names that a figure may have. */
         val NAMES = listOf("predicted", "correlation") +
             listOf("time", "value", "rate", "speed", "heading", "position", "temperature").map { "residuals-$it" } +

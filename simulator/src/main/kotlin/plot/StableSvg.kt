@@ -14,6 +14,7 @@ internal object StableSvg {
     private val id = Regex("""\bid="(\w+)"""")
     private val styleElement = Regex("""(?s)\s*<style type="text/css">.*?</style>""")
     private val styleRule = Regex("""(?s)#\w+ \.([\w-]+) \{\s*(.*?)\s*\}""")
+
     /** Without spaces, which jsvg takes for parts of the names. */
     private const val FONTS = "Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif"
 

@@ -119,7 +119,15 @@ class PhonesTest {
             assertNull(PhoneReport.parse(line), line)
         }
         assertEquals(12, PhoneReport.answered("{\"done\":12}\n"))
-        for (line in listOf("", "12", "{\"done\":}", "{\"done\":x}", "done")) assertNull(PhoneReport.answered(line), line)
+        for (line in listOf(
+            "",
+            "12",
+            "{\"done\":}",
+            "{\"done\":x}",
+            "done",
+        )) {
+            assertNull(PhoneReport.answered(line), line)
+        }
     }
 
     @Test
