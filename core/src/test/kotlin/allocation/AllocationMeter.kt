@@ -42,6 +42,6 @@ internal object AllocationMeter {
         assertEquals(0L, bytes(call), "bytes allocated by $CALLS calls of $what")
     }
 
-    const val ROUNDS = 6
+    const val ROUNDS = 12
     const val CALLS = 500
 }

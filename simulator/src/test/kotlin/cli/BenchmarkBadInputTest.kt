@@ -275,7 +275,7 @@ class BenchmarkBadInputTest {
                 """{"name": "x"}""",
             ),
             sensor(
-                "a stage must have a type, one of asymmetric-lag, cross-sensitivity, dead-time, drift, " +
+                "a stage must have a type, one of asymmetric-lag, combined-lag, cross-sensitivity, dead-time, drift, " +
                     "first-order-lag, flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, " +
                     "outliers, quantisation, saturation, slew-limit, temperature-dependent-lag, " +
                     "two-path-lag at path: \$.stages[0]",

@@ -25,9 +25,12 @@ internal fun Quantity.words(): Int =
 internal fun EstimatorName.words(): Int =
     when (this) {
         EstimatorName.AVERAGING -> R.string.estimator_averaging
+        EstimatorName.EXPONENTIAL -> R.string.estimator_exponential
+        EstimatorName.BOUNDED -> R.string.estimator_bounded
         EstimatorName.INTERVAL -> R.string.estimator_interval
         EstimatorName.SELF_CALIBRATING -> R.string.estimator_self_calibrating
         EstimatorName.BOUNDED_EXTENDED -> R.string.estimator_bounded_extended
+        EstimatorName.BAYESIAN -> R.string.estimator_bayesian
     }
 
 /** What a person calls it. */
@@ -37,6 +40,8 @@ internal fun PlannerName.words(): Int =
         PlannerName.LAWNMOWER -> R.string.planner_lawnmower
         PlannerName.BOUNDED -> R.string.planner_bounded
         PlannerName.BOUNDED_EXTENDED -> R.string.planner_bounded_extended
+        PlannerName.INFORMATION -> R.string.planner_information
+        PlannerName.SETTLING_LAWNMOWER -> R.string.planner_settling
         PlannerName.POLYGON_RRT -> R.string.planner_polygon
     }
 
@@ -61,6 +66,7 @@ internal fun Danger.words(): Int =
         Danger.OPERATOR_WAIT -> R.string.danger_wait
         Danger.OPERATOR_HOLD -> R.string.danger_hold
         Danger.OPERATOR_RETURN -> R.string.danger_return
+        Danger.BUDGET_SPENT -> R.string.danger_budget
         Danger.MISSION_END -> R.string.danger_end
     }
 
