@@ -9,10 +9,9 @@ import kotlin.math.sqrt
  *
  * Each cause is an extension of a first-order lag, fitted with the water free to take what it can imitate at every
  * step. What is left counts: likelihood ratios are divided by what correlation inflates them, and stretches of the log must
- * agree. See core/docs/Diagnosis.md, (9) to (13).
+ * agree. See core/docs/Diagnosis.md, (11) to (15).
  */
 internal class BlindDiagnosis(private val series: MeasuredSeries, private val settings: DiagnosisSettings) {
-    private val n = series.size
     private val search by lazy { BlindSearch(series) }
 
     /** The answer. */

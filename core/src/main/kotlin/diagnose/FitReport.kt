@@ -88,7 +88,7 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         val numbers = fit.numbers.copyOf()
         var step = if (parameter.logarithmic) ln(2.0) else (parameter.upper - parameter.lower) * SMALLEST_PART
         var value = end
-        for (attempt in 0 until MOST_STEPS) {
+        repeat(MOST_STEPS) {
             value = when {
                 parameter.logarithmic -> end * exp(if (isLower) step else -step)
                 isLower -> end + step
@@ -97,11 +97,14 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
             if (value !in parameter.lower..parameter.upper) return Interval(parameter.lower, parameter.upper)
             numbers[i] = value
             val moved = Fitting.fit(fit.model, numbers, free, used, fit.noise.time, noise = fit.noise)
-            if (fit.score - moved.score > ONE_SIDED_95) break
+            if (fit.score - moved.score > ONE_SIDED_95) return oneSided(isLower, end, value)
             step *= 2
         }
-        return if (isLower) Interval(end, value) else Interval(value, end)
+        return oneSided(isLower, end, value)
     }
+
+    private fun oneSided(isLower: Boolean, end: Double, value: Double) =
+        if (isLower) Interval(end, value) else Interval(value, end)
 
     /** Standard error of every parameter on the scale it is fitted on; 0 where it was not fitted or does not show. */
     private fun errors(fit: ModelFit): DoubleArray {

@@ -140,7 +140,7 @@ class MapCommand : WorkCommand("map") {
         val shown = !quiet && bytes >= WORTH_SHOWING
         return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
             try {
-                SurveyMap.of(opened, settings(), correction, progress::advance)
+                SurveyMap.of(opened, settings().copy(correction = correction), progress::advance)
             } catch (unfit: UnfitGrid) {
                 throw failure("${if (gridSize == null) "--cell" else "--grid"}: ${unfit.message}")
             }

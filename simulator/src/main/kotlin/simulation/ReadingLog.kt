@@ -52,8 +52,8 @@ class ReadingLog(private val file: LogSink) : LogSink {
         val reading = json.getValue("reading").jsonObject
         verdicts.merge(reading.getValue("verdict").jsonPrimitive.content, 1, Long::plus)
         for (element in reading.getValue("taken").jsonArray) {
-            val (time, x, y, value) = element.jsonArray.map { it.jsonPrimitive.double }
-            all += Reading(BoatTime(time), Position(x, y), value)
+            val numbers = element.jsonArray.map { it.jsonPrimitive.double }
+            all += Reading(BoatTime(numbers[0]), Position(numbers[1], numbers[2]), numbers[3])
         }
     }
 }

@@ -45,8 +45,8 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         if (result.belief?.isExplained == false) {
             val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
             add(
-                "no sensor model explains the readings$where: bounds, and values where the nearest model's ran away, are " +
-                    "those of bounded-extended",
+                "no sensor model explains the readings$where: bounds, and values where the nearest model's ran away, " +
+                    "are those of bounded-extended",
             )
         }
         if (result.againstMeans.mean > result.averagesError.mean) {

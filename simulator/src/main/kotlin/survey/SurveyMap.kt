@@ -41,6 +41,7 @@ data class MapSettings(
     val boundedFilter: BoundedFilterSettings = BoundedFilterSettings(epsilon = 0.0),
     val unit: String? = null,
     val lagFilters: LagFilterSettings = LagFilterSettings(),
+    val correction: GivenCorrection? = null,
 )
 
 /**
@@ -57,8 +58,7 @@ data class MapSettings(
  * @property rangeGiven whether the user gave [prior]. @property outsideRange readings outside [prior].
  * @property epsilonGiven whether the user gave the bounded filter's epsilon.
  * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
- * @property unit unit of the quantity as the user gave it, or null.
- * @property correction what was mapped in place of the readings, or null.
+ * @property settings what was asked for.
  */
 class SurveyMap internal constructor(
     val log: SurveyLog,
@@ -78,10 +78,15 @@ class SurveyMap internal constructor(
     val outsideRange: Long,
     val epsilonGiven: Boolean,
     val stepSlope: Double,
-    val unit: String?,
+    val settings: MapSettings,
     val learned: SelfCalibratingEstimator?,
-    val correction: GivenCorrection?,
 ) {
+    /** Unit of the quantity as the user gave it, or null. */
+    val unit: String? get() = settings.unit
+
+    /** What was mapped in place of the readings, or null. */
+    val correction: GivenCorrection? get() = settings.correction
+
     companion object {
         private const val PRIOR_MARGIN = 0.1
 
@@ -89,30 +94,18 @@ class SurveyMap internal constructor(
          * Goes through [log] twice: once to see what it is, once into the filters. Read again is only what is too long
          * to be kept; the legs are compared meanwhile, on the other cores.
          *
-         * @param correction what to map in place of the readings, or null.
          * @param progress told how many bytes of the two readings are done.
          * @throws LogProblem if the log cannot be used.
          */
-        fun of(
-            log: SurveyLog,
-            settings: MapSettings,
-            correction: GivenCorrection? = null,
-            progress: (Long) -> Unit = {},
-        ): SurveyMap = runBlocking(Dispatchers.Default) { read(log, settings, correction, progress) }
+        fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap =
+            runBlocking(Dispatchers.Default) { read(log, settings, progress) }
 
-        private suspend fun read(
-            log: SurveyLog,
-            settings: MapSettings,
-            correction: GivenCorrection?,
-            progress: (Long) -> Unit,
-        ) = coroutineScope {
+        private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
             val scan = SurveyScan()
             val kept = KeptReadings()
             val epsilon = EpsilonSearch(settings)
             var bytes = 0L
-            var row = 0
-            val first = log.read({ progress(it.also { bytes = it }) }) { time, x, y, read, conditions ->
-                val value = correction?.at(row++) ?: read
+            val first = log.read(settings, { progress(it.also { bytes = it }) }) { time, x, y, value, conditions ->
                 scan.take(time, x, y, value, conditions)
                 kept.take(time, x, y, value, conditions)
                 epsilon.add(time.seconds, value)
@@ -140,14 +133,7 @@ class SurveyMap internal constructor(
                 gaps.add(time.seconds, x, y)
                 if (value !in prior.lower..prior.upper) outsideRange++
             }
-            if (kept.holds(first.readings)) {
-                kept.read(takeIn)
-            } else {
-                row = 0
-                log.read({ progress(bytes + it) }) { time, x, y, read, conditions ->
-                    takeIn.take(time, x, y, correction?.at(row++) ?: read, conditions)
-                }
-            }
+            if (kept.holds(first.readings)) kept.read(takeIn) else log.read(settings, { progress(bytes + it) }, takeIn)
             progress(2 * bytes)
             passes.finish()
             SurveyMap(
@@ -168,10 +154,18 @@ class SurveyMap internal constructor(
                 outsideRange,
                 epsilonGiven = settings.epsilon != null,
                 stepSlope,
-                settings.unit,
+                settings,
                 estimators.values.firstNotNullOfOrNull(::learner),
-                correction,
             )
+        }
+
+        /** Hands what is to be mapped to [sink]: the readings, or what is given in their place. */
+        private fun SurveyLog.read(settings: MapSettings, progress: (Long) -> Unit, sink: ReadingSink): LogPass {
+            val correction = settings.correction ?: return read(progress, sink)
+            var row = 0
+            return read(progress) { time, x, y, _, conditions ->
+                sink.take(time, x, y, correction.at(row++), conditions)
+            }
         }
 
         private fun tooFew(log: SurveyLog, pass: LogPass): LogProblem {

@@ -84,8 +84,9 @@ internal class TraceView(context: Context) : View(context) {
         canvas.clipRect(panel.left, panel.top, panel.right, panel.bottom)
         val known = moments.filter { it.lower.isFinite() && it.upper.isFinite() }
         path.rewind()
-        known.forEachIndexed { index, it ->
-            if (index == 0) path.moveTo(panel.x(it), panel.y(it.upper)) else path.lineTo(panel.x(it), panel.y(it.upper))
+        known.forEachIndexed { index, moment ->
+            val x = panel.x(moment)
+            if (index == 0) path.moveTo(x, panel.y(moment.upper)) else path.lineTo(x, panel.y(moment.upper))
         }
         known.asReversed().forEach { path.lineTo(panel.x(it), panel.y(it.lower)) }
         fill.color = context.getColor(R.color.band)

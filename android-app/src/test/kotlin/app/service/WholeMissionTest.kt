@@ -40,7 +40,8 @@ class WholeMissionTest {
 
         val armed = desk.said.length
         desk.ask { arm() }
-        assertTrue(desk.until(10.0) { it.mission?.state == MissionState.Holding(Danger.OPERATOR_WAIT) })
+        // A place is believed after 15 s of fixes that agree.
+        assertTrue(desk.until(30.0) { it.mission?.state == MissionState.Holding(Danger.OPERATOR_WAIT) })
         desk.pass(3.0)
         assertEquals(Actuation.Differential(0.0, 0.0), desk.boat.board.actuation, "armed, and waits")
 
