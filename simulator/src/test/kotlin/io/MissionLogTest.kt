@@ -56,8 +56,10 @@ class MissionLogTest {
             if (tick == 30) mission.start()
             mission.step(boat.time)
         }
-        val taken = Regex(""""taken":\[\[([^]]*)]]""")
-        return lines.mapNotNull { taken.find(it) }.map { match ->
+        // Readings that waited for a later one are taken with it.
+        val taken = Regex(""""taken":\[((?:\[[^]]*],?)+)]""")
+        val one = Regex("""\[([^]]*)]""")
+        return lines.mapNotNull { taken.find(it) }.flatMap { one.findAll(it.groupValues[1]) }.map { match ->
             val reading = match.groupValues[1].split(',').map { it.toDouble() }
             Position(reading[1], reading[2]) to reading[3]
         }
