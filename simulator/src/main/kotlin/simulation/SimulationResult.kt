@@ -109,10 +109,9 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
     private fun account(): ReadingAccount {
         val gate = run.mission.readings
         val log = run.readings
-        val waiting = gate.same.size + if (gate.held == null) 0L else 1L
         return ReadingAccount(
             sent = run.world.boat.board.readings,
-            received = gate.passed + gate.leftOut + waiting,
+            received = gate.passed + gate.leftOut + gate.waiting,
             logged = log.logged,
             taken = log.taken.size.toLong(),
             refused = mapOf(
@@ -121,7 +120,7 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
                 "stuck" to gate.stuck,
                 "without-value-or-place" to gate.withoutValueOrPlace,
             ).filterValues { it > 0 },
-            waiting = waiting,
+            waiting = gate.waiting.toLong(),
             inCells = (0 until cells).sumOf { map.readings(it).toLong() },
             // Estimators count a cell that was passed without a reading as a reading without a value.
             outside = map.outside,
