@@ -86,6 +86,10 @@ public class Mission(
 
     /** What a person wants of it once it is armed. */
     public var wish: Wish = Wish.GO_ON
+        set(value) {
+            if (value != field) log.order(value.word)
+            field = value
+        }
 
     /** What was last let through to the motors. */
     public var drive: Drive = Drive.NONE
@@ -134,6 +138,8 @@ public class Mission(
 
     /** The log can't be written any more: the mission ends as its policy for the end says. */
     public fun logLost() {
+        // What is written after a gap is replayed, too.
+        if (!logLost) log.order("log-lost")
         logLost = true
     }
 

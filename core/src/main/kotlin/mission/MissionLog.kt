@@ -68,7 +68,7 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
     private var begun = Double.NaN
     private var lastMillis = -1L
 
-    /** Keeps a person's [word], `start` or `stop`, for the step's record. */
+    /** Keeps an order's [word] for the step's record. */
     internal fun order(word: String) = inputs.order(word)
 
     /** Keeps the phone's fix for the step's record. */

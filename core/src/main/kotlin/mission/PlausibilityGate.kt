@@ -74,6 +74,9 @@ public class PlausibilityGate(
     /** Readings equal to the last that passed, which wait for one that is not. Not to be modified. */
     public val same: List<Reading> get() = equals
 
+    /** Readings that wait for a later one. */
+    public val waiting: Int get() = equals.size + if (held == null) 0 else 1
+
     /** Readings of a probe that was stuck. */
     public var stuck: Long = 0
         private set
@@ -134,7 +137,11 @@ public class PlausibilityGate(
 
     /** The boat has left the place: what waits is given up, because later readings of it would come out of order. */
     public fun giveUp() {
-        if (held != null) lone++
+        held?.let {
+            lone++
+            // Or a boat that leaves each cell before the next reading would never have a first one.
+            if (last.isNaN()) last = it.value
+        }
         held = null
         stuck += equals.size
         equals.clear()

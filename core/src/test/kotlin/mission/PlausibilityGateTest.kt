@@ -37,6 +37,18 @@ class PlausibilityGateTest {
         assertEquals(1, gate.lone)
     }
 
+    /** Small cells and a slow probe: each reading waits in vain, but the next is compared with it. */
+    @Test
+    fun aBoatThatLeavesEveryCellBeforeTheNextReadingLosesOnlyTheFirst() {
+        for (value in listOf(7.0, 7.1, 7.2, 7.3)) {
+            take(value)
+            gate.giveUp()
+        }
+        assertEquals(listOf(7.1, 7.2, 7.3), taken)
+        assertEquals(1, gate.lone)
+        assertEquals(0, gate.waiting)
+    }
+
     /** What a fast probe says lies on its way, however large its steps; a reading beside the way is left out. */
     @Test
     fun aProbeThatMovesFastLosesNothing() {

@@ -121,6 +121,7 @@ class DriveCommand : WorkCommand("drive") {
             attendPerson(run)
             val reason = run.sail()
             status.wipe()
+            sayWhereTimeWasLost(phone, prompt)
             finish(mission, file, directory, reason)
         }
     }
@@ -161,6 +162,18 @@ class DriveCommand : WorkCommand("drive") {
         val why = reason?.name?.lowercase() ?: "stopped before it began"
         tell("$why; ${mission.readings.passed} readings, ${mission.readings.leftOut} left out; log $log")
         if (reason != StopReason.COMPLETED) throw ProgramResult(1)
+    }
+
+    /** Readings that the mission took for earlier or later than they were make its map worse. */
+    private fun sayWhereTimeWasLost(phone: Phone, prompt: PromptWire) {
+        if (phone.timesAlone > 0) {
+            val said = "the phone's channel was silent or lost ${phone.timesAlone} times"
+            echo("warning: $said; the mission's time went on by itself, and the map may be wrong there", err = true)
+        }
+        if (prompt.timesLate > 0) {
+            val said = "what the board sent came late or not at all ${prompt.timesLate} times"
+            echo("warning: $said; the map may be wrong there", err = true)
+        }
     }
 
     private fun tell(text: String) {

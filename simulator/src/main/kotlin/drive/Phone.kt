@@ -33,7 +33,10 @@ data class Moment(
  * thread.
  */
 interface Phone : AutoCloseable {
-    /** Waits until the next step is due, half a second at most, and tells what is known then. */
+    /** How often time had to go on without the phone's clock. */
+    val timesAlone: Long get() = 0
+
+    /** Waits until the next step is due, 2 s at most, and tells what is known then. */
     fun await(): Moment
 
     /** The step at the moment last told has been taken, and all its bytes were sent. */

@@ -11,14 +11,19 @@ import java.util.concurrent.locks.LockSupport
  * [PATIENCE_NANOS] are taken for lost and not waited for again. Confined to one thread.
  *
  * @param link to the board. Retained.
+ * @param nanos wall time, ns.
  */
-internal class PromptWire(private val link: ByteLink) : ByteLink {
+internal class PromptWire(private val link: ByteLink, private val nanos: () -> Long = System::nanoTime) : ByteLink {
     private var held = ByteArray(0)
     private var taken = 0
     private val buffer = ByteArray(BUFFER)
     private var received = 0L
     private var lost = 0L
     private var isLost = false
+
+    /** How often bytes did not come in time. */
+    var timesLate = 0L
+        private set
 
     /** Waits until as many bytes have come as were [sent] since the wire was opened. */
     fun await(sent: Long) {
@@ -27,13 +32,14 @@ internal class PromptWire(private val link: ByteLink) : ByteLink {
             received = 0
             lost = 0
         }
-        val from = System.nanoTime()
+        val from = nanos()
         while (received + lost < sent && !isLost) {
             val count = link.read(buffer)
             if (count == ByteLink.LOST) isLost = true
             if (count > 0) keep(count)
             if (count != 0) continue
-            if (System.nanoTime() - from > PATIENCE_NANOS) {
+            if (nanos() - from > PATIENCE_NANOS) {
+                timesLate++
                 lost = sent - received
             } else {
                 LockSupport.parkNanos(PAUSE_NANOS)
@@ -64,8 +70,8 @@ internal class PromptWire(private val link: ByteLink) : ByteLink {
     }
 
     companion object {
-        /** Wall time for which bytes are waited for, ns. */
-        const val PATIENCE_NANOS = 250_000_000L
+        /** Wall time for which bytes are waited for, ns: less than a virtual boat waits for an answer. */
+        const val PATIENCE_NANOS = 1_000_000_000L
         private const val PAUSE_NANOS = 50_000L
         private const val BUFFER = 4096
     }

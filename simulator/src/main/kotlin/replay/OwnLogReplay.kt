@@ -14,6 +14,7 @@ import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionSpec
+import stillwater.mission.Wish
 import stillwater.model.BoatTime
 import stillwater.model.LatLon
 import java.nio.file.Path
@@ -107,13 +108,7 @@ internal class OwnLogReplay(private val file: Path, private val other: MissionSp
     }
 
     private fun feed(mission: Mission, came: JsonObject) {
-        for (order in came.list("order")) {
-            when ((order as? JsonPrimitive)?.contentOrNull) {
-                "start" -> mission.start()
-                "stop" -> mission.stop()
-                else -> notUnderstood.count("an order start or stop")
-            }
-        }
+        for (order in came.list("order")) order(mission, (order as? JsonPrimitive)?.contentOrNull)
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
             val isPlace = latitude in LatLon.LATITUDES_DEG && longitude.isFinite()
@@ -124,6 +119,18 @@ internal class OwnLogReplay(private val file: Path, private val other: MissionSp
             mission.compass(BoatTime(time), heading, yawRate)
         }
         for (line in came.list("heard")) (line as? JsonPrimitive)?.contentOrNull?.let(link::say)
+    }
+
+    private fun order(mission: Mission, word: String?) {
+        when (word) {
+            "start" -> mission.start()
+            "stop" -> mission.stop()
+            "log-lost" -> mission.logLost()
+            else -> {
+                val wish = Wish.entries.find { it.word == word }
+                if (wish == null) notUnderstood.count("an order that is known") else mission.wish = wish
+            }
+        }
     }
 
     private fun JsonObject.list(key: String): List<JsonElement> = (get(key) as? JsonArray).orEmpty()

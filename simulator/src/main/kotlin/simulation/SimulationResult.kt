@@ -10,7 +10,7 @@ import stillwater.wire.Malformed
  * What became of the readings: each one that the board sent is under one heading.
  *
  * @property sent by the board. @property received by the mission: heard whole. @property logged under a verdict.
- * @property taken into the map. @property refused by reason, those that were refused. @property waiting for the next.
+ * @property taken into the map. @property refused by reason, those that were refused. @property waiting for later ones.
  * @property inCells of those taken. @property outside of the map. @property rejected by the estimator.
  */
 data class ReadingAccount(
@@ -111,15 +111,16 @@ class SimulationResult(val run: MissionRun, val film: Film, val longest: Double)
         val log = run.readings
         return ReadingAccount(
             sent = run.world.boat.board.readings,
-            received = gate.passed + gate.leftOut + (if (gate.held == null) 0 else 1),
+            received = gate.passed + gate.leftOut + gate.waiting,
             logged = log.logged,
             taken = log.taken.size.toLong(),
             refused = mapOf(
                 "out-of-range" to gate.outOfRange,
                 "lone" to gate.lone,
+                "stuck" to gate.stuck,
                 "without-value-or-place" to gate.withoutValueOrPlace,
             ).filterValues { it > 0 },
-            waiting = if (gate.held == null) 0 else 1,
+            waiting = gate.waiting.toLong(),
             inCells = (0 until cells).sumOf { map.readings(it).toLong() },
             // Estimators count a cell that was passed without a reading as a reading without a value.
             outside = map.outside,

@@ -11,6 +11,7 @@ import org.junit.jupiter.api.io.TempDir
 import org.junit.jupiter.params.ParameterizedTest
 import org.junit.jupiter.params.provider.CsvSource
 import stillwater.mission.Mission
+import stillwater.mission.Wish
 import java.nio.file.Path
 import kotlin.io.path.exists
 import kotlin.io.path.readLines
@@ -68,6 +69,30 @@ class ReplayCommandTest {
     }
 
     @Test
+    fun whatAPersonWishedAndALostLogAreReplayedToo() {
+        val states = HashSet<String>()
+        val (lines, mission) = sailed(46, 150) { step, mission ->
+            when (step) {
+                300 -> mission.wish = Wish.WAIT
+                400 -> mission.wish = Wish.GO_ON
+                600 -> mission.wish = Wish.HOLD
+                800 -> mission.wish = Wish.GO_ON
+                1000 -> mission.wish = Wish.RETURN
+                1020 -> mission.wish = Wish.GO_ON
+                in 1200..1210 -> mission.logLost()
+            }
+            states += mission.state.word
+        }
+        assertTrue(states.containsAll(listOf("surveying", "holding", "returning")), "$states")
+        assertEquals(1, lines.count { "\"log-lost\"" in it })
+        val summary = replay(write("log.txt", lines), "out")
+        assertSameMap(mission, directory.resolve("out/cells.csv"))
+        assertEquals(lines, directory.resolve("out/mission.txt").readLines())
+        assertEquals(0, summary.count("steps_otherwise_than_recorded"))
+        assertEquals(emptyMap(), summary.getValue("lines_not_understood").jsonObject.toMap())
+    }
+
+    @Test
     fun linesThatAreNoneAreCountedAndTheRestIsReplayed() {
         val (lines, mission) = sailed(44, 60)
         val others = listOf("1\tI\t{\"what\":1}", "2\tI\t{\"mission\":{}}", lines.last().take(30))
@@ -94,11 +119,12 @@ class ReplayCommandTest {
 
     @ParameterizedTest
     @CsvSource(
-        // Lines before a fix, and readings of the probe that have a place and another that bears them out.
+        // Lines of the log, those before a fix, and readings of the probe that have a place and are not left out: in the
+        // last log the boat leaves a cell before its first reading is confirmed.
         "airboat_20130807_063622.txt, 4.0.0, 23, 18, surveying",
         "airboat_20151220_043848.txt, 4.0.0, 15, 0, preflight",
         "platypus_20160426_024734.txt, 4.1.0, 0, 21, surveying",
-        "platypus_20160519_013623.txt, 4.2.0, 29, 26, surveying",
+        "platypus_20160519_013623.txt, 4.2.0, 29, 30, surveying",
     )
     fun platypusLogsAreReplayedAndTheirReplayIsALogAgain(
         name: String,

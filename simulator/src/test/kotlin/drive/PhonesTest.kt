@@ -6,6 +6,7 @@ import stillwater.link.PhoneReport
 import stillwater.link.ReconnectingWire
 import stillwater.link.WireProblem
 import stillwater.wire.ByteLink
+import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
@@ -108,6 +109,24 @@ class PhonesTest {
         assertTrue("1 of the phone's lines unreadable" in channel.trouble())
         channel.done()
         assertEquals("{\"done\":1}\n", second.written.toString())
+    }
+
+    @Test
+    fun aSlowMachineIsWaitedForAndTheClockNotShifted() {
+        var wall = 0L
+        val silence = Array(150) { "" }
+        val first = Scripted(report(1, 3.0).line(), *silence, report(2, 3.1).line(), *Array(250) { "" }, report(3, 3.3).line())
+        // Each reading takes 10 ms: 1.5 s pass in the first silence, and 2.5 s in the second.
+        val channel = PhoneChannel(ReconnectingWire({ throw WireProblem("gone") }, first)) { wall.also { wall += 10_000_000 } }
+        assertEquals(3.0, channel.await().time.seconds)
+        assertEquals(3.1, channel.await().time.seconds)
+        assertEquals(0, channel.timesAlone)
+        assertEquals("", channel.trouble())
+        val moments = generateSequence { channel.await() }.takeWhile { it.fixes.isEmpty() }.toList()
+        assertEquals(1, channel.timesAlone)
+        assertContains(channel.trouble(), "1 times without the phone")
+        assertTrue(moments.size in 4..6, "${moments.size} steps alone, of 0.1 s each, in the 0.5 s after the patience")
+        assertTrue(moments.zipWithNext().all { (a, b) -> b.time > a.time })
     }
 
     @Test

@@ -45,12 +45,15 @@ class PromptWireTest {
     @Test
     fun whatWasLostIsWaitedForOnce() {
         val link = Slow("ab")
-        val wire = PromptWire(link)
+        var wall = 0L
+        val wire = PromptWire(link) { wall.also { wall += PromptWire.PATIENCE_NANOS / 10 } }
         wire.await(10)
+        assertEquals(1, wire.timesLate)
         assertEquals("ab", wire.readAll())
         val reads = link.reads
         wire.await(10)
         assertEquals(reads, link.reads)
+        assertEquals(1, wire.timesLate)
     }
 
     @Test

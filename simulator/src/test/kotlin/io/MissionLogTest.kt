@@ -56,13 +56,12 @@ class MissionLogTest {
             if (tick == 30) mission.start()
             mission.step(boat.time)
         }
-        // A reading that was held until the next bore it out stands in one line with it.
-        val taken = Regex(""""taken":\[(\[.*?])]""")
-        return lines.mapNotNull { taken.find(it) }.flatMap { match ->
-            match.groupValues[1].removeSurrounding("[", "]").split("],[").map { text ->
-                val reading = text.split(',').map { it.toDouble() }
-                Position(reading[1], reading[2]) to reading[3]
-            }
+        // Readings that waited for a later one are taken with it.
+        val taken = Regex(""""taken":\[((?:\[[^]]*],?)+)]""")
+        val one = Regex("""\[([^]]*)]""")
+        return lines.mapNotNull { taken.find(it) }.flatMap { one.findAll(it.groupValues[1]) }.map { match ->
+            val reading = match.groupValues[1].split(',').map { it.toDouble() }
+            Position(reading[1], reading[2]) to reading[3]
         }
     }
 

@@ -57,6 +57,8 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
                 tick()
                 if (mission.state is MissionState.Stopped && deadUntil < 0) over++
             }
+            // What a process that is dead at the end had not yet written is gone with it: its heir is judged.
+            if (deadUntil >= 0) restart()
             judge()
         } catch (@Suppress("TooGenericExceptionCaught") e: Exception) {
             exception = e

@@ -18,6 +18,12 @@ class FaultCampaignTest {
         assertTrue(runs.sumOf { it.verdicts.readings } > 1000, "boats read something")
     }
 
+    /** A run that ends while its process is dead: the log is without the last second, and so is who goes on with it. */
+    @Test
+    fun aRunThatEndsWithADeadProcessIsJudgedByItsLog() {
+        assertEquals("", FaultCampaign.faultsFound(FaultCampaign.run(800_419)))
+    }
+
     /** A pilot who bypasses the mission: the observer sees that it is beyond the fence and drives without a link. */
     @Test
     fun theObserverSeesWhatAMissionWouldNotTell() {
