@@ -14,8 +14,8 @@ import java.util.concurrent.locks.LockSupport
  *
  * So one clock holds on both sides however fast the boat's time runs, and a pause of either program stops it rather
  * than being taken for a lost link. Where nothing is heard for [PATIENCE] s of wall time, or the channel is lost, time
- * goes on here by itself, step by step, so that the mission sees that its link is gone; when the boat comes back, perhaps
- * with its clock at 0, time goes on from there. Readings around such a gap come at other times than the boat's, so
+ * goes on here by itself, step by step, so that the mission sees that its link is gone; when the boat comes back,
+ * perhaps with its clock at 0, time goes on from there. Readings around such a gap come at other times than the boat's, so
  * [timesAlone] is to be told to whoever uses the map.
  *
  * @param wire to the boat's phone. Retained, and closed with this.

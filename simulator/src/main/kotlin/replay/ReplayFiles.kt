@@ -83,7 +83,8 @@ internal class ReplayFiles(private val replayed: Replayed) {
             "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(it.key, it.value) } +
                 "; ${decisions.changes.size} changes, motors running in ${decisions.driven} steps",
             "readings: ${gate.passed} taken, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
-                "${gate.stuck} stuck, ${gate.waiting} waiting, ${gate.withoutValueOrPlace} without a place; ${replayed.mission.refusedFixes} fixes refused",
+                "${gate.stuck} stuck, ${gate.waiting} waiting, " +
+                "${gate.withoutValueOrPlace} without a place; ${replayed.mission.refusedFixes} fixes refused",
             replayed.asRecorded?.let { same ->
                 val steps = if (same.differingSteps == 0L) {
                     "every step as recorded"

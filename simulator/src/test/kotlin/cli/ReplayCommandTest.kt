@@ -119,8 +119,8 @@ class ReplayCommandTest {
 
     @ParameterizedTest
     @CsvSource(
-        // Lines of the log, those before a fix, and readings of the probe that have a place and are not left out: in the
-        // last log the boat leaves a cell before its first reading is confirmed.
+        // Lines of the log, those before a fix, and readings of the probe that have a place and are not left out: in
+        // the last log the boat leaves a cell before its first reading is confirmed.
         "airboat_20130807_063622.txt, 4.0.0, 23, 18, surveying",
         "airboat_20151220_043848.txt, 4.0.0, 15, 0, preflight",
         "platypus_20160426_024734.txt, 4.1.0, 0, 21, surveying",

@@ -25,7 +25,11 @@ internal const val POND = """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-
     "estimator":"self-calibrating","planner":"bounded-extended","budget":{"seconds":300},"home":{"x_m":5,"y_m":5}}"""
 
 /** The log and the mission of [seconds] s with a virtual boat whose link loses and changes bytes. */
-internal fun sailed(seed: Long, seconds: Int, orders: (Int, Mission) -> Unit = { _, _ -> }): Pair<List<String>, Mission> {
+internal fun sailed(
+    seed: Long,
+    seconds: Int,
+    orders: (Int, Mission) -> Unit = { _, _ -> },
+): Pair<List<String>, Mission> {
     val spec = MissionSpec.fromJson(POND)
     val settings = WorldSettings(
         seed = seed,

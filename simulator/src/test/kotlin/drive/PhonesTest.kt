@@ -114,10 +114,16 @@ class PhonesTest {
     @Test
     fun aSlowMachineIsWaitedForAndTheClockNotShifted() {
         var wall = 0L
-        val silence = Array(150) { "" }
-        val first = Scripted(report(1, 3.0).line(), *silence, report(2, 3.1).line(), *Array(250) { "" }, report(3, 3.3).line())
+        val first = Scripted(
+            report(1, 3.0).line(),
+            *Array(150) { "" },
+            report(2, 3.1).line(),
+            *Array(250) { "" },
+            report(3, 3.3).line(),
+        )
         // Each reading takes 10 ms: 1.5 s pass in the first silence, and 2.5 s in the second.
-        val channel = PhoneChannel(ReconnectingWire({ throw WireProblem("gone") }, first)) { wall.also { wall += 10_000_000 } }
+        val wire = ReconnectingWire({ throw WireProblem("gone") }, first)
+        val channel = PhoneChannel(wire) { wall.also { wall += 10_000_000 } }
         assertEquals(3.0, channel.await().time.seconds)
         assertEquals(3.1, channel.await().time.seconds)
         assertEquals(0, channel.timesAlone)
