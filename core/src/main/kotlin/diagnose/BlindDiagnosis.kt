@@ -26,6 +26,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         }
         val lag = BlindLag(search, base)
         isShapeOpen = lag.isOpen(settings.separation)
+        isLagSeen = lag.isSeen
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (isShapeOpen) lag.both() else base
         val first = Round(start)
@@ -68,13 +69,17 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     /** Whether not even a time constant and a dead time can be told apart: then nothing between them can be named. */
     private var isShapeOpen = false
 
+    /** Whether there is a lag at all, for certain. */
+    private var isLagSeen = false
+
     private fun terms(): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
-        if (!isShapeOpen) {
+        // A lag that does not show for certain has no shape to be named.
+        if (!isShapeOpen && isLagSeen) {
             add(Term(Cause.SECOND_ORDER_RESPONSE))
             add(Term(Cause.TWO_PATH_RESPONSE))
-            add(Term(Cause.DEAD_TIME))
         }
+        if (!isShapeOpen) add(Term(Cause.DEAD_TIME))
         add(Term(Cause.SLEW_LIMIT))
         val scales = search.scales
         val spread = sqrt(scales.logSpeed.map { it * it }.average())

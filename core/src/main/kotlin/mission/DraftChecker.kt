@@ -80,7 +80,12 @@ internal class DraftChecker(private val draft: MissionDraft) {
 
     private fun grid(area: AreaSpec): GridSpec? {
         val cell = numbers[DraftField.CELL] ?: return null
-        draft.loaded?.let { if (it.area == area && it.grid.cell == cell) return it.grid }
+        draft.loaded?.let {
+            if (it.area == area && it.grid.cell == cell) {
+                MissionDraft.requireDrawable(it)
+                return it.grid
+            }
+        }
         require(cell > 0) { "a cell ($cell m) must be larger than 0" }
         val corners = area.corners()
         val (west, east) = corners.minOf(Position::x) to corners.maxOf(Position::x)
@@ -88,10 +93,7 @@ internal class DraftChecker(private val draft: MissionDraft) {
         // A rectangle is filled, so that every cell is on the water; a polygon is covered, and its planner keeps to it.
         val columns = max(1.0, whole((east - west) / cell))
         val rows = max(1.0, whole((north - south) / cell))
-        require(columns * rows <= MOST_CELLS) {
-            "${(columns * rows).toLong()} cells of $cell m are too many for a phone, which draws $MOST_CELLS; choose " +
-                "larger ones"
-        }
+        MissionDraft.requireDrawable(columns * rows, cell)
         val corner =
             draft.place(Position((west + east - columns * cell) / 2, (south + north - rows * cell) / 2))
         return GridSpec(corner, columns.toInt(), rows.toInt(), cell)
@@ -188,9 +190,6 @@ internal class DraftChecker(private val draft: MissionDraft) {
 
     private companion object {
         const val NUMERALS = "0123456789.+-eE"
-
-        /** Each is drawn twice a second. */
-        const val MOST_CELLS = 20_000
 
         /** How a refusal begins, and the field it is about. */
         val NAMES = mapOf(

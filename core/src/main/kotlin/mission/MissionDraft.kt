@@ -107,6 +107,21 @@ public data class MissionDraft(
     public fun toJson(): String = Json.encodeToString(serializer(), this)
 
     public companion object {
+        /** Cells that a phone draws twice a second. */
+        public const val MOST_CELLS: Int = 20_000
+
+        /**
+         * Checks that a phone can draw the map of [spec].
+         *
+         * @throws IllegalArgumentException if it has more than [MOST_CELLS] cells.
+         */
+        public fun requireDrawable(spec: MissionSpec): Unit =
+            requireDrawable(spec.grid.columns.toDouble() * spec.grid.rows, spec.grid.cell)
+
+        internal fun requireDrawable(cells: Double, size: Double) = require(cells <= MOST_CELLS) {
+            "${cells.toLong()} cells of $size m are too many for a phone, which draws $MOST_CELLS; choose larger ones"
+        }
+
         /** The draft whose [toJson] is [json]; a new one where it is something else, as another version's may be. */
         public fun fromJson(json: String): MissionDraft = try {
             Json.decodeFromString(serializer(), json)

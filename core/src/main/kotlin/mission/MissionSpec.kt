@@ -12,12 +12,19 @@ import stillwater.model.Interval
 import stillwater.model.LatLon
 import stillwater.model.Position
 import stillwater.model.WaterArea
+import kotlin.math.abs
 
 /** A place as JSON has it, in metres [x] east and [y] north of the mission's origin. */
 @Serializable
 public data class PlaceSpec(@SerialName("x_m") val x: Double, @SerialName("y_m") val y: Double) {
     init {
-        require(x.isFinite() && y.isFinite()) { "x_m, y_m ($x, $y) must be finite" }
+        require(abs(x) <= FARTHEST && abs(y) <= FARTHEST) {
+            "x_m, y_m ($x, $y) must be within $FARTHEST m of the origin"
+        }
+    }
+
+    private companion object {
+        const val FARTHEST = 100_000.0
     }
 
     /** The same in the local frame. */

@@ -93,10 +93,10 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
             "${wire.untaken} bytes that nobody took".takeIf { wire.untaken > 0 },
             "${phone.unanswered} times without an answer from the phone's program".takeIf { phone.unanswered > 0 },
             "${phone.unreadable} of its lines unreadable".takeIf { phone.unreadable > 0 },
-            "${server.slips} times slower than asked".takeIf { server.slips > 0 },
+            "fell behind the asked speed ${server.slips} times".takeIf { server.slips > 0 },
         )
         val seconds = (world.time.seconds * TENTHS).roundToLong() / TENTHS
-        echo("$seconds s of the boat's time, opened ${wire.openings} times" + bad.joinToString("") { ", $it" })
+        echo("$seconds s of the boat's time, openings: ${wire.openings}" + bad.joinToString("") { ", $it" })
     }
 
     private fun write(directory: String, world: VirtualWorld) = OutputDirectory(Path.of(directory)).use { files ->

@@ -1,5 +1,6 @@
 package stillwater.simulation
 
+import stillwater.mission.EstimatorName
 import stillwater.report.SignificantDigits
 
 /**
@@ -42,13 +43,8 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
             add("the mission was not over after ${clock(result.longest)}; --longest gives it more time")
         }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
-        if (result.belief?.isExplained == false) {
-            val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
-            add(
-                "no sensor model explains the readings$where: bounds, and values where the nearest model's ran away, " +
-                    "are those of bounded-extended",
-            )
-        }
+        if (result.belief?.isExplained == false) add(unexplained())
+        fewBounds()?.let { add(it) }
         if (result.againstMeans.mean > result.averagesError.mean) {
             add(
                 "the map is no better than the mean of each cell's readings: off the cells' means by " +
@@ -63,6 +59,25 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
             )
         }
         if (result.atCentres.cells == 0) add("no cell has a reading")
+    }
+
+    private fun unexplained(): String {
+        val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
+        val then = if (run.spec.estimator == EstimatorName.BAYESIAN) {
+            "the map has no bounds"
+        } else {
+            "bounds, and values where the nearest model's ran away, are those of bounded-extended"
+        }
+        return "no sensor model explains the readings$where: $then"
+    }
+
+    /** Where a filter that gives bounds gave few. */
+    private fun fewBounds(): String? {
+        val with = result.atCentres.cells
+        if (run.spec.estimator !in BOUNDING || 2 * result.boundsAtCentres.cells >= with) return null
+        return "only ${result.boundsAtCentres.cells} of $with cells with readings have bounds, after " +
+            "${number(result.readings.inCells.toDouble() / with)} readings a cell; larger cells, a slower boat or a " +
+            "faster probe give more"
     }
 
     private val space get() = if (unit.isEmpty()) "" else " "
@@ -129,6 +144,14 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     companion object {
         private const val CREDIBLE = 0.95
         private const val PERCENT = 100
+
+        /** Estimators whose cells all get bounds once there are readings enough in them. */
+        private val BOUNDING = setOf(
+            EstimatorName.BOUNDED,
+            EstimatorName.BOUNDED_EXTENDED,
+            EstimatorName.INTERVAL,
+            EstimatorName.SELF_CALIBRATING,
+        )
 
         /** [seconds] as minutes and seconds. */
         fun clock(seconds: Double): String {

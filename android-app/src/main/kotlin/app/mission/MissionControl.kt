@@ -3,6 +3,7 @@ package stillwater.app.mission
 import stillwater.app.pose.Pose
 import stillwater.app.service.Answer
 import stillwater.app.service.FixCounts
+import stillwater.mission.MissionDraft
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
 import stillwater.mission.RecoveredMission
@@ -64,7 +65,7 @@ internal class MissionControl(
         if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
         val read =
             try {
-                MissionSpec.fromJson(json)
+                MissionSpec.fromJson(json).also(MissionDraft::requireDrawable)
             } catch (error: IllegalArgumentException) {
                 return Answer(Answer.Reason.NOT_A_MISSION, error.message)
             }

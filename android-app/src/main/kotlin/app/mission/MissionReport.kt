@@ -79,9 +79,10 @@ data class TracePoint(
  *
  * @property received by the mission.
  * @property taken into the map.
- * @property waiting for the next one to confirm a jump: 0 or 1.
+ * @property waiting for the next one to confirm a jump, or to differ.
  * @property outOfRange of what the water can have.
  * @property unconfirmed jumps that the next reading did not confirm.
+ * @property stuck too many that were the same.
  * @property withoutPlace no number, or the boat's place was not known.
  * @property unreadable lines, or parts of them, that were not understood; not among [received].
  */
@@ -91,6 +92,7 @@ data class ReadingCounts(
     val waiting: Long = 0,
     val outOfRange: Long = 0,
     val unconfirmed: Long = 0,
+    val stuck: Long = 0,
     val withoutPlace: Long = 0,
     val unreadable: Long = 0,
 )

@@ -111,13 +111,14 @@ internal class MissionRun(
 
     private fun counts(): ReadingCounts {
         val gate = mission.readings
-        val waiting = if (gate.held == null) 0L else 1L
+        val waiting = (if (gate.held == null) 0L else 1L) + gate.same.size
         return ReadingCounts(
             gate.passed + gate.leftOut + waiting,
             gate.passed,
             waiting,
             gate.outOfRange,
             gate.lone,
+            gate.stuck,
             gate.withoutValueOrPlace,
             mission.board.unreadable,
         )

@@ -94,7 +94,13 @@ internal class LinkHealthWords(private val context: Context) {
             HealthLine(text(R.string.readings_taken, counts.received, counts.taken, counts.waiting)),
             rates.readings?.let { HealthLine(text(R.string.readings_rate, it)) },
             HealthLine(
-                text(R.string.readings_refused, counts.outOfRange, counts.unconfirmed, counts.withoutPlace),
+                text(
+                    R.string.readings_refused,
+                    counts.outOfRange,
+                    counts.unconfirmed,
+                    counts.withoutPlace,
+                    counts.stuck,
+                ),
             ),
             HealthLine(text(R.string.readings_unreadable, counts.unreadable)),
         )

@@ -9,6 +9,7 @@ import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.PreflightCheck
 import stillwater.app.service.PreflightReason
 import stillwater.app.setup.words
+import stillwater.control.Danger
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
 
@@ -35,8 +36,12 @@ internal fun Context.missionWords(state: MissionState): String =
     when (state) {
         MissionState.Idle -> getString(R.string.mission_idle)
         is MissionState.Preflight ->
-            state.missing?.let { getString(R.string.mission_waiting, getString(it.words())) }
-                ?: getString(R.string.mission_preflight)
+            when (val missing = state.missing) {
+                null -> getString(R.string.mission_preflight)
+                // The checklist has a fix already; the mission believes a place once fixes agree.
+                Danger.FIX_STALE -> getString(R.string.mission_agreeing)
+                else -> getString(R.string.mission_waiting, getString(missing.words()))
+            }
         MissionState.Arming -> getString(R.string.mission_arming)
         MissionState.Surveying -> getString(R.string.mission_surveying)
         is MissionState.Holding -> getString(R.string.mission_holding, getString(state.danger.words()))
@@ -82,7 +87,6 @@ internal fun Context.answerWords(answer: Answer): String {
             Answer.Reason.UNDER_WAY -> R.string.answer_under_way
             Answer.Reason.NOT_UNDER_WAY -> R.string.answer_not_under_way
             Answer.Reason.OVER -> R.string.answer_over
-            Answer.Reason.NO_LOG -> R.string.answer_no_log
         }
     return listOfNotNull(getString(words), answer.words).joinToString(": ")
 }

@@ -102,8 +102,5 @@ data class Answer(val reason: Reason, val words: String? = null) {
 
         /** The mission is over: load it again. */
         OVER,
-
-        /** The log can't be written; the words are the system's. */
-        NO_LOG,
     }
 }

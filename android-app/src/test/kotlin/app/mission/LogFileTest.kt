@@ -3,6 +3,8 @@ package stillwater.app.mission
 import org.junit.Rule
 import org.junit.Test
 import org.junit.rules.TemporaryFolder
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
 import java.io.File
 import java.io.IOException
 import kotlin.test.assertEquals
@@ -10,6 +12,8 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
+/** Inside of an Android: Kotlin's `addSuppressed` asks for its version, which outside of one breaks it for all that follow. */
+@RunWith(RobolectricTestRunner::class)
 class LogFileTest {
     @get:Rule
     val temporary = TemporaryFolder()

@@ -89,8 +89,8 @@ class StartScreenTest {
 
     @Test
     fun aCommandThatWasNotFollowedIsAnswered() {
-        activity.show(Scenes.loaded.copy(answer = Answer(Answer.Reason.NO_LOG, "ENOSPC")))
-        assertTrue("The log cannot be written: ENOSPC" in activity.wordsShown())
+        activity.show(Scenes.loaded.copy(answer = Answer(Answer.Reason.NOT_A_MISSION, "ENOSPC")))
+        assertTrue("This is no mission: ENOSPC" in activity.wordsShown())
         activity.show(Scenes.loaded)
         assertTrue(activity.wordsShown().none { "ENOSPC" in it })
     }

@@ -65,7 +65,7 @@ class WholeMissionTest {
     /** The board's own count of what it sent, against the app's and the log's. */
     private fun everyReadingIsAccountedFor(said: String) {
         val counts = desk.report.counts
-        val sum = counts.run { taken + waiting + outOfRange + unconfirmed + withoutPlace }
+        val sum = counts.run { taken + waiting + outOfRange + unconfirmed + stuck + withoutPlace }
         assertEquals(counts.received, sum)
         val log = BoatService.logOf(context, desk.report.log!!.name).readText()
         assertEquals(Regex("\"reading\":\\{").findAll(log).count().toLong(), counts.received)
