@@ -78,14 +78,22 @@ internal class StepTime(private val planner: PlannerName, private val estimator:
     }
 }
 
-/** `STEPS`: prints a table of the times of so many steps for each planner and estimator, ms of processor time. */
+/**
+ * `STEPS [PLANNER ESTIMATOR]`: prints a table of the times of so many steps, ms of processor time: of the two that are
+ * named, or of each planner with one estimator and each estimator with one planner.
+ */
 fun main(arguments: Array<String>) {
     val steps = arguments[0].toInt()
+    val named = arguments.drop(1).map { it.uppercase().replace('-', '_') }
     println("| planner | estimator | median | 99 % | 99.9 % | longest |\n|---|---|---|---|---|---|")
     for (estimator in EstimatorName.entries) {
         for (planner in PlannerName.entries) {
-            // Planners do not depend on the estimator's cost: each with one, and the default planner with all.
-            if (estimator != EstimatorName.BOUNDED_EXTENDED && planner != PlannerName.BOUNDED_EXTENDED) continue
+            val isAsked = if (named.isEmpty()) {
+                estimator == EstimatorName.BOUNDED_EXTENDED || planner == PlannerName.BOUNDED_EXTENDED
+            } else {
+                named == listOf(planner.name, estimator.name)
+            }
+            if (!isAsked) continue
             println("| $planner | $estimator | ${StepTime.text(StepTime(planner, estimator).run(steps))} |")
         }
     }
