@@ -9,6 +9,7 @@ import stillwater.control.FollowerSettings
 import stillwater.control.SafetySettings
 import stillwater.model.Grid
 import stillwater.model.Interval
+import stillwater.model.JsonForm
 import stillwater.model.LatLon
 import stillwater.model.Position
 import stillwater.model.WaterArea
@@ -199,9 +200,9 @@ public data class ProbeSpec(
          *
          * @throws IllegalArgumentException as [MissionSpec.fromJson] does.
          */
-        public fun fromJson(json: String): ProbeSpec = oneLine("not a probe") {
-            Json.decodeFromString(serializer(), json)
-        }
+        public fun fromJson(json: String): ProbeSpec = FORM.read(json)
+
+        private val FORM = JsonForm(serializer(), "a probe")
     }
 }
 
@@ -336,7 +337,7 @@ public data class MissionSpec(
     }
 
     /** The JSON form, on one line. */
-    public fun toJson(): String = FORMAT.encodeToString(serializer(), this)
+    public fun toJson(): String = Json.encodeToString(serializer(), this)
 
     private fun requireWater(water: WaterArea, cells: Grid, cell: Int) {
         val x = cells.centerX(cell)
@@ -352,24 +353,14 @@ public data class MissionSpec(
     }
 
     public companion object {
-        private val FORMAT = Json
-
         /**
          * Reads the JSON form.
          *
-         * @throws IllegalArgumentException if [json] is not of that form or a number is out of its range; the message is one
-         *   line that says where and what was expected.
+         * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the message
+         *   is one line that says where and what was expected.
          */
-        public fun fromJson(json: String): MissionSpec = oneLine("not a mission") {
-            FORMAT.decodeFromString(serializer(), json)
-        }
-    }
-}
+        public fun fromJson(json: String): MissionSpec = FORM.read(json)
 
-/** What [read] gives; what it throws, in one line that begins with [what]. */
-private fun <T> oneLine(what: String, read: () -> T): T = try {
-    read()
-} catch (e: IllegalArgumentException) {
-    // A SerializationException is one too.
-    throw IllegalArgumentException("$what: ${e.message.orEmpty().lineSequence().first()}", e)
+        private val FORM = JsonForm(serializer(), "a mission")
+    }
 }

@@ -1,9 +1,8 @@
 package stillwater.sensor
 
 import kotlinx.serialization.Serializable
-import kotlinx.serialization.SerializationException
-import kotlinx.serialization.descriptors.elementNames
 import kotlinx.serialization.json.Json
+import stillwater.model.JsonForm
 import kotlin.random.Random
 
 /**
@@ -47,31 +46,14 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
             prettyPrintIndent = "  "
         }
 
-        /** The names of the stages: the second element of a sealed type's descriptor lists its subtypes. */
-        private val TYPES = SensorStage.serializer().descriptor.getElementDescriptor(1).elementNames.sorted()
+        private val FORM = JsonForm(serializer(), "a sensor spec")
 
         /**
          * Reads the JSON form.
          *
-         * @throws IllegalArgumentException if [json] is not of that form or a number is out of its range; the message
+         * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the message
          *   is one line that says where and what was expected.
          */
-        public fun fromJson(json: String): SensorSpec = try {
-            FORMAT.decodeFromString(serializer(), json)
-        } catch (e: SerializationException) {
-            throw IllegalArgumentException("not a sensor spec: ${reason(e)}", e)
-        }
-
-        /** What [e] says in one line, in the words of a sensor where the library uses its own. */
-        private fun reason(e: SerializationException): String {
-            val line = e.message.orEmpty().lineSequence().first()
-            val refused = e.cause?.takeIf { it is IllegalArgumentException }?.message
-            val words = when {
-                refused != null -> refused
-                "polymorphic scope" in line -> "a stage must have a type, one of ${TYPES.joinToString()}"
-                else -> return line
-            }
-            return "$words at path: ${line.substringAfterLast(" at path: ")}"
-        }
+        public fun fromJson(json: String): SensorSpec = FORM.read(json)
     }
 }

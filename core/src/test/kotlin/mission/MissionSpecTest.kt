@@ -24,23 +24,24 @@ class MissionSpecTest {
     @Test
     fun whatIsWrongIsSaidInOneLineThatNamesItsPlace() {
         for ((old, new, expected) in listOf(
-            Triple("\"columns\":6", "\"columns\":0", listOf("columns (0)", "$.grid")),
-            Triple("\"columns\":6", "\"columns\":\"six\"", listOf("$.grid.columns")),
-            Triple("\"columns\":6,", "", listOf("columns", "$.grid")),
-            Triple("lawnmower", "mower", listOf("mower", "$.planner")),
-            Triple("self-calibrating", "best", listOf("best", "$.estimator")),
-            Triple("\"lowest\":0", "\"lowest\":20", listOf("lowest (20.0)", "$.probe")),
-            Triple("\"lowest\":0", "\"lowest\":0,\"reading_error\":-1", listOf("reading_error (-1.0)", "$.probe")),
+            Triple("\"columns\":6", "\"columns\":0", listOf("columns (0)", ": grid: ")),
+            Triple("\"columns\":6", "\"columns\":\"six\"", listOf(": grid.columns: ")),
+            Triple("\"columns\":6,", "", listOf("columns", ": grid: ")),
+            Triple("lawnmower", "mower", listOf("mower", ": planner: ")),
+            Triple("self-calibrating", "best", listOf("best", ": estimator: ")),
+            Triple("\"lowest\":0", "\"lowest\":20", listOf("lowest (20.0)", ": probe: ")),
+            Triple("\"lowest\":0", "\"lowest\":0,\"reading_error\":-1", listOf("reading_error (-1.0)", ": probe: ")),
             Triple(
                 "\"lowest\":0",
                 "\"lowest\":0,\"smallest_slope_per_s\":-1",
-                listOf("smallest_slope_per_s (-1.0", "$.probe"),
+                listOf("smallest_slope_per_s (-1.0", ": probe: "),
             ),
-            Triple("{\"seconds\":900}", "{}", listOf("either metres or seconds", "$.budget")),
-            Triple("\"x_m\":80", "\"x_m\":-80", listOf("north_east", "$.area")),
+            Triple("{\"seconds\":900}", "{}", listOf("either metres or seconds", ": budget: ")),
+            Triple("\"x_m\":80", "\"x_m\":-80", listOf("north_east", ": area: ")),
             Triple("\"home\":{\"x_m\":5", "\"home\":{\"x_m\":500", listOf("home (500.0, 5.0)", "water")),
             Triple("\"cell_m\":10", "\"cell_m\":30", listOf("land lies", "polygon-rrt")),
             Triple("\"budget\"", "\"bugdet\"", listOf("bugdet")),
+            Triple("\"home\":{", "\"home\":{\"x_m\":70,\"y_m\":70},\"home\":{", listOf("each field once", "'home' again")),
         )) {
             val text = refusal(old, new)
             assertEquals(1, text.lines().size, text)

@@ -1,4 +1,4 @@
-package stillwater.io
+package stillwater.model
 
 /**
  * Where in a JSON text a value stands, so that a message can point at it. Lenient: what is not JSON ends the search.
@@ -25,11 +25,15 @@ internal class JsonPlace(private val text: String) {
         return found
     }
 
-    /** The value at [offset] as it is written, cut to a readable length. */
-    fun token(offset: Int): String {
-        val rest = text.drop(offset)
-        if (rest.startsWith('"')) return quoted(rest.drop(1).substringBefore('"'))
-        return quoted(rest.takeWhile { it !in ",}]\r\n" })
+    /** Offsets of the values in the object at [path], by their names; empty where none is there. */
+    fun members(path: String): Map<String, Int> {
+        of(path)
+        val found = LinkedHashMap<String, Int>()
+        eachMember { name ->
+            found[name] = at
+            true
+        }
+        return found
     }
 
     /** `LINE:COLUMN` of [offset], both counted from 1. */
@@ -39,17 +43,26 @@ internal class JsonPlace(private val text: String) {
     }
 
     private fun enterObject(name: String): Boolean {
-        if (!take('{')) return false
+        var isFound = false
+        eachMember {
+            isFound = it == name
+            !isFound
+        }
+        return isFound && at < text.length
+    }
+
+    /** Goes through the object here; stays at a member's value where [goesOn] says no to its name. */
+    private fun eachMember(goesOn: (String) -> Boolean) {
+        if (!take('{')) return
         while (true) {
             skipBlank()
-            val key = string() ?: return false
+            val key = string() ?: return
             skipBlank()
-            if (!take(':')) return false
+            if (!take(':')) return
             skipBlank()
-            if (key == name) return at < text.length
-            if (!skipValue()) return false
+            if (!goesOn(key) || !skipValue()) return
             skipBlank()
-            if (!take(',')) return false
+            if (!take(',')) return
         }
     }
 
