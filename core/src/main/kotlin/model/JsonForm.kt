@@ -52,7 +52,9 @@ public class JsonForm<T>(private val serializer: DeserializationStrategy<T>, pri
 
     private fun problem(text: String, offset: Int, field: String, words: String, cause: Throwable?): JsonProblem {
         val at = if (field.isEmpty()) "" else "$field: "
-        return JsonProblem(what, JsonPlace(text).lineAndColumn(offset), at + words, cause)
+        // A name or text that is quoted may hold anything.
+        val line = (at + words).map { if (it.isISOControl()) ' ' else it }.joinToString("")
+        return JsonProblem(what, JsonPlace(text).lineAndColumn(offset), line, cause)
     }
 
     /** What was built of the text refused it. Its message has the name of the value, which is where to look. */

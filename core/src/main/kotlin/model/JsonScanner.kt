@@ -108,7 +108,7 @@ internal class JsonScanner(private val text: String) {
     private fun found(): String = when (next()) {
         '{' -> "an object in braces"
         '[' -> "a list in brackets"
-        '"' -> "the text '" + short(text.substring(at + 1).substringBefore('"')) + "'"
+        '"' -> "the text '" + short(text.substring(at + 1, minOf(at + 1 + 2 * SHORT, text.length)).substringBefore('"')) + "'"
         END -> if (at >= text.length) "the end" else "a zero byte"
         else -> "'" + short(word().ifEmpty { text[at].toString() }) + "'"
     }

@@ -6,13 +6,18 @@ import com.github.ajalt.clikt.parameters.options.NullableOption
 import com.github.ajalt.clikt.parameters.options.RawOption
 import com.github.ajalt.clikt.parameters.options.convert
 import stillwater.io.DecimalText
+import stillwater.io.JsonFileProblem
 
 /** Exit code of a command that was given something it cannot use. */
 const val BAD_INPUT = 2
 
 /** A flag whose value cannot be used; one line, exit code [BAD_INPUT]. */
-class BadFlag(flag: String, expected: String, found: String) :
-    UsageError("$flag: expected $expected, found $found", statusCode = BAD_INPUT) {
+class BadFlag private constructor(message: String) : UsageError(message, statusCode = BAD_INPUT) {
+    constructor(flag: String, expected: String, found: String) : this("$flag: expected $expected, found $found")
+
+    /** The file that [flag] names is what is wrong. */
+    constructor(flag: String, problem: JsonFileProblem) : this("$flag: ${problem.message}")
+
     /** This problem as one of the command that runs in [context], where Clikt does not know it yet. */
     fun of(context: Context): BadFlag = also { it.context = it.context ?: context }
 }

@@ -3,9 +3,9 @@ package stillwater.cli
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.option
-import stillwater.io.AreaException
 import stillwater.io.AreaFile
 import stillwater.io.AreaUnits
+import stillwater.io.JsonFileProblem
 import stillwater.model.Grid
 import stillwater.model.Position
 import stillwater.model.WaterArea
@@ -91,8 +91,8 @@ class FleetOptions : OptionGroup(name = "Boats and water") {
         }
         return try {
             AreaFile.read(Path.of(path), areaUnits ?: AreaUnits.DEGREES)
-        } catch (wrong: AreaException) {
-            throw BadFlag("--area", wrong.expected, wrong.found)
+        } catch (wrong: JsonFileProblem) {
+            throw BadFlag("--area", wrong)
         }
     }
 

@@ -1,39 +1,17 @@
 package stillwater.cli
 
+import stillwater.io.JsonFile
+import stillwater.io.JsonFileProblem
 import stillwater.sensor.SensorSpec
-import java.io.IOException
-import java.nio.charset.CharacterCodingException
-import java.nio.file.AccessDeniedException
-import java.nio.file.Files
-import java.nio.file.NoSuchFileException
 import java.nio.file.Path
 
 /** Reads the file that `--sensor` names. */
 internal object SensorFile {
     /** The spec in [file]; a [BadFlag] says in one line what is wrong with it. */
-    fun read(file: String): SensorSpec {
-        val expected = "a sensor spec in $file"
-        return try {
-            SensorSpec.fromJson(text(Path.of(file)))
-        } catch (problem: NoSuchFileException) {
-            throw BadFlag("--sensor", expected, "no such file (${problem.file})")
-        } catch (problem: AccessDeniedException) {
-            throw BadFlag("--sensor", expected, "no permission to read it (${problem.file})")
-        } catch (_: CharacterCodingException) {
-            throw BadFlag("--sensor", expected, "bytes that are no UTF-8 text")
-        } catch (problem: IOException) {
-            throw BadFlag("--sensor", expected, problem.message ?: problem.javaClass.simpleName)
-        } catch (problem: IllegalArgumentException) {
-            throw BadFlag("--sensor", expected, problem.message.orEmpty().removePrefix("not a sensor spec: "))
-        }
-    }
-
-    /** The text of [file], unless it is longer than any sensor spec. */
-    private fun text(file: Path): String {
-        if (Files.isDirectory(file)) throw IOException("a directory")
-        val bytes = Files.newInputStream(file).use { it.readNBytes(LONGEST_SPEC + 1) }
-        if (bytes.size > LONGEST_SPEC) throw IOException("a file of more than $LONGEST_SPEC bytes")
-        return bytes.decodeToString(throwOnInvalidSequence = true)
+    fun read(file: String): SensorSpec = try {
+        JsonFile("a sensor spec (JSON)", LONGEST_SPEC).read(Path.of(file), SensorSpec::fromJson)
+    } catch (problem: JsonFileProblem) {
+        throw BadFlag("--sensor", problem)
     }
 
     private const val LONGEST_SPEC = 1_000_000

@@ -9,7 +9,6 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.io.MissionFile
-import stillwater.io.MissionProblem
 import stillwater.mission.MissionSpec
 import stillwater.mission.Quantity
 import stillwater.report.OutputDirectory
@@ -54,12 +53,7 @@ class SimulateCommand : WorkCommand("simulate") {
     )
 
     override fun work() {
-        val file = Path.of(missionFile)
-        val mission = try {
-            MissionFile.read(file)
-        } catch (problem: MissionProblem) {
-            throw failure(problem.message.orEmpty())
-        }
+        val mission = MissionFile.read(Path.of(missionFile))
         requireVirtualProbe(mission)
         val most = longest ?: MissionRun.longest(mission)
         val settings = boat.settings()

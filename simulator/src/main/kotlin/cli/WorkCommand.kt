@@ -3,8 +3,8 @@ package stillwater.cli
 import com.github.ajalt.clikt.core.CliktCommand
 import com.github.ajalt.clikt.core.CliktError
 import com.github.ajalt.clikt.core.context
+import stillwater.io.JsonFileProblem
 import stillwater.io.LogProblem
-import stillwater.io.MissionProblem
 import stillwater.report.OutputException
 
 /** A command whose every way to fail is one line that begins with its name, and exit code [BAD_INPUT]. */
@@ -14,7 +14,7 @@ abstract class WorkCommand(name: String) : CliktCommand(name) {
     }
 
     /**
-     * What the command does. May throw [BadFlag], [LogProblem], [MissionProblem] and [OutputException] besides
+     * What the command does. May throw [BadFlag], [LogProblem], [JsonFileProblem] and [OutputException] besides
      * [failure].
      */
     protected abstract fun work()
@@ -26,7 +26,7 @@ abstract class WorkCommand(name: String) : CliktCommand(name) {
             throw wrong.of(currentContext)
         } catch (problem: LogProblem) {
             throw failure(problem.message.orEmpty())
-        } catch (problem: MissionProblem) {
+        } catch (problem: JsonFileProblem) {
             throw failure(problem.message.orEmpty())
         } catch (problem: OutputException) {
             throw failure(problem.message.orEmpty())

@@ -1,7 +1,5 @@
 package stillwater.io
 
-import kotlinx.serialization.SerializationException
-import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
@@ -9,15 +7,12 @@ import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.booleanOrNull
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
+import stillwater.model.JsonForm
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.WaterArea
-import java.io.IOException
-import java.nio.charset.CharacterCodingException
-import java.nio.file.NoSuchFileException
 import java.nio.file.Path
-import kotlin.io.path.readText
 
 /** Coordinates of an area. */
 enum class AreaUnits(val label: String) {
@@ -28,10 +23,6 @@ enum class AreaUnits(val label: String) {
     METRES("metres"),
 }
 
-/** An area that cannot be used. */
-class AreaException(val expected: String, val found: String, cause: Throwable? = null) :
-    RuntimeException("expected $expected, found $found", cause)
-
 /**
  * Reads the water a boat may be on from GeoJSON (RFC 7946).
  *
@@ -40,122 +31,121 @@ class AreaException(val expected: String, val found: String, cause: Throwable? =
  * anyway, and so are refused. Degrees become metres in a [LocalFrame] at the middle of the shore's bounding box.
  */
 object AreaFile {
+    private val FILE = JsonFile("GeoJSON")
+
     /**
      * The area in the file [path].
      *
-     * @throws AreaException if there is no such file or it holds no such area.
+     * @throws JsonFileProblem if there is no such file or it holds no such area.
      */
-    fun read(path: Path, units: AreaUnits): WaterArea {
-        val text = try {
-            path.readText()
-        } catch (missing: NoSuchFileException) {
-            throw AreaException("a GeoJSON file", "no file $path", missing)
-        } catch (wrong: CharacterCodingException) {
-            throw AreaException("GeoJSON in UTF-8", "other bytes in $path", wrong)
-        } catch (failed: IOException) {
-            throw AreaException("a GeoJSON file that can be read", "$path (${failed.javaClass.simpleName})", failed)
-        }
-        return parse(text, path.toString(), units)
-    }
+    fun read(path: Path, units: AreaUnits): WaterArea = FILE.read(path) { AreaText(it, units).area() }
 
-    /** The area in the GeoJSON [text] of a file called [name]. */
-    fun parse(text: String, name: String, units: AreaUnits): WaterArea {
-        val root = try {
-            Json.parseToJsonElement(text)
-        } catch (wrong: SerializationException) {
-            throw AreaException("GeoJSON", "$name: ${wrong.message.orEmpty().lineSequence().first()}", wrong)
-        }
-        val polygons = ArrayList<Polygon>()
-        collect(root, isKeepOut = false, name, name, polygons)
+    /** The area in the GeoJSON [text] of a file called [name]; throws as [read] does. */
+    fun parse(text: String, name: String, units: AreaUnits): WaterArea =
+        FILE.parse(text, name) { AreaText(it, units).area() }
+}
+
+/** The area in a GeoJSON [text]; what is wrong with it is said as [stillwater.model.JsonProblem]. */
+private class AreaText(private val text: String, private val units: AreaUnits) {
+    /** A ring of [corners], which stands at [path]. */
+    private class Ring(val corners: List<Pair<Double, Double>>, val path: String)
+
+    private class Polygon(val rings: List<Ring>, val isKeepOut: Boolean)
+
+    private val polygons = ArrayList<Polygon>()
+
+    fun area(): WaterArea {
+        collect(FORM.read(text), isKeepOut = false, ROOT)
         val water = polygons.filterNot { it.isKeepOut }
         if (water.size != 1) {
-            throw AreaException("one Polygon of water without \"keep-out\": true", "${water.size} in $name")
+            fail(water.getOrNull(1)?.rings?.first()?.path ?: ROOT, WATER, "${water.size} of them")
         }
         val shore = water.single().rings.first()
-        val place = placer(shore, units, name)
         val islands = water.single().rings.drop(1)
         val keepOuts = polygons.filter { it.isKeepOut }.map { polygon ->
-            if (polygon.rings.size > 1) throw AreaException("keep-outs without holes", "one with a hole in $name")
+            polygon.rings.getOrNull(1)?.let { fail(it.path, "keep-outs without holes", "a hole") }
             polygon.rings.single()
         }
+        val place = placer(shore)
+        val rings = (listOf(shore) + islands + keepOuts).map { ring ->
+            ring.corners.mapIndexed { index, corner -> place(corner, "${ring.path}[$index]") }
+        }
         return try {
-            WaterArea(shore.map(place), (islands + keepOuts).map { ring -> ring.map(place) })
+            WaterArea(rings.first(), rings.drop(1))
         } catch (wrong: IllegalArgumentException) {
-            throw AreaException("a shore and keep-outs that fit", "$name: ${wrong.message}", wrong)
+            val words = wrong.message.orEmpty()
+            val ring = KEEP_OUT.find(words)?.let { (islands + keepOuts)[it.groupValues[1].toInt() - 1] } ?: shore
+            throw FORM.problem(text, ring.path, words)
         }
     }
 
-    private class Polygon(val rings: List<List<Pair<Double, Double>>>, val isKeepOut: Boolean)
-
-    private fun collect(
-        element: JsonElement,
-        isKeepOut: Boolean,
-        where: String,
-        name: String,
-        into: MutableList<Polygon>,
-    ) {
-        val item = element as? JsonObject ?: throw AreaException("a GeoJSON object", "something else at $where")
+    private fun collect(element: JsonElement, isKeepOut: Boolean, path: String) {
+        val item = element as? JsonObject ?: fail(path, "a GeoJSON object", "something else")
         when (val type = (item["type"] as? JsonPrimitive)?.contentOrNull) {
-            "FeatureCollection" -> list(item["features"], "features of $where").forEachIndexed { index, feature ->
-                collect(feature, isKeepOut, "feature ${index + 1} of $name", name, into)
+            "FeatureCollection" -> list(item["features"], "$path.features").forEachIndexed { index, feature ->
+                collect(feature, isKeepOut, "$path.features[$index]")
             }
             "Feature" -> {
-                val geometry = item["geometry"] ?: throw AreaException("a geometry", "none in $where")
+                val geometry = item["geometry"] ?: fail(path, "the field geometry", "none")
                 val property = (item["properties"] as? JsonObject)?.get("keep-out") as? JsonPrimitive
-                collect(geometry, property?.booleanOrNull == true, where, name, into)
+                collect(geometry, property?.booleanOrNull == true, "$path.geometry")
             }
-            "Polygon" -> into += Polygon(rings(item["coordinates"], where), isKeepOut)
-            "MultiPolygon" -> for (polygon in list(item["coordinates"], "coordinates of $where")) {
-                into += Polygon(rings(polygon, where), isKeepOut)
-            }
-            else -> throw AreaException("Polygon or MultiPolygon", "${type ?: "no type"} at $where")
+            "Polygon" -> polygons += Polygon(rings(item["coordinates"], "$path.coordinates"), isKeepOut)
+            "MultiPolygon" ->
+                list(item["coordinates"], "$path.coordinates").forEachIndexed { index, polygon ->
+                    polygons += Polygon(rings(polygon, "$path.coordinates[$index]"), isKeepOut)
+                }
+            else -> fail("$path.type", "Polygon or MultiPolygon", type?.let { "'$it'" } ?: "no type")
         }
     }
 
-    private fun rings(element: JsonElement?, where: String): List<List<Pair<Double, Double>>> {
-        val rings = list(element, "coordinates of $where").mapIndexed { ring, corners ->
-            list(corners, "ring ${ring + 1} of $where").mapIndexed { index, corner ->
-                val numbers = (corner as? JsonArray)?.map {
-                    (it as? JsonPrimitive)?.doubleOrNull ?: Double.NaN
-                }.orEmpty()
-                if (numbers.size < 2 || numbers.take(2).any { !it.isFinite() }) {
-                    throw AreaException("two numbers", "$corner as corner ${index + 1} of ring ${ring + 1} of $where")
-                }
-                numbers[0] to numbers[1]
-            }
+    private fun rings(element: JsonElement?, path: String): List<Ring> {
+        val rings = list(element, path).mapIndexed { ring, corners ->
+            val ringPath = "$path[$ring]"
+            Ring(list(corners, ringPath).mapIndexed { index, corner -> corner(corner, "$ringPath[$index]") }, ringPath)
         }
-        if (rings.isEmpty() || rings.first().isEmpty()) throw AreaException("a ring of corners", "none in $where")
+        if (rings.isEmpty() || rings.first().corners.isEmpty()) fail(path, "a ring of corners", "none")
         return rings
     }
 
-    private fun list(element: JsonElement?, what: String): JsonArray =
-        element as? JsonArray
-            ?: throw AreaException("a list as $what", if (element == null) "none" else "something else")
+    private fun corner(corner: JsonElement, path: String): Pair<Double, Double> {
+        val numbers = (corner as? JsonArray)?.map { number ->
+            (number as? JsonPrimitive)?.takeIf { !it.isString }?.doubleOrNull ?: Double.NaN
+        }.orEmpty()
+        if (numbers.size < 2 || numbers.take(2).any { !it.isFinite() }) fail(path, "two numbers", "$corner")
+        return numbers[0] to numbers[1]
+    }
 
-    /** How corners in [units] become places in the local frame. */
-    private fun placer(
-        shore: List<Pair<Double, Double>>,
-        units: AreaUnits,
-        name: String,
-    ): (Pair<Double, Double>) -> Position {
-        if (units == AreaUnits.METRES) return { (x, y) -> Position(x, y) }
-        val latLon = { corner: Pair<Double, Double> ->
+    private fun list(element: JsonElement?, path: String): JsonArray = element as? JsonArray
+        ?: fail(path, "a list in brackets", if (element == null) "none" else "something else")
+
+    /** How corners in [units] become places in the local frame; told where they stand. */
+    private fun placer(shore: Ring): (Pair<Double, Double>, String) -> Position {
+        if (units == AreaUnits.METRES) return { (x, y), _ -> Position(x, y) }
+        val latLon = { corner: Pair<Double, Double>, path: String ->
             val (longitude, latitude) = corner
             if (latitude !in LatLon.LATITUDES_DEG || longitude !in LatLon.LONGITUDES_DEG) {
-                throw AreaException(
-                    "longitude and latitude in degrees, or --area-units metres",
-                    "the corner ($longitude, $latitude) in $name",
-                )
+                fail(path, "longitude and latitude in degrees, or --area-units metres", "($longitude, $latitude)")
             }
             LatLon(latitude, longitude)
         }
-        val corners = shore.map(latLon)
+        val corners = shore.corners.mapIndexed { index, corner -> latLon(corner, "${shore.path}[$index]") }
         val origin = LatLon(
             (corners.minOf { it.latitudeDeg } + corners.maxOf { it.latitudeDeg }) / 2,
             (corners.minOf { it.longitudeDeg } + corners.maxOf { it.longitudeDeg }) / 2,
         )
-        if (!LocalFrame.canStartAt(origin.latitudeDeg)) throw AreaException("water that is not a pole", name)
+        if (!LocalFrame.canStartAt(origin.latitudeDeg)) fail(shore.path, "water that is not a pole", "a pole")
         val frame = LocalFrame(origin)
-        return { corner -> frame.toLocal(latLon(corner)) }
+        return { corner, path -> frame.toLocal(latLon(corner, path)) }
+    }
+
+    private fun fail(path: String, expected: String, found: String): Nothing =
+        throw FORM.problem(text, path, "expected $expected, found $found")
+
+    private companion object {
+        const val ROOT = "$"
+        const val WATER = "one Polygon of water without \"keep-out\": true"
+        val FORM = JsonForm(JsonElement.serializer(), "GeoJSON")
+        val KEEP_OUT = Regex("""^keep-out (\d+)""")
     }
 }

@@ -49,7 +49,16 @@ class AreaFileTest {
         val lake = feature("[[0,0],[10,0],[10,10],[0,10],[0,0]]")
         val zone = feature("[[1,1],[5,1],[5,5],[1,5]], [[2,2],[3,2],[3,3],[2,3]]", """{"keep-out": true}""")
         val text = """{"type": "FeatureCollection", "features": [$lake, $zone]}"""
-        val refused = assertFailsWith<AreaException> { AreaFile.parse(text, "lake.geojson", AreaUnits.METRES) }
-        assertEquals("keep-outs without holes", refused.expected)
+        val refused = assertFailsWith<JsonFileProblem> { AreaFile.parse(text, "lake.geojson", AreaUnits.METRES) }
+        val path = "features[1].geometry.coordinates[1]"
+        assertEquals("lake.geojson:1:301: $path: expected keep-outs without holes, found a hole", refused.message)
+    }
+
+    @Test
+    fun theRingThatDoesNotFitIsPointedAt() {
+        val text = "{\"type\": \"Polygon\", \"coordinates\": [\n[[0,0],[10,0],[10,10],[0,10]],\n [[20,0],[21,0],[21,1]]]}"
+        val refused = assertFailsWith<JsonFileProblem> { AreaFile.parse(text, "lake.geojson", AreaUnits.METRES) }
+        val expected = "keep-out 1, which starts at (20.0 m, 0.0 m), lies outside the shore"
+        assertEquals("lake.geojson:3:2: coordinates[1]: $expected", refused.message)
     }
 }

@@ -15,7 +15,7 @@ class MissionFileTest {
 
     private fun problem(old: String, new: String): String {
         check(old in POND) { old }
-        val wrong = assertFailsWith<MissionProblem>(new) { MissionFile.parse(POND.replace(old, new), "pond.json") }
+        val wrong = assertFailsWith<JsonFileProblem>(new) { MissionFile.parse(POND.replace(old, new), "pond.json") }
         assertEquals(1, wrong.message.orEmpty().lines().size)
         return wrong.message.orEmpty()
     }
@@ -23,11 +23,11 @@ class MissionFileTest {
     @Test
     fun whatIsWrongIsSaidWithItsPlaceAndWhatWasExpected() {
         for ((old, new, expected) in listOf(
-            Triple("\"columns\": 6", "\"columns\": 0", "5:11: grid: columns (0) must be at least 1"),
+            Triple("\"columns\": 6", "\"columns\": 0", "5:59: grid: columns (0) must be at least 1"),
             Triple(
                 "\"columns\": 6",
                 "\"columns\": \"six\"",
-                "5:59: grid.columns: expected a whole number, found 'six'",
+                "5:59: grid.columns: expected a whole number, found the text 'six'",
             ),
             Triple("\"columns\": 6", "\"columns\": 1.5", "5:59: grid.columns: expected a whole number, found '1.5'"),
             Triple("\"columns\": 6, ", "", "5:11: grid: expected the field columns, found none"),
@@ -44,9 +44,20 @@ class MissionFileTest {
                 "8:14: budget: expected one of metres, seconds, reserve, found 'minutes'",
             ),
             Triple("{\"seconds\": 900}", "{}", "8:13: budget: a budget needs either metres or seconds"),
-            Triple("\"home\": {", "\"home\": [", "9:11: home: expected one of x_m, y_m, found '[\"x_m\": 5'"),
-            Triple("\"x_m\": 5,", "\"x_m\": 500,", "1:1: home (500.0, 5.0) must lie on the water"),
-            Triple("\"y_m\": 80}", "\"y_m\": {}}", "4:85: area.north_east.y_m: expected a number, found '{'"),
+            Triple("\"home\": {", "\"home\": [", "9:11: home: expected an object in braces with x_m, y_m, found a list in brackets"),
+            Triple("\"x_m\": 5,", "\"x_m\": 500,", "9:11: home (500.0, 5.0) must lie on the water"),
+            Triple(
+                "\"budget\"",
+                "\"home\": {\"x_m\": 75, \"y_m\": 75},\n  \"budget\"",
+                "10:3: expected each field once, found 'home' again, which 8:3 has already",
+            ),
+            Triple(
+                "\"cell_m\": 10",
+                "\"cell_m\": 30",
+                "7:14: land lies at or beside the cell at (75.0, 15.0), where this planner goes from cell to cell; use " +
+                    "polygon-rrt or a grid that is all water",
+            ),
+            Triple("\"y_m\": 80}", "\"y_m\": {}}", "4:85: area.north_east.y_m: expected a number, found an object in braces"),
         )) {
             assertEquals("pond.json:$expected", problem(old, new))
         }
@@ -55,19 +66,19 @@ class MissionFileTest {
     @Test
     fun whatIsNoJsonIsSaidToo() {
         for ((text, expected) in listOf(
-            "" to "1:1: Expected start of the object '{', but had 'EOF' instead",
-            "[]" to "1:1: expected one of name, origin,",
-            POND.dropLast(2) to "9:31: Expected end of the object '}', but had 'EOF' instead",
-            POND.replace("\"home\"", "home") to "9:3: budget: ",
+            "" to "1:1: expected an object in braces with name, origin,",
+            "[]" to "1:1: expected an object in braces with name, origin,",
+            POND.dropLast(2) to "9:31: expected a comma or a closing brace, found the end",
+            POND.replace("\"home\"", "home") to "9:3: expected a field's name in quotes, found 'home'",
         )) {
-            val wrong = assertFailsWith<MissionProblem> { MissionFile.parse(text, "pond.json") }
+            val wrong = assertFailsWith<JsonFileProblem> { MissionFile.parse(text, "pond.json") }
             assertEquals("pond.json:$expected", wrong.message.orEmpty().take("pond.json:$expected".length))
         }
     }
 
     @Test
     fun aFileThatCannotBeReadIsNamed() {
-        fun said(file: Path) = assertFailsWith<MissionProblem> { MissionFile.read(file) }.message.orEmpty()
+        fun said(file: Path) = assertFailsWith<JsonFileProblem> { MissionFile.read(file) }.message.orEmpty()
         val none = directory.resolve("none.json")
         assertEquals("$none: expected a mission (JSON), found no such file", said(none))
         assertEquals("$directory: expected a mission (JSON), found a directory", said(directory))
