@@ -3,6 +3,7 @@ package stillwater.boatserver
 import stillwater.link.PhoneReport
 import stillwater.link.ServedWire
 import stillwater.virtual.VirtualBoat
+import stillwater.virtual.VirtualLink
 import stillwater.world.VirtualWorld
 import java.util.concurrent.locks.LockSupport
 import kotlin.math.roundToLong
@@ -13,17 +14,18 @@ import kotlin.math.roundToLong
  * The boat's time begins when somebody opens the phone's wire, or a second after the board's, and goes at [speed] times
  * wall time, or slower where the machine is. While a phone's program is there, each tenth of a second waits until the
  * program has answered the report of the one before: then a pause of that program, however short on the wall, is not a
- * long cut on the boat. A program that does not answer for [PATIENCE_NANOS] is not waited for until it does, so that a
+ * long cut on the boat. A program that does not answer for [patience] is not waited for until it does, so that a
  * boat whose brain hangs feels its watchdog. Opening the wire resets the board. Confined to one thread, but for [stop].
  *
  * @param world boat and water. @param wire the board's. @param phone the phone's. All retained.
- * @param speed the boat's seconds in one of the wall's, above 0.
+ * @param speed the boat's seconds in one of the wall's, above 0. @param patience with the phone's program, ns of wall time.
  */
 internal class BoatServer(
     private val world: VirtualWorld,
     private val wire: ServedWire,
     private val phone: PhoneServer,
     private val speed: Double,
+    private val patience: Long = PATIENCE_NANOS,
 ) {
     private val buffer = ByteArray(BUFFER)
     private val boat: VirtualBoat = world.boat
@@ -85,13 +87,13 @@ internal class BoatServer(
         return phone.attend() || isWired
     }
 
-    /** From the wire to the board. */
+    /**
+     * From the wire to the board, at most as much as its link holds: a program that never stops sending holds up only
+     * itself.
+     */
     private fun hear() {
-        while (true) {
-            val count = wire.read(buffer)
-            if (count <= 0) return
-            boat.phone.write(buffer.copyOf(count))
-        }
+        val count = wire.read(buffer)
+        if (count > 0) boat.phone.write(buffer.copyOf(count))
     }
 
     /** From the board to the wire. */
@@ -136,7 +138,7 @@ internal class BoatServer(
         val from = System.nanoTime()
         while (!isStopped && phone.attend() && !phone.isAnswered()) {
             val waited = System.nanoTime() - from
-            if (waited > PATIENCE_NANOS) {
+            if (waited > patience) {
                 phone.giveUp()
                 isHanging = true
                 return
@@ -155,6 +157,6 @@ internal class BoatServer(
         private const val SLIP_NANOS = 250_000_000L
         private const val IDLE_NANOS = 5_000_000L
         private const val BUSY_NANOS = 50_000L
-        private const val BUFFER = 4096
+        private const val BUFFER = VirtualLink.CAPACITY
     }
 }

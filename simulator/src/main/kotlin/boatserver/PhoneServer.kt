@@ -7,7 +7,7 @@ import stillwater.wire.LineFramer
 /**
  * The side of a virtual boat that tells its phone's program time, fixes and compass, one report at a time.
  *
- * A report that is not answered is waited for; [wait] says for how long. What cannot be read is counted. Confined to
+ * One report is under way at a time. What cannot be read is counted. Confined to
  * one thread.
  *
  * @param wire to the program. Retained, closed with this.
@@ -52,13 +52,10 @@ internal class PhoneServer(private val wire: ServedWire) : AutoCloseable {
         wire.write(line, line.size)
     }
 
-    /** Whether all that was told has been answered, after reading what has come. */
+    /** Whether all that was told has been answered, after one more look at what has come: there may be no end to it. */
     fun isAnswered(): Boolean {
-        while (true) {
-            val count = wire.read(buffer)
-            if (count <= 0) break
-            framer.accept(buffer, 0, count)
-        }
+        val count = wire.read(buffer)
+        if (count > 0) framer.accept(buffer, 0, count)
         return answered >= sent
     }
 

@@ -42,15 +42,14 @@ internal class PhoneChannel(
         val from = nanos()
         while (report == null) {
             val count = wire.read(buffer)
-            if (count > 0) {
-                framer.accept(buffer, 0, count)
-            } else {
-                if (count < 0) framer.reset()
-                val waited = nanos() - from
-                if (waited >= if (isAlone || !wire.isOpen) STEP_NANOS else PATIENCE_NANOS) return byItself()
-                // Busy at first: at sixty times wall time the next report is a fraction of a millisecond away.
-                if (waited > BUSY_NANOS) LockSupport.parkNanos(PAUSE_NANOS) else Thread.onSpinWait()
-            }
+            if (count > 0) framer.accept(buffer, 0, count)
+            if (report != null) break
+            if (count < 0) framer.reset()
+            // Also where bytes come without end and none of them is a report.
+            val waited = nanos() - from
+            if (waited >= if (isAlone || !wire.isOpen) STEP_NANOS else PATIENCE_NANOS) return byItself()
+            // Busy at first: at sixty times wall time the next report is a fraction of a millisecond away.
+            if (count <= 0 && waited > BUSY_NANOS) LockSupport.parkNanos(PAUSE_NANOS) else Thread.onSpinWait()
         }
         return told(checkNotNull(report))
     }

@@ -8,7 +8,7 @@ import java.util.concurrent.locks.LockSupport
  *
  * At sixty times wall time the few milliseconds that a pseudo-terminal may take are tenths of a second to the boat, and an
  * estimator that undoes a sensor's lag is sensitive to readings that come at odd times. Bytes that do not come within
- * [PATIENCE_NANOS] are taken for lost and not waited for again. Confined to one thread.
+ * [PATIENCE_NANOS], or that are more than any board sends, are taken for lost and not waited for again. Confined to one thread.
  *
  * @param link to the board. Retained.
  * @param nanos wall time, ns.
@@ -37,11 +37,10 @@ internal class PromptWire(private val link: ByteLink, private val nanos: () -> L
             val count = link.read(buffer)
             if (count == ByteLink.LOST) isLost = true
             if (count > 0) keep(count)
-            if (count != 0) continue
-            if (nanos() - from > PATIENCE_NANOS) {
+            if (nanos() - from > PATIENCE_NANOS || held.size - taken > MOST_HELD) {
                 timesLate++
                 lost = sent - received
-            } else {
+            } else if (count == 0) {
                 LockSupport.parkNanos(PAUSE_NANOS)
             }
         }
@@ -74,5 +73,8 @@ internal class PromptWire(private val link: ByteLink, private val nanos: () -> L
         const val PATIENCE_NANOS = 1_000_000_000L
         private const val PAUSE_NANOS = 50_000L
         private const val BUFFER = 4096
+
+        /** Bytes that are held for the mission at most: minutes of a board's. */
+        private const val MOST_HELD = 1 shl 18
     }
 }

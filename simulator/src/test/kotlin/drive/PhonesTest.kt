@@ -165,4 +165,25 @@ class PhonesTest {
         assertTrue(!wire.write(byteArrayOf(1)))
         wire.close()
     }
+
+    @Test
+    fun aChannelThatNeverStopsSendingIsTakenForSilent() {
+        for (line in listOf("rubbish\n", "rubbish ", "{\"tick\":0}\n")) {
+            val endless = object : BoardWire {
+                override fun read(into: ByteArray): Int = line.toByteArray().also { it.copyInto(into) }.size
+
+                override fun write(bytes: ByteArray): Boolean = true
+
+                override fun close() = Unit
+            }
+            var wall = 0L
+            val wire = ReconnectingWire({ throw WireProblem("not there") }, endless)
+            PhoneChannel(wire) { wall.also { wall += 1_000_000 } }.use { phone ->
+                val first = phone.await()
+                assertEquals(0.1, first.time.seconds, 1e-9)
+                assertEquals(1, phone.timesAlone)
+                assertTrue(phone.await().time > first.time, line)
+            }
+        }
+    }
 }

@@ -3,6 +3,7 @@ package stillwater.drive
 import org.junit.jupiter.api.Test
 import stillwater.wire.ByteLink
 import kotlin.test.assertEquals
+import kotlin.test.assertTrue
 
 class PromptWireTest {
     /** A link that gives one of [pieces] at each reading: nothing where it is empty, lost where it is null. */
@@ -64,5 +65,21 @@ class PromptWireTest {
         assertEquals(2, wire.read(buffer))
         assertEquals(ByteLink.LOST, wire.read(buffer))
         assertEquals(0, wire.read(buffer))
+    }
+
+    /** A virtual boat that says it has sent more than there is, and never stops sending. */
+    @Test
+    fun whatNeverEndsIsNeitherWaitedForNorHeldWithoutEnd() {
+        val endless = object : ByteLink {
+            var given = 0L
+
+            override fun read(into: ByteArray): Int = into.size.also { given += it }
+
+            override fun write(bytes: ByteArray): Boolean = true
+        }
+        val wire = PromptWire(endless) { 0L }
+        wire.await(Long.MAX_VALUE)
+        assertEquals(1, wire.timesLate)
+        assertTrue(endless.given < 1_000_000, "held ${endless.given} bytes")
     }
 }
