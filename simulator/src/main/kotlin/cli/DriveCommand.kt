@@ -152,12 +152,13 @@ class DriveCommand : WorkCommand("drive") {
     }
 
     private fun finish(mission: Mission, file: LogOnDisk, directory: Path, reason: StopReason?) {
-        val log = file.complete()
+        // The map comes first: a log that claims to be complete without it would not be gone on with.
         val warnings = OutputDirectory(directory).use {
             val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)
             it.commit()
             missing
         }
+        val log = file.complete()
         for (warning in warnings) echo("warning: $warning", err = true)
         val why = reason?.name?.lowercase() ?: "stopped before it began"
         tell("$why; ${mission.readings.passed} readings, ${mission.readings.leftOut} left out; log $log")

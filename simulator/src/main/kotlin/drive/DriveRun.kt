@@ -58,7 +58,7 @@ internal class DriveRun(
      * Steps until the mission is over and the board has said that it is disarmed, or has not said so for [PARTING] s.
      *
      * @return why it was over; null where it was stopped before it began.
-     * @throws OutputException if the log can no longer be written; the motors then rest.
+     * @throws OutputException if the log cannot be written for hours; the motors then rest.
      */
     fun sail(): StopReason? {
         var over = Double.NaN
@@ -91,11 +91,13 @@ internal class DriveRun(
         return moment.time
     }
 
-    /** A mission that cannot be written down must not go on. */
+    /** A mission that cannot be written down must not go on: it goes home, and the lines wait for the disk. */
     private fun flush(time: BoatTime) {
         try {
             file.flushWhenDue()
         } catch (full: OutputException) {
+            mission.logLost()
+            if (file.pending <= MOST_PENDING) return
             mission.stop()
             mission.step(BoatTime(time.seconds + STEP))
             check(mission.drive == Drive.NONE) { "a stopped mission drives" }
@@ -113,5 +115,8 @@ internal class DriveRun(
          */
         const val BOOTING = 3.0
         private const val STEP = 1e-3
+
+        /** Hours of lines, bytes. */
+        private const val MOST_PENDING = 64 shl 20
     }
 }

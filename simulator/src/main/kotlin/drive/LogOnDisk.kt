@@ -5,6 +5,8 @@ import stillwater.mission.LogSink
 import stillwater.mission.MissionRecovery
 import stillwater.mission.RecoveredMission
 import stillwater.report.OutputException
+import java.io.ByteArrayOutputStream
+import java.io.Closeable
 import java.io.FilterInputStream
 import java.io.IOException
 import java.io.InputStream
@@ -22,19 +24,24 @@ import kotlin.io.path.name
 /**
  * A mission's log on disk: `mission.txt.incomplete` until it is closed, then `mission.txt`.
  *
- * Lines are only ever appended. [flush] hands them to the disk itself, not just to the system: a flat battery loses
- * what came after it. Confined to one thread.
+ * Lines are only ever appended. [flushWhenDue] hands them to the disk itself, not just to the system: a flat battery
+ * loses what came after it. What a full disk did not take waits and goes on from the very byte where it stopped.
+ * Confined to one thread.
  *
  * @throws OutputException from every call if the disk refuses.
  */
-internal class LogOnDisk private constructor(private val path: Path, private val channel: FileChannel) :
+internal class LogOnDisk(private val path: Path, private val file: LogBytes) :
     LogSink,
     AutoCloseable {
-    private val waiting = StringBuilder()
+    private var waiting = ByteArrayOutputStream()
     private var flushedAt = System.nanoTime()
+    private var isOpen = true
+
+    /** Bytes that the disk has not got yet. */
+    val pending: Int get() = waiting.size()
 
     override fun line(line: String) {
-        waiting.append(line).append('\n')
+        waiting.write((line + "\n").toByteArray())
     }
 
     /** Hands what is waiting to the disk, if the last time was [FLUSH_NANOS] ago. */
@@ -42,18 +49,24 @@ internal class LogOnDisk private constructor(private val path: Path, private val
         if (System.nanoTime() - flushedAt >= FLUSH_NANOS) flush()
     }
 
-    private fun flush() = guarded(path) {
-        val bytes = ByteBuffer.wrap(waiting.toString().toByteArray())
-        while (bytes.hasRemaining()) channel.write(bytes)
-        channel.force(false)
-        waiting.setLength(0)
+    /** Hands what is waiting to the disk. */
+    fun flush() = guarded(path) {
         flushedAt = System.nanoTime()
+        val bytes = ByteBuffer.wrap(waiting.toByteArray())
+        try {
+            while (bytes.hasRemaining()) file.write(bytes)
+        } finally {
+            // What was written is not written again, though the rest was refused.
+            waiting.reset()
+            waiting.write(bytes.array(), bytes.position(), bytes.remaining())
+        }
+        file.force()
     }
 
     /** Closes a log that is whole and gives it its final name, which it answers. */
     fun complete(): Path {
         flush()
-        channel.close()
+        close()
         val whole = path.resolveSibling(path.name.removeSuffix(INCOMPLETE))
         guarded(path) { Files.move(path, whole, ATOMIC_MOVE) }
         return whole
@@ -61,9 +74,9 @@ internal class LogOnDisk private constructor(private val path: Path, private val
 
     /** Closes it as it is; without [complete] it stays incomplete. */
     override fun close() {
-        if (channel.isOpen) {
-            channel.use { flush() }
-        }
+        if (!isOpen) return
+        isOpen = false
+        file.use { flush() }
     }
 
     companion object {
@@ -78,7 +91,7 @@ internal class LogOnDisk private constructor(private val path: Path, private val
         fun begin(directory: Path): LogOnDisk = guarded(directory) {
             Files.createDirectories(directory)
             val path = directory.resolve(NAME + INCOMPLETE)
-            LogOnDisk(path, FileChannel.open(path, CREATE_NEW, APPEND))
+            LogOnDisk(path, LogBytes.of(FileChannel.open(path, CREATE_NEW, APPEND)))
         }
 
         /** The unfinished log in [directory]; null where there is none. */
@@ -105,7 +118,7 @@ internal class LogOnDisk private constructor(private val path: Path, private val
                 check(found)
                 val torn = file.length() - end
                 if (torn > 0) file.setLength(end)
-                Resumed(LogOnDisk(path, FileChannel.open(path, APPEND)), found, torn)
+                Resumed(LogOnDisk(path, LogBytes.of(FileChannel.open(path, APPEND))), found, torn)
             }
         }
 
@@ -125,6 +138,28 @@ internal class LogOnDisk private constructor(private val path: Path, private val
         } catch (failed: IOException) {
             val why = failed.message ?: failed.javaClass.simpleName
             throw OutputException("cannot write the log $path: $why", failed)
+        }
+    }
+}
+
+/** The bytes of a log's file. Calls throw IOException where the disk refuses. */
+internal interface LogBytes : Closeable {
+    /** Appends some of [bytes], whose position then stands behind what was taken. */
+    fun write(bytes: ByteBuffer)
+
+    /** Hands what was written to the disk itself. */
+    fun force()
+
+    companion object {
+        /** Those of [channel], which is retained. */
+        fun of(channel: FileChannel) = object : LogBytes {
+            override fun write(bytes: ByteBuffer) {
+                channel.write(bytes)
+            }
+
+            override fun force() = channel.force(false)
+
+            override fun close() = channel.close()
         }
     }
 }
