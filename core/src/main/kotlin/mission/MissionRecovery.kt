@@ -1,7 +1,5 @@
 package stillwater.mission
 
-import kotlinx.serialization.SerializationException
-import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
@@ -62,7 +60,7 @@ public class MissionRecovery {
     /** Takes one line of the log. Never throws. */
     public fun line(line: String) {
         if (line.isBlank()) return
-        val json = content(line)
+        val json = LogLine.content(line)
         if (json == null || !take(json)) unreadable++
     }
 
@@ -71,16 +69,6 @@ public class MissionRecovery {
         val spec = spec ?: return null
         val estimator = estimator ?: return null
         return RecoveredMission(spec, estimator, used, lastTime, lastValue, held, same, lastState, readings, unreadable)
-    }
-
-    private fun content(line: String): JsonObject? {
-        val start = line.indexOf('\t', line.indexOf('\t') + 1)
-        if (start < 0) return null
-        return try {
-            Json.parseToJsonElement(line.substring(start + 1)) as? JsonObject
-        } catch (_: SerializationException) {
-            null
-        }
     }
 
     private fun take(json: JsonObject): Boolean {

@@ -10,6 +10,7 @@ import stillwater.io.LogContent
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
 import stillwater.io.PlatypusVersion
+import stillwater.replay.LineSpool
 import stillwater.replay.OwnLogReplay
 import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
@@ -56,21 +57,27 @@ class ReplayCommand : WorkCommand("replay") {
         )
         OutputDirectory(Path.of(out)).use { directory ->
             val isOwn = version == PlatypusVersion.LEVEL_JSON && content.head.any { SPEC in it }
-            val replayed: Replayed = if (isOwn) {
-                OwnLogReplay(content.file, spec).run()
-            } else {
-                PlatypusReplay(content, version, spec).run()
-            }
-            val files = ReplayFiles(replayed)
-            val warnings = replayed.warnings + files.write(directory, !numbersOnly)
-            val written = directory.commit()
-            when {
-                json -> echo(files.json().trimEnd())
-                !quiet -> {
-                    files.lines().forEach { echo(it) }
-                    for (warning in warnings) echo("warning: $warning", err = true)
-                    echo("wrote ${written.size} files into $out", err = true)
+            LineSpool().use { own ->
+                val replayed = if (isOwn) {
+                    OwnLogReplay(content, spec, own).run()
+                } else {
+                    PlatypusReplay(content, version, spec, own).run()
                 }
+                write(replayed, directory)
+            }
+        }
+    }
+
+    private fun write(replayed: Replayed, directory: OutputDirectory) {
+        val files = ReplayFiles(replayed)
+        val warnings = replayed.warnings + files.write(directory, !numbersOnly)
+        val written = directory.commit()
+        when {
+            json -> echo(files.json().trimEnd())
+            !quiet -> {
+                files.lines().forEach { echo(it) }
+                for (warning in warnings) echo("warning: $warning", err = true)
+                echo("wrote ${written.size} files into $out", err = true)
             }
         }
     }

@@ -1,5 +1,6 @@
 package stillwater.drive
 
+import stillwater.io.BoundedLines
 import stillwater.io.LogProblem
 import stillwater.mission.LogSink
 import stillwater.mission.MissionRecovery
@@ -112,7 +113,7 @@ internal class LogOnDisk(private val path: Path, private val file: LogBytes) :
                 val recovery = MissionRecovery()
                 // A broken disk's bytes are no reason to give up the lines around them.
                 val whole = BoundedStream(Files.newInputStream(path), end)
-                whole.bufferedReader(Charsets.UTF_8).useLines { lines -> lines.forEach(recovery::line) }
+                BoundedLines(whole.reader(Charsets.UTF_8)).use { lines -> lines.forEach(recovery::line) }
                 val found = recovery.recovered()
                     ?: throw LogProblem(path, null, null, "a mission's log", "no mission that can be read")
                 check(found)

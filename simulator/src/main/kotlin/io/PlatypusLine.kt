@@ -1,7 +1,5 @@
 package stillwater.io
 
-import kotlinx.serialization.SerializationException
-import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
@@ -9,6 +7,7 @@ import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.intOrNull
+import stillwater.mission.LogLine
 import kotlin.math.abs
 import kotlin.math.atan2
 
@@ -74,7 +73,7 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
     }
 
     private fun textSensor(channel: Int, text: String): PlatypusEntry {
-        val json = objectOrNull(text)
+        val json = LogLine.objectOrNull(text)
         val type = json?.text("type")
         val data = json?.text("data")?.let { numbers(it, " ") }
         return if (type != null && data != null) {
@@ -88,7 +87,7 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         if (!payload.startsWith("{") || !payload.endsWith("}")) return PlatypusEntry.Unreadable("a JSON object")
         val wanted = payload.startsWith("{\"cmd\"").not() && payload.startsWith("{\"gain\"").not()
         if (!wanted) return PlatypusEntry.Other
-        val json = objectOrNull(payload) ?: return PlatypusEntry.Unreadable("a JSON object")
+        val json = LogLine.objectOrNull(payload) ?: return PlatypusEntry.Unreadable("a JSON object")
         return jsonPose(json["pose"]) ?: jsonSensor(json["sensor"]) ?: jsonStart(json) ?: PlatypusEntry.Other
     }
 
@@ -130,12 +129,6 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         if ("date" !in json) return null
         val epoch = (json["time"] as? JsonPrimitive)?.doubleOrNull?.takeIf { abs(it) <= LATEST_EPOCH }
         return epoch?.let { PlatypusEntry.Start(it) } ?: PlatypusEntry.Unreadable("a start with a time in ms")
-    }
-
-    private fun objectOrNull(text: String): JsonObject? = try {
-        Json.parseToJsonElement(text) as? JsonObject
-    } catch (_: SerializationException) {
-        null
     }
 
     private fun JsonObject.text(key: String) = (get(key) as? JsonPrimitive)?.contentOrNull

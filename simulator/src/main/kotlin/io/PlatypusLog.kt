@@ -5,7 +5,6 @@ import stillwater.model.Conditions
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Utm
-import java.io.BufferedReader
 import java.nio.file.Path
 import kotlin.math.abs
 
@@ -31,13 +30,8 @@ internal class PlatypusLog private constructor(
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
         val pass = Pass(sink)
-        BufferedReader(content.reader(progress)).use { lines ->
-            var line = lines.readLine()
-            while (line != null) {
-                val next = lines.readLine()
-                pass.take(line, isLast = next == null)
-                line = next
-            }
+        BoundedLines(content.reader(progress)).use { lines ->
+            for (line in lines) pass.take(line, isLast = !lines.hasNext())
         }
         return pass.end()
     }
@@ -217,7 +211,7 @@ internal class PlatypusLog private constructor(
         private fun catalogue(content: LogContent, version: PlatypusVersion): SensorCatalogue {
             val catalogue = SensorCatalogue()
             val parser = PlatypusLine(version)
-            BufferedReader(content.reader {}).useLines { lines ->
+            BoundedLines(content.reader {}).use { lines ->
                 for (line in lines) (parser.parse(line) as? PlatypusEntry.Sensor)?.let(catalogue::add)
             }
             return catalogue

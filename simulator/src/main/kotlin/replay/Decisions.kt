@@ -43,7 +43,8 @@ internal class Decisions {
         if (words != before) changes += Decision(time.seconds, state.word, why, mission.position)
         before = words
         val passed = time.seconds - last
-        if (!last.isNaN()) seconds.merge(if (passed > LONGEST_STEP) GAP else state.word, passed, Double::plus)
+        // Time goes back where a log was gone on with, or where two logs were put into one file.
+        if (passed >= 0) seconds.merge(if (passed > LONGEST_STEP) GAP else state.word, passed, Double::plus)
         last = time.seconds
         steps++
         if (mission.drive != Drive.NONE) driven++

@@ -1,5 +1,6 @@
 package stillwater.replay
 
+import stillwater.io.BoundedLines
 import stillwater.io.LogContent
 import stillwater.io.PlatypusEntry
 import stillwater.io.PlatypusLine
@@ -18,7 +19,6 @@ import stillwater.mission.Quantity
 import stillwater.model.Interval
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
-import java.io.BufferedReader
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.floor
@@ -46,7 +46,7 @@ internal class MadeUpMission(private val content: LogContent, private val versio
     /** The mission; [warnings] hears what had to be assumed. */
     fun spec(warnings: MutableList<String>): MissionSpec {
         val parser = PlatypusLine(version)
-        BufferedReader(content.reader {}).useLines { lines -> for (line in lines) take(parser.parse(line)) }
+        BoundedLines(content.reader {}).use { lines -> for (line in lines) take(parser.parse(line)) }
         val zero = origin ?: placeholder ?: LatLon(0.0, 0.0)
         if (origin == null) warnings += "the log has no fix: its mission waits for one"
         val most = probes.entries.maxByOrNull { it.value.values.size }

@@ -1,23 +1,25 @@
 package stillwater.replay
 
-import kotlinx.serialization.SerializationException
-import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
+import stillwater.io.BoundedLines
+import stillwater.io.LogContent
 import stillwater.io.LogProblem
+import stillwater.mission.LogLine
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionSpec
+import stillwater.mission.RecoveredMission
 import stillwater.mission.Wish
 import stillwater.model.BoatTime
+import stillwater.model.JsonProblem
 import stillwater.model.LatLon
-import java.nio.file.Path
 
 /**
  * Feeds what a mission's own log says came in (fixes, compass, the board's lines, a person's orders) through the
@@ -27,76 +29,100 @@ import java.nio.file.Path
  * the same with another [MissionSpec], shows what it would have decided on the same way. Where the log was gone on with
  * after a crash, the mission is recovered from the lines before, as it was then.
  *
- * @param file the log. @param other the mission to replay in place of the log's; null for the log's own.
+ * @param content the log. @param other the mission to replay in place of the log's; null for the log's own.
+ * @param log takes the replay's own. Retained, not closed.
  */
-internal class OwnLogReplay(private val file: Path, private val other: MissionSpec?) {
-    private val lines = LinkedHashMap<String, Long>()
-    private val notUnderstood = LinkedHashMap<String, Long>()
-    private val log = ArrayList<String>()
+internal class OwnLogReplay(
+    private val content: LogContent,
+    private val other: MissionSpec?,
+    private val log: LineSpool,
+) {
+    private val lines = LineCounts()
+    private val notUnderstood = LineCounts()
     private val decisions = Decisions()
-    private val soFar = ArrayList<String>()
+    private var number = 0L
     private val recorded = MissionRecovery()
     private var link = RecordedLink()
     private var mission: Mission? = null
     private var differing = 0L
     private var firstDifference = Double.NaN
+    private var lastTime = Double.NEGATIVE_INFINITY
+    private var refused: String? = null
+    private var refusedLine: Long? = null
 
     /** Replays it all. Throws [LogProblem] where the log has no mission. */
     fun run(): Replayed {
-        file.toFile().bufferedReader(Charsets.UTF_8).useLines { all -> all.forEach(::take) }
-        val last = mission ?: throw LogProblem(file, null, null, "a mission's log", "no mission that can be read")
+        BoundedLines(content.reader {}).use { all ->
+            for (line in all) {
+                number++
+                if (line.isNotBlank()) take(line)
+            }
+        }
+        val last = mission ?: throw LogProblem(
+            content.file,
+            refusedLine,
+            null,
+            "a mission's log",
+            "no mission that can be read" + (refused?.let { " ($it)" } ?: ""),
+        )
         val isSameMap = recorded.recovered()?.let { isSame(last.map, it.estimator.map) } ?: false
         val compared = AsRecorded(differing, firstDifference, isSameMap).takeIf { other == null }
         return Replayed(last.spec, "own log", last, decisions, log, lines, notUnderstood, compared, emptyList())
     }
 
     private fun take(line: String) {
-        if (line.isBlank()) return
-        val json = content(line)
+        val json = LogLine.content(line)
         when {
-            json == null -> return notUnderstood.count("<ms> TAB I TAB {json}")
+            json == null -> return notUnderstood.count("<ms> TAB I TAB {json}", number)
             "spec" in json -> begin(json)
             "mission" in json -> step(json)
-            "reading" in json -> lines.count("readings")
-            "sensor" in json -> lines.count("other sensors")
-            "pass" in json -> lines.count("cells left without a reading")
-            else -> notUnderstood.count("spec, mission, reading, sensor or pass")
+            "reading" in json -> lines.count("readings", number)
+            "sensor" in json -> lines.count("other sensors", number)
+            "pass" in json -> lines.count("cells left without a reading", number)
+            else -> notUnderstood.count("spec, mission, reading, sensor or pass", number)
         }
-        soFar += line
         recorded.line(line)
     }
 
-    private fun content(line: String): JsonObject? {
-        val start = line.indexOf('\t', line.indexOf('\t') + 1)
-        return try {
-            if (start < 0) null else Json.parseToJsonElement(line.substring(start + 1)) as? JsonObject
-        } catch (_: SerializationException) {
-            null
-        }
-    }
-
     private fun begin(json: JsonObject) {
-        lines.count("beginnings")
+        lines.count("beginnings", number)
         val spec = other ?: try {
             MissionSpec.fromJson(json["spec"].toString())
-        } catch (_: IllegalArgumentException) {
-            return notUnderstood.count("a mission")
+        } catch (wrong: JsonProblem) {
+            if (refused == null) {
+                refused = wrong.words
+                refusedLine = number
+            }
+            return notUnderstood.count("a mission", number)
         }
         val date = (json["date"] as? JsonPrimitive)?.contentOrNull.orEmpty()
         val start = LogStart((json["time"] as? JsonPrimitive)?.doubleOrNull?.toLong() ?: 0, date)
-        val before = soFar.takeIf { mission != null }?.let { past ->
-            // The log's own readings are in what was recovered then; another mission goes on with its own.
-            MissionRecovery().apply { (if (other == null) past else log).forEach(::line) }.recovered()
-        }
+        val before = if (mission == null) null else recovered()
         link = RecordedLink()
-        mission = Mission(spec, link, MissionLog(log::add, start, spec), recovered = before)
+        lastTime = Double.NEGATIVE_INFINITY
+        mission = Mission(spec, link, MissionLog(log, start, spec), recovered = before)
+    }
+
+    /** What a mission that goes on at this line knows: the log's own readings, or those that another mission took. */
+    private fun recovered(): RecoveredMission? {
+        val recovery = MissionRecovery()
+        if (other == null) {
+            BoundedLines(content.reader {}).use { all ->
+                for (line in all.asSequence().take((number - 1).toInt())) recovery.line(line)
+            }
+        } else {
+            log.forEach(recovery::line)
+        }
+        return recovery.recovered()
     }
 
     private fun step(json: JsonObject) {
-        lines.count("steps")
-        val mission = mission ?: return notUnderstood.count("a mission before its steps")
+        lines.count("steps", number)
+        val mission = mission ?: return notUnderstood.count("a mission before its steps", number)
         val record = json["mission"] as? JsonObject
-        val time = (record?.get("t_s") as? JsonPrimitive)?.doubleOrNull ?: return notUnderstood.count("a step's t_s")
+        val time = (record?.get("t_s") as? JsonPrimitive)?.doubleOrNull ?: return notUnderstood.count("a step's t_s", number)
+        if (time <= lastTime) notUnderstood.count("a step later than the one before it", number)
+        lastTime = time
         (json["in"] as? JsonObject)?.let { feed(mission, it) }
         mission.step(BoatTime(time))
         decisions.note(mission, BoatTime(time))
@@ -112,7 +138,7 @@ internal class OwnLogReplay(private val file: Path, private val other: MissionSp
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
             val isPlace = latitude in LatLon.LATITUDES_DEG && longitude.isFinite()
-            if (isPlace) mission.fix(BoatTime(time), LatLon(latitude, longitude)) else notUnderstood.count("a place")
+            if (isPlace) mission.fix(BoatTime(time), LatLon(latitude, longitude)) else notUnderstood.count("a place", number)
         }
         for (compass in came.list("compass")) {
             val (time, heading, yawRate) = numbers(compass) ?: continue
@@ -128,7 +154,7 @@ internal class OwnLogReplay(private val file: Path, private val other: MissionSp
             "log-lost" -> mission.logLost()
             else -> {
                 val wish = Wish.entries.find { it.word == word }
-                if (wish == null) notUnderstood.count("an order that is known") else mission.wish = wish
+                if (wish == null) notUnderstood.count("an order that is known", number) else mission.wish = wish
             }
         }
     }
@@ -139,16 +165,11 @@ internal class OwnLogReplay(private val file: Path, private val other: MissionSp
     private fun numbers(json: JsonElement): List<Double>? {
         val all = (json as? JsonArray)?.map { (it as? JsonPrimitive)?.doubleOrNull ?: Double.NaN }
         val isPlace = all != null && all.size == TRIPLE
-        if (!isPlace) notUnderstood.count("three numbers")
+        if (!isPlace) notUnderstood.count("three numbers", number)
         return all.takeIf { isPlace }
     }
 
     private companion object {
         const val TRIPLE = 3
     }
-}
-
-/** One more under [key]. */
-internal fun MutableMap<String, Long>.count(key: String) {
-    merge(key, 1, Long::plus)
 }

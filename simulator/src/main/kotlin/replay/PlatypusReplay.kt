@@ -1,5 +1,6 @@
 package stillwater.replay
 
+import stillwater.io.BoundedLines
 import stillwater.io.LogContent
 import stillwater.io.PlatypusClock
 import stillwater.io.PlatypusEntry
@@ -14,7 +15,6 @@ import stillwater.mission.MissionSpec
 import stillwater.model.BoatTime
 import stillwater.model.LatLon
 import stillwater.model.Utm
-import java.io.BufferedReader
 
 /**
  * Feeds a Platypus boat's log through a mission: its poses as fixes and compass, its sensors' readings as a board's
@@ -25,17 +25,18 @@ import java.io.BufferedReader
  * would have made of the readings, and when it would have held, gone home or stopped.
  *
  * @param content the log. @param version of its format. @param wanted mission to replay; null for one made around the
- *   log.
+ *   log. @param log takes the replay's own. Retained, not closed.
  */
 internal class PlatypusReplay(
     private val content: LogContent,
     private val version: PlatypusVersion,
     private val wanted: MissionSpec?,
+    private val log: LineSpool,
 ) {
-    private val lines = LinkedHashMap<String, Long>()
-    private val notUnderstood = LinkedHashMap<String, Long>()
+    private val lines = LineCounts()
+    private val notUnderstood = LineCounts()
+    private var number = 0L
     private val warnings = ArrayList<String>()
-    private val log = ArrayList<String>()
     private val decisions = Decisions()
     private val board = RecordedBoard()
     private var gaps = 0
@@ -47,23 +48,24 @@ internal class PlatypusReplay(
     fun run(): Replayed {
         val spec = wanted ?: MadeUpMission(content, version).spec(warnings)
         val start = LogStart(0, "replay of ${content.file.fileName}")
-        val mission = Mission(spec, board.link, MissionLog(log::add, start, spec))
+        val mission = Mission(spec, board.link, MissionLog(log, start, spec))
         mission.start()
         val parser = PlatypusLine(version)
         val clock = PlatypusClock()
         var zero = Double.NaN
-        BufferedReader(content.reader {}).useLines { all ->
+        BoundedLines(content.reader {}).use { all ->
             for (line in all) {
+                number++
                 if (line.isBlank()) continue
                 val entry = parser.parse(line)
                 if (entry is PlatypusEntry.Unreadable) {
-                    notUnderstood.count(entry.expected)
+                    notUnderstood.count(entry.expected, number)
                     continue
                 }
                 if (entry is PlatypusEntry.Start) clock.start(entry.epochMillis, parser.millis)
                 val seconds = clock.secondsAt(parser.millis, parser.clock)
                 if (seconds.isNaN()) {
-                    notUnderstood.count("a time not before the last one")
+                    notUnderstood.count("a time not before the last one", number)
                     continue
                 }
                 if (zero.isNaN()) zero = seconds
@@ -97,12 +99,12 @@ internal class PlatypusReplay(
             is PlatypusEntry.Pose -> pose(mission, entry, time)
             is PlatypusEntry.Sensor ->
                 if (board.say(entry)) {
-                    lines.count("sensor ${entry.type}")
+                    lines.count("sensor ${entry.type}", number)
                 } else {
-                    notUnderstood.count("numbers of a sensor known here, not '${entry.type}'")
+                    notUnderstood.count("numbers of a sensor known here, not '${entry.type}'", number)
                 }
-            is PlatypusEntry.Start -> lines.count("beginnings")
-            else -> lines.count("commands, gains and others that a mission does not need")
+            is PlatypusEntry.Start -> lines.count("beginnings", number)
+            else -> lines.count("commands, gains and others that a mission does not need", number)
         }
     }
 
@@ -110,13 +112,13 @@ internal class PlatypusReplay(
         if (pose.heading.isFinite()) mission.compass(time, pose.heading, Double.NaN)
         val place = if (PlatypusLog.isPlaceholder(pose)) null else placeOf(pose)
         when {
-            PlatypusLog.isPlaceholder(pose) -> lines.count("poses before the first fix")
-            place == null -> notUnderstood.count("a place on the globe")
+            PlatypusLog.isPlaceholder(pose) -> lines.count("poses before the first fix", number)
+            place == null -> notUnderstood.count("a place on the globe", number)
             isNews(place, time) -> {
-                lines.count("poses")
+                lines.count("poses", number)
                 mission.fix(time, place)
             }
-            else -> lines.count("poses said again")
+            else -> lines.count("poses said again", number)
         }
     }
 

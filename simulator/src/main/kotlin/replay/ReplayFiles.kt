@@ -30,9 +30,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
         }
         directory.write("replay.json", json())
         directory.write("mission.json", PRETTY.encodeToString(JsonObject.serializer(), specJson()) + "\n")
-        directory.stream("mission.txt") { out ->
-            for (line in replayed.log) out.write((line + "\n").toByteArray())
-        }
+        directory.stream("mission.txt") { replayed.log.copyTo(it) }
         return MissionMapFiles.write(directory, replayed.spec, replayed.map, isDrawn)
     }
 
@@ -47,9 +45,12 @@ internal class ReplayFiles(private val replayed: Replayed) {
             put("steps", replayed.decisions.steps)
             put("steps_with_motors_running", replayed.decisions.driven)
             putJsonObject("seconds_in_state") { replayed.decisions.secondsIn.forEach { (name, s) -> put(name, s) } }
-            putJsonObject("lines") { replayed.lines.forEach { (name, count) -> put(name, count) } }
+            putJsonObject("lines") { replayed.lines.counts.forEach { (name, count) -> put(name, count) } }
             putJsonObject("lines_not_understood") {
-                replayed.notUnderstood.forEach { (expected, count) -> put(expected, count) }
+                replayed.notUnderstood.counts.forEach { (expected, count) -> put(expected, count) }
+            }
+            putJsonObject("first_line_not_understood") {
+                replayed.notUnderstood.first.forEach { (expected, line) -> put(expected, line) }
             }
             putJsonObject("board_lines_not_understood") { malformed().forEach { (name, count) -> put(name, count) } }
             val gate = replayed.mission.readings
@@ -73,12 +74,15 @@ internal class ReplayFiles(private val replayed: Replayed) {
     fun lines(): List<String> {
         val decisions = replayed.decisions
         val gate = replayed.mission.readings
-        val unread = replayed.notUnderstood.map { (name, count) -> "$count (expected $name)" } +
+        val first = replayed.notUnderstood.first
+        val unread = replayed.notUnderstood.counts.map { (name, count) ->
+            "$count (expected $name; ${if (count == 1L) "" else "the first "}at line ${first[name]})"
+        } +
             malformed().map { (name, count) -> "$count of the board ($name)" }
         val why = Decisions.why(replayed.mission.state)
         return listOfNotNull(
             "${replayed.format}, ${decisions.steps} steps; at its end ${replayed.mission.state.word} $why".trimEnd(),
-            "lines: " + replayed.lines.entries.joinToString(", ") { "${it.value} ${it.key}" },
+            "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${it.key}" },
             "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
             "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(it.key, it.value) } +
                 "; ${decisions.changes.size} changes, motors running in ${decisions.driven} steps",

@@ -9,7 +9,7 @@ import stillwater.mission.MissionSpec
  *
  * @property spec the mission that was replayed. @property format of the log, for people.
  * @property mission after its last step. @property decisions it took.
- * @property log its own log, line by line.
+ * @property log its own log.
  * @property lines of the recorded log, by what they hold. @property notUnderstood lines, by what was expected of them.
  * @property asRecorded how the replay compares with what the log says was decided; null where the log does not say.
  * @property warnings what a person should know of it.
@@ -19,9 +19,9 @@ internal class Replayed(
     val format: String,
     val mission: Mission,
     val decisions: Decisions,
-    val log: List<String>,
-    val lines: Map<String, Long>,
-    val notUnderstood: Map<String, Long>,
+    val log: LineSpool,
+    val lines: LineCounts,
+    val notUnderstood: LineCounts,
     val asRecorded: AsRecorded?,
     val warnings: List<String>,
 ) {

@@ -2,6 +2,7 @@ package stillwater.cli
 
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.double
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import kotlinx.serialization.json.long
@@ -11,12 +12,14 @@ import org.junit.jupiter.api.io.TempDir
 import org.junit.jupiter.params.ParameterizedTest
 import org.junit.jupiter.params.provider.CsvSource
 import stillwater.mission.Mission
+import stillwater.mission.MissionRecovery
 import stillwater.mission.Wish
 import java.nio.file.Path
 import kotlin.io.path.exists
 import kotlin.io.path.readLines
 import kotlin.io.path.readText
 import kotlin.io.path.writeText
+import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
@@ -108,6 +111,46 @@ class ReplayCommandTest {
     }
 
     @Test
+    fun whatNoLogWouldHaveIsCountedWithItsLineAndHarmsNothing() {
+        val (lines, mission) = sailed(47, 60)
+        val deep = "1\tI\t{\"a\":" + "[".repeat(100_000)
+        val long = "1\tI\t{\"a\":\"" + "x".repeat(2_000_000) + "\"}"
+        val broken = lines.take(300) + deep + long + "\u0000\u0001" + lines.drop(300)
+        val log = write("log.txt", broken)
+        val summary = replay(log, "out")
+        assertSameMap(mission, directory.resolve("out/cells.csv"))
+        assertEquals(3, summary.count("lines_not_understood", "<ms> TAB I TAB {json}"))
+        assertEquals(301, summary.count("first_line_not_understood", "<ms> TAB I TAB {json}"))
+        assertEquals(0, summary.count("steps_otherwise_than_recorded"))
+        // The same log when its lines lost their order, and when it was joined with itself.
+        val shuffled = lines.take(1) + lines.drop(1).shuffled(Random(48))
+        assertTrue(
+            replay(write("other.txt", shuffled), "other")
+                .count("lines_not_understood", "a step later than the one before it") > 100,
+        )
+        val twice = replay(write("twice.txt", lines + lines), "twice")
+        assertEquals(2, twice.count("lines", "beginnings"))
+        assertTrue(twice.getValue("seconds_in_state").jsonObject.values.all { it.jsonPrimitive.double >= 0 }, "$twice")
+    }
+
+    @Test
+    fun aLogThatWasGoneOnWithIsReplayedWithWhatWasKnownThen() {
+        val (lines, _) = sailed(49, 60)
+        val recovery = MissionRecovery().apply { lines.forEach(::line) }
+        val (rest, mission) = sailed(50, 60, recovery.recovered())
+        val summary = replay(write("log.txt", lines + rest), "out")
+        assertEquals("true", summary.word("same_map_as_recorded"))
+        assertEquals(0, summary.count("steps_otherwise_than_recorded"))
+        assertSameMap(mission, directory.resolve("out/cells.csv"))
+        val other = directory.resolve("other.json").apply { writeText(POND.replace("self-calibrating", "averaging")) }
+        val taken = summary.count("lines", "readings")
+        val averaged = replay(directory.resolve("log.txt"), "averaged", "--mission", other.toString())
+        assertEquals(taken, averaged.count("lines", "readings"))
+        val map = directory.resolve("averaged/cells.csv").readLines().drop(1).sumOf { it.split(',')[7].toInt() }
+        assertTrue(map > averaged.count("readings", "taken"), "readings of before the crash are in the map too")
+    }
+
+    @Test
     fun anotherMissionOnTheSameWayMakesAnotherMap() {
         val (lines, _) = sailed(45, 150)
         val other = directory.resolve("other.json").apply { writeText(POND.replace("self-calibrating", "averaging")) }
@@ -159,7 +202,7 @@ class ReplayCommandTest {
     @ParameterizedTest
     @CsvSource(
         "a survey, 'time_s,do\n1,2\n', 'expected a mission''s log or a Platypus log, found neither'",
-        "no readable mission, '0\tI\t{\"spec\":{\"name\":1}}\n', found no mission that can be read",
+        "no readable mission, '0\tI\t{\"spec\":{\"name\":1}}\n', 'log.txt:1: expected a mission''s log, found no mission that can be read (name: expected a text in quotes, found ''1'')'",
         "nothing, '', 'expected a log, found an empty file'",
     )
     fun whatIsNoLogIsRefusedInOneLineAndNothingIsWritten(case: String, text: String, message: String) {

@@ -7,6 +7,7 @@ import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
+import stillwater.mission.RecoveredMission
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.LinkSpec
 import stillwater.world.VirtualWorld
@@ -28,6 +29,7 @@ internal const val POND = """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-
 internal fun sailed(
     seed: Long,
     seconds: Int,
+    recovered: RecoveredMission? = null,
     orders: (Int, Mission) -> Unit = { _, _ -> },
 ): Pair<List<String>, Mission> {
     val spec = MissionSpec.fromJson(POND)
@@ -38,7 +40,8 @@ internal fun sailed(
     )
     val world = VirtualWorld(settings, WorldSite.of(spec))
     val lines = ArrayList<String>()
-    val mission = Mission(spec, world.boat.phone, MissionLog(lines::add, LogStart(1_700_000_000_000, "2023"), spec))
+    val log = MissionLog(lines::add, LogStart(1_700_000_000_000, "2023"), spec)
+    val mission = Mission(spec, world.boat.phone, log, recovered = recovered)
     repeat(seconds * 10) { step ->
         world.advance(0.1)
         world.boat.takeFix()?.let { mission.fix(it.time, it.place) }
