@@ -85,11 +85,12 @@ class DriveCommand : WorkCommand("drive") {
         }
         val directory = Path.of(out)
         refuseOtherLogs(directory)
+        val signals = Signals()
         try {
             ReconnectingWire(address.opener(), address.opener().open()).use { wire ->
                 // A virtual boat's time begins with its phone: the wire is open by then.
                 val phone = channel?.let { PhoneChannel.open(it) } ?: BoardPhone(declination)
-                phone.use { sail(spec, wire, it, directory) }
+                phone.use { sail(spec, wire, it, directory, signals) }
             }
         } catch (problem: WireProblem) {
             throw failure(problem.message.orEmpty())
@@ -108,7 +109,7 @@ class DriveCommand : WorkCommand("drive") {
         }
     }
 
-    private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path) {
+    private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path, signals: Signals) {
         val resumed = if (resume) recover(spec, directory) else null
         val file = resumed?.file ?: LogOnDisk.begin(directory)
         file.use {
@@ -118,7 +119,7 @@ class DriveCommand : WorkCommand("drive") {
             val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, resumed?.mission)
             val status = DriveStatus(terminal, wire, phone, quiet)
             val run = DriveRun(mission, phone, wire, prompt, file, status)
-            attendPerson(run)
+            attendPerson(run, signals)
             val reason = run.sail()
             status.wipe()
             sayWhereTimeWasLost(phone, prompt)
@@ -140,8 +141,8 @@ class DriveCommand : WorkCommand("drive") {
         return resumed
     }
 
-    private fun attendPerson(run: DriveRun) {
-        onInterrupt { run.stop() }
+    private fun attendPerson(run: DriveRun, signals: Signals) {
+        signals.attend { run.stop() }
         if (yes) return run.start()
         tell("Enter begins the mission, stop and Enter or Ctrl-C ends it")
         val listener = Thread({

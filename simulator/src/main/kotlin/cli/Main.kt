@@ -8,6 +8,7 @@ import com.github.ajalt.clikt.core.parse
 import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.parameters.options.versionOption
 import stillwater.report.Program
+import java.io.PrintStream
 import java.nio.file.InvalidPathException
 import kotlin.system.exitProcess
 
@@ -22,6 +23,7 @@ class Stillwater : CliktCommand("stillwater") {
 }
 
 fun main(args: Array<String>) {
+    val output = StandardOutput.install()
     val command = Stillwater().subcommands(
         BenchmarkCommand(),
         MapCommand(),
@@ -32,24 +34,52 @@ fun main(args: Array<String>) {
         DriveCommand(),
         ReplayCommand(),
     )
-    try {
-        command.parse(args)
-    } catch (wrong: UsageError) {
-        command.echoFormattedHelp(wrong)
+    val status = run(command, args, System.getenv(TRACE) != null, System.err)
+    System.out.flush()
+    if (output.isLost) {
+        System.err.println("stillwater: standard output could not be written")
         exitProcess(BAD_INPUT)
-    } catch (error: CliktError) {
-        command.echoFormattedHelp(error)
-        exitProcess(error.statusCode)
-    } catch (path: InvalidPathException) {
-        fail("'${path.input}' cannot be a path in this locale (${path.reason}); set LC_ALL=C.UTF-8")
-    } catch (_: OutOfMemoryError) {
-        val megabytes = Runtime.getRuntime().maxMemory() / (1L shl 20)
-        fail("$megabytes MB of memory are not enough; give Java more (java -Xmx2g -jar ...) or ask for fewer cells")
     }
-    if (System.out.checkError()) fail("standard output could not be written")
+    if (status != 0) exitProcess(status)
 }
 
-private fun fail(message: String): Nothing {
-    System.err.println("stillwater: $message")
-    exitProcess(BAD_INPUT)
+/**
+ * Runs [command] with [args]; answers the exit code. What no command expects ends in one line on [errors] too, with the
+ * place in the program where [isTraced].
+ */
+internal fun run(command: CliktCommand, args: Array<String>, isTraced: Boolean, errors: PrintStream): Int {
+    fun failed(message: String, why: Throwable, status: Int): Int {
+        errors.println("stillwater: $message")
+        if (isTraced) why.printStackTrace(errors)
+        return status
+    }
+    return try {
+        command.parse(args)
+        0
+    } catch (wrong: UsageError) {
+        command.echoFormattedHelp(wrong)
+        BAD_INPUT
+    } catch (error: CliktError) {
+        command.echoFormattedHelp(error)
+        error.statusCode
+    } catch (path: InvalidPathException) {
+        val message = "'${path.input}' cannot be a path in this locale (${path.reason}); set LC_ALL=C.UTF-8"
+        failed(message, path, BAD_INPUT)
+    } catch (full: OutOfMemoryError) {
+        val megabytes = Runtime.getRuntime().maxMemory() / (1L shl 20)
+        val remedy = "give Java more (java -Xmx2g -jar ...) or ask for fewer cells"
+        failed("$megabytes MB of memory are not enough; $remedy", full, BAD_INPUT)
+    } catch (
+        @Suppress("TooGenericExceptionCaught") bug: Throwable,
+    ) {
+        val what = (bug.message ?: bug.javaClass.simpleName).lineSequence().first()
+        val remedy = if (isTraced) "" else "; with $TRACE=1 in the environment it says where"
+        failed("a mistake in the program (${bug.javaClass.simpleName}: $what)$remedy", bug, BUG)
+    }
 }
+
+/** In the environment: a mistake in the program is told with the place where it happened. */
+private const val TRACE = "STILLWATER_TRACE"
+
+/** Exit code of a mistake in the program, as sysexits.h has it. */
+private const val BUG = 70

@@ -82,7 +82,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
 
     private fun serve(world: VirtualWorld, wire: ServedWire, phone: PhoneServer) {
         val server = BoatServer(world, wire, phone, speed)
-        onInterrupt { server.stop() }
+        Signals().attend { server.stop() }
         // Programs read these lines through a pipe and wait for them.
         println("board ${wire.address}")
         println("phone ${phone.address}")

@@ -70,14 +70,15 @@ internal class SerialWire private constructor(private val port: SerialPort) : Bo
             val port = try {
                 SerialPort.getCommPort(address.name)
             } catch (wrong: SerialPortInvalidPortException) {
-                throw WireProblem("${address.name}: expected a serial port, found none; there ${found()}", wrong)
+                throw WireProblem(SerialTrouble.NOT_THERE.words(address.name, ports()), wrong)
             } catch (missing: UnsatisfiedLinkError) {
                 throw WireProblem("${address.name}: this system has no serial ports; use tcp:HOST:PORT", missing)
             }
             port.setComPortParameters(address.baud, BITS, SerialPort.ONE_STOP_BIT, SerialPort.NO_PARITY)
             port.setComPortTimeouts(SerialPort.TIMEOUT_NONBLOCKING, 0, 0)
             if (!port.openPort(0, BUFFER, BUFFER)) {
-                throw WireProblem("${address.name}: cannot be opened (error ${port.lastErrorCode}); $HINT")
+                val trouble = SerialTrouble.of(port.lastErrorCode, "windows" in System.getProperty("os.name").lowercase())
+                throw WireProblem(trouble.words(address.name, ports(), port.lastErrorCode))
             }
             // A pseudo-terminal has no such lines, and no harm is done.
             port.setDTR()
@@ -85,11 +86,6 @@ internal class SerialWire private constructor(private val port: SerialPort) : Bo
             return SerialWire(port)
         }
 
-        private const val HINT = "is it there, not open elsewhere, and may you use it (on Linux, group dialout)?"
-
-        private fun found(): String {
-            val names = SerialPort.getCommPorts().map { it.systemPortPath }
-            return if (names.isEmpty()) "are no serial ports" else "are ${names.joinToString(", ")}"
-        }
+        private fun ports() = SerialPort.getCommPorts().map { it.systemPortPath }
     }
 }

@@ -142,4 +142,20 @@ class WiresTest {
             assertIs<String>(problem.message)
         }
     }
+
+    @Test
+    fun aSerialPortThatCannotBeOpenedSaysWhyAndWhichThereAre() {
+        fun words(error: Int, isWindows: Boolean, vararg ports: String) =
+            SerialTrouble.of(error, isWindows).words("COM3", ports.toList(), error)
+        assertEquals("COM3: expected a serial port, found none; this machine has no serial ports", words(2, false))
+        assertTrue("another program has this port open" in words(16, false, "/dev/ttyACM0"))
+        assertTrue(words(11, false, "/dev/ttyACM0", "/dev/ttyS0").endsWith("; there are /dev/ttyACM0, /dev/ttyS0"))
+        assertTrue("no permission" in words(13, false) && "dialout" in words(13, false))
+        assertTrue("another program" in words(5, true))
+        assertTrue("found none" in words(2, true))
+        assertEquals("COM3: this port cannot be opened (error 99); this machine has no serial ports", words(99, false))
+        if ("linux" !in System.getProperty("os.name").lowercase()) return
+        val problem = assertFailsWith<WireProblem> { WireAddress.Serial("/dev/null", 9600).opener().open() }
+        assertTrue("/dev/null: expected a serial port, found something else" in problem.message.orEmpty(), "$problem")
+    }
 }

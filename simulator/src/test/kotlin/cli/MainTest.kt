@@ -1,0 +1,60 @@
+package stillwater.cli
+
+import com.github.ajalt.clikt.core.CliktCommand
+import org.junit.jupiter.api.Test
+import java.io.ByteArrayOutputStream
+import java.io.IOException
+import java.io.OutputStream
+import java.io.PrintStream
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class MainTest {
+    private class Failing(private val why: Throwable) : CliktCommand("failing") {
+        override fun run() = throw why
+    }
+
+    private fun outcome(why: Throwable, isTraced: Boolean): Pair<Int, List<String>> {
+        val errors = ByteArrayOutputStream()
+        val status = run(Failing(why), emptyArray(), isTraced, PrintStream(errors, true))
+        return status to errors.toString().trimEnd().lines()
+    }
+
+    @Test
+    fun aMistakeInTheProgramIsOneLineAndACodeOfItsOwn() {
+        val bug = IllegalStateException("the cell -1 is none\nof the grid")
+        val words = "stillwater: a mistake in the program (IllegalStateException: the cell -1 is none)"
+        assertEquals(70 to listOf("$words; with STILLWATER_TRACE=1 in the environment it says where"), outcome(bug, false))
+        val (status, lines) = outcome(bug, true)
+        assertEquals(70, status)
+        assertEquals(words, lines[0])
+        assertTrue(lines.any { "MainTest" in it }, "the place is told: $lines")
+        assertEquals(70, outcome(StackOverflowError(), false).first)
+    }
+
+    @Test
+    fun tooLittleMemoryIsTheMachinesAndSaysWhatToDo() {
+        val (status, lines) = outcome(OutOfMemoryError(), false)
+        assertEquals(2, status)
+        assertTrue("-Xmx2g" in lines.single(), "$lines")
+    }
+
+    private fun refusing(message: String) = StandardOutput(
+        object : OutputStream() {
+            override fun write(byte: Int) = throw IOException(message)
+        },
+    )
+
+    @Test
+    fun aReaderThatHasLeftIsNoProblemAndAFullDiskIsOne() {
+        val left = refusing("Broken pipe")
+        repeat(3) { left.printer.println("more") }
+        assertFalse(left.isLost)
+        assertFalse(left.printer.checkError())
+        val full = refusing("No space left on device")
+        full.printer.println("more")
+        full.printer.flush()
+        assertTrue(full.isLost)
+    }
+}
