@@ -73,6 +73,10 @@ public class SelfCalibratingEstimator(
     /** Standard deviation σ of the readings about the sensor's state, noise and resolution together, sensor units. */
     public val noise: Double get() = scale * sqrt(choice.active.noiseVariance)
 
+    /** Readings taken near borders, or right behind one, that told of the sensor but not of a cell. */
+    public var unplaced: Long = 0
+        private set
+
     /** Where [timeConstant] lies with a probability of 95 %, s. Allocates. */
     public fun timeConstantInterval(): Interval {
         val spread = quantile(choice.active) * relativeUncertainty
@@ -91,23 +95,26 @@ public class SelfCalibratingEstimator(
             return
         }
         if (cell != lastCell) enter(cell)
-        val slot = slots[cell]
-        tape.add(slot, seconds, scaled)
+        val place = placeOf(conditions)
+        tape.add(slots[cell], seconds, scaled, place)
+        val slot = tape.crossings.slot(slots[cell], place)
+        if (slot < 0) unplaced++
         if (tape.isComplete && tape.size >= nextReplay) {
             while (nextReplay <= tape.size) nextReplay += nextReplay / 2
+            tape.crossings.areHeeded = tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
             choice.decide(tape)
             writeAll()
             return
         }
         if (!tape.isComplete) choice.follow()
         val wasExplained = isExplained
-        choice.take(slot, seconds, scaled)
+        if (slot != Crossings.PASSED_OVER) choice.take(slot, seconds, scaled)
         if (isExplained != wasExplained) {
             // Bounds that no longer hold, or hold again, do so in all cells.
             writeAll()
             return
         }
-        write(slot)
+        write(slots[cell])
         if (choice.active.here != LagBank.NONE) write(choice.active.here)
         if (choice.active.before != LagBank.NONE) write(choice.active.before)
         repeat(REFRESHED) {
@@ -116,6 +123,17 @@ public class SelfCalibratingEstimator(
                 compareWithFallback()
             }
             write(refreshed)
+        }
+    }
+
+    /** How well the place of the reading with [conditions] is known. */
+    private fun placeOf(conditions: Conditions): Byte {
+        if (conditions === Conditions.NONE) return Crossings.EXACT
+        val deviation = conditions[Conditions.POSITION_DEVIATION]
+        return when {
+            !(deviation >= 0) -> Crossings.EXACT
+            distanceToBorder() < deviation -> Crossings.NEAR
+            else -> Crossings.SURE
         }
     }
 
@@ -147,6 +165,7 @@ public class SelfCalibratingEstimator(
         lastCell = Grid.OUTSIDE
         fallback.leave()
         choice.leave()
+        tape.crossings.leave()
         tape.add(LagBank.NONE, 0.0, 0.0)
     }
 
@@ -197,6 +216,9 @@ public class SelfCalibratingEstimator(
         /** Largest distance of a usable reading from the prior's middle, in widths of the prior. */
         public const val FARTHEST: Double = 100.0
 
+        /** Borders are heeded where so large a share of the stays has so many readings that are surely of its cell. */
+        private const val MOST_STAYS = 0.95
+        private const val FEWEST_SURE = 2
         private const val FIRST_CELLS = 128
         private const val FIRST_REPLAY = 16
     }

@@ -101,6 +101,12 @@ public class Mission(
     /** What the estimator believes of its probe; null where it has no model of one. Allocates. */
     public val sensor: SensorBelief? get() = sensorBelief(survey.estimator)
 
+    /**
+     * Of the readings that the map took, those so near to a cell's border, or right behind one, that they told of the probe
+     * but of no cell; 0 where the estimator takes all places at their word.
+     */
+    public val unplaced: Long get() = unplacedReadings(survey.estimator)
+
     /** Where the boat is believed to be, m; null where not known. */
     public val position: Position?
         get() = if (pose.track.isKnown) Position(pose.track.x, pose.track.y) else null
@@ -164,7 +170,7 @@ public class Mission(
         val dt = if (now.seconds.isNaN()) begin(time) else time - now
         now = time
         pose.advance(time, dt, drive)
-        if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y)
+        if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y, pose.track.deviation)
         port.hear(time)
         val ruling = assess()
         val before = state

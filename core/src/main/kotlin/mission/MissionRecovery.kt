@@ -11,6 +11,7 @@ import kotlinx.serialization.json.doubleOrNull
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.update
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Position
 import stillwater.model.Reading
 
@@ -137,11 +138,15 @@ public class MissionRecovery {
     }
 
     private fun reading(json: JsonElement): Reading? =
-        numbers(json, READING_SIZE)?.let { Reading(BoatTime(it[0]), Position(it[1], it[2]), it[3]) }
+        // Older logs do not say how well the place was known.
+        numbers(json, READING_SIZE, READING_SIZE + 1)?.let {
+            val known = it.getOrNull(READING_SIZE)?.let { m -> Conditions(mapOf(Conditions.POSITION_DEVIATION to m)) }
+            Reading(BoatTime(it[0]), Position(it[1], it[2]), it[3], known ?: Conditions.NONE)
+        }
 
-    private fun numbers(json: JsonElement, size: Int): List<Double>? {
+    private fun numbers(json: JsonElement, least: Int, most: Int = least): List<Double>? {
         val all = (json as? JsonArray)?.map { (it as? JsonPrimitive)?.doubleOrNull ?: return null }
-        return all?.takeIf { it.size == size }
+        return all?.takeIf { it.size in least..most }
     }
 
     private companion object {
