@@ -101,8 +101,7 @@ public class SelfCalibratingEstimator(
         if (slot < 0) unplaced++
         if (tape.isComplete && tape.size >= nextReplay) {
             while (nextReplay <= tape.size) nextReplay += nextReplay / 2
-            tape.crossings.areHeeded = tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
-            choice.decide(tape)
+            decide()
             writeAll()
             return
         }
@@ -135,6 +134,18 @@ public class SelfCalibratingEstimator(
             distanceToBorder() < deviation -> Crossings.NEAR
             else -> Crossings.SURE
         }
+    }
+
+    /**
+     * Chooses and fits the sensor's model anew. Where stays are short beside the time constant, a slow sensor and water that
+     * changes evenly within a cell look the same but at the borders: what happens there counts then.
+     */
+    private fun decide() {
+        tape.crossings.areHeeded = tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
+        choice.decide(tape)
+        if (!tape.crossings.areHeeded || choice.timeConstant <= LONGEST * tape.meanStay()) return
+        tape.crossings.areHeeded = false
+        choice.decide(tape)
     }
 
     private fun writeAll() {
@@ -219,6 +230,9 @@ public class SelfCalibratingEstimator(
         /** Borders are heeded where so large a share of the stays has so many readings that are surely of its cell. */
         private const val MOST_STAYS = 0.95
         private const val FEWEST_SURE = 2
+
+        /** Time constant over the mean stay, beyond which they are not. */
+        private val LONGEST = (System.getProperty("longest") ?: "2.0").toDouble()
         private const val FIRST_CELLS = 128
         private const val FIRST_REPLAY = 16
     }
