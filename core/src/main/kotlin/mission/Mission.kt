@@ -61,7 +61,7 @@ public class Mission(
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
         object : SurveyListener {
             override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, gate: PlausibilityGate) {
-                log.reading(now, message, verdict, taken, gate.held, gate.same)
+                log.reading(now, message, verdict, taken, gate.held, gate.same, gate.run)
                 taken.forEach(this@Mission.taken::take)
             }
 

@@ -105,7 +105,10 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         platypus(message)?.let { write(now, it) }
     }
 
-    /** Writes what the probe said at [now], the [verdict] on it, what the map took, and what waits. */
+    /**
+     * Writes what the probe said at [now], the [verdict] on it, what the map took, what waits, and how many equal readings
+     * there were on end.
+     */
     public fun reading(
         now: BoatTime,
         message: Message,
@@ -113,6 +116,7 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         taken: List<Reading>,
         held: Reading?,
         same: List<Reading> = emptyList(),
+        run: Int = same.size + 1,
     ) {
         val sensor = platypus(message) ?: return
         val list = taken.joinToString(",") { exact(it) }
@@ -120,7 +124,8 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         val equal = same.joinToString(",") { exact(it) }
         val equals = if (same.isEmpty()) "" else ""","same":[$equal]"""
         val word = verdict.name.lowercase().replace('_', '-')
-        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits$equals}""")
+        val count = if (run == same.size + 1) "" else ""","run":$run"""
+        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits$equals$count}""")
     }
 
     /** Writes that a cell was left, without a reading in it, at [place] at [time]; [now] is when that was noticed. */

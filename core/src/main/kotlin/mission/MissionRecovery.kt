@@ -8,6 +8,7 @@ import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
+import kotlinx.serialization.json.intOrNull
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.update
 import stillwater.model.BoatTime
@@ -24,7 +25,8 @@ import stillwater.model.Reading
  * @property lastTime latest time on the boat's clock that the log has, s.
  * @property lastValue value of the last reading taken, sensor units; NaN where there was none.
  * @property held reading that waits for its confirmation; null where none does.
- * @property same readings equal to the last that wait for one that is not.
+ * @property same readings equal to the last, and one other among them at most, which wait for how they go on.
+ * @property run equal readings on end, whatever became of them.
  * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
@@ -37,6 +39,7 @@ public class RecoveredMission internal constructor(
     public val lastValue: Double,
     public val held: Reading?,
     public val same: List<Reading>,
+    public val run: Int,
     public val lastState: String,
     public val readings: Long,
     public val unreadable: Long,
@@ -56,6 +59,7 @@ public class MissionRecovery {
     private var lastValue = Double.NaN
     private var held: Reading? = null
     private var same = emptyList<Reading>()
+    private var run = 0
     private var lastState = MissionState.Idle.word
     private var readings = 0L
     private var unreadable = 0L
@@ -71,7 +75,19 @@ public class MissionRecovery {
     public fun recovered(): RecoveredMission? {
         val spec = spec ?: return null
         val estimator = estimator ?: return null
-        return RecoveredMission(spec, estimator, used, lastTime, lastValue, held, same, lastState, readings, unreadable)
+        return RecoveredMission(
+            spec,
+            estimator,
+            used,
+            lastTime,
+            lastValue,
+            held,
+            same,
+            run,
+            lastState,
+            readings,
+            unreadable,
+        )
     }
 
     private fun content(line: String): JsonObject? {
@@ -125,6 +141,7 @@ public class MissionRecovery {
         }
         held = json["held"]?.let { reading(it) }
         same = (json["same"] as? JsonArray)?.mapNotNull { reading(it) }.orEmpty()
+        run = (json["run"] as? JsonPrimitive)?.intOrNull ?: (same.size + 1)
         return true
     }
 

@@ -55,7 +55,7 @@ internal class Survey(
     fun resume(recovered: RecoveredMission, now: BoatTime) {
         shift = maxOf(0.0, recovered.lastTime + AFTER - now.seconds)
         lastValue = recovered.lastValue
-        gate.resume(recovered.lastValue, recovered.held, recovered.same)
+        gate.resume(recovered.lastValue, recovered.held, recovered.same, recovered.run)
     }
 
     /** The boat is at ([x], [y]), m, [now], known to [deviation], m. */
