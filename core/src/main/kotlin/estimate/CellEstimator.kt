@@ -63,6 +63,9 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         return ReadingUse.USED
     }
 
+    /** How far the place of the reading that is being taken is from its cell's border, m. */
+    protected fun distanceToBorder(): Double = grid.distanceToBorder(placeX, placeY)
+
     /** Notices that the boat left the last cell from a reading that has no value but a time and a place. */
     private fun noticeMove(time: BoatTime, x: Double, y: Double) {
         if (!time.seconds.isFinite() || time.seconds < lastSeconds || !x.isFinite() || !y.isFinite()) return

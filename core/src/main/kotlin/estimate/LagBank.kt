@@ -15,7 +15,7 @@ import kotlin.math.sqrt
  * Derivation: core/docs/SelfCalibratingEstimator.md, whose equations are cited. O(1) a reading; no call allocates once
  * the cells' memory has grown.
  */
-internal class LagBank {
+internal class LagBank : ReadingPlayer {
     private val states = DoubleArray(NODES * STRIDE)
     private val remapped = DoubleArray(NODES)
     private val keeps = DoubleArray(NODES)
@@ -35,11 +35,11 @@ internal class LagBank {
     var step: Double = 0.0
         private set
 
-    /** The slot of the cell the boat is in, or −1. */
+    /** The slot of the cell the boat is in; below 0 if it is in none. */
     var current: Int = NONE
         private set
 
-    /** The slot of the cell it was in before, or −1. */
+    /** The slot of the cell it was in before; below 0 if it was in none. */
     var previous: Int = NONE
         private set
 
@@ -68,22 +68,21 @@ internal class LagBank {
         lastInnovation = 0.0
     }
 
-    /** The boat left without a reading of where it went: the next one finds the sensor in an unknown state. */
-    fun leave() {
-        if (previous != NONE) pool(previous, Q, QQ)
-        if (current != NONE) pool(current, P, PP)
+    override fun leave() {
+        pool(previous, Q, QQ)
+        pool(current, P, PP)
         previous = NONE
         current = NONE
     }
 
-    /** Takes the scaled reading [value] in the cell with [slot]; equal slots in a row are one visit. */
-    fun take(slot: Int, seconds: Double, value: Double) {
+    /** Equal slots in a row are one visit. */
+    override fun take(slot: Int, seconds: Double, value: Double) {
         if (current == NONE) {
             begin()
             lastSeconds = seconds
             current = slot
         } else if (slot != current) {
-            if (previous != NONE) pool(previous, Q, QQ)
+            pool(previous, Q, QQ)
             enter()
             previous = current
             current = slot
@@ -223,8 +222,9 @@ internal class LagBank {
         return innovation / sqrt(variance)
     }
 
-    /** Pools a visit, whose truth and variance are at [mean] and [variance] in the state, with the slot's others. */
+    /** Pools a visit, whose truth and variance are at [mean] and [variance] in the state, with the slot's others, if any. */
     private fun pool(slot: Int, mean: Int, variance: Int) {
+        if (slot < 0) return
         while (memory.size < (slot + 1) * SLOT) memory = memory.copyOf(2 * memory.size)
         val at = slot * SLOT
         val isRevisit = visitsPooled(slot)

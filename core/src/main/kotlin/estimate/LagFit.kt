@@ -34,8 +34,8 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** Standard deviation of ln τ. */
     val relativeUncertainty: Double get() = 1 / sqrt(information)
 
-    override val here: Int get() = bank.current
-    override val before: Int get() = bank.previous
+    override val here: Int get() = maxOf(bank.current, LagBank.NONE)
+    override val before: Int get() = maxOf(bank.previous, LagBank.NONE)
 
     /** From now on there is no tape to start over from: the nodes follow the time constant. */
     fun follow() {
@@ -83,9 +83,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     private fun play(tape: ReadingTape, node: Double, step: Double) {
         bank.reset(node, step, noiseVariance)
-        for (i in 0 until tape.size) {
-            if (tape.slot(i) == LagBank.NONE) bank.leave() else bank.take(tape.slot(i), tape.time(i), tape.value(i))
-        }
+        tape.play(bank)
     }
 
     /** Reads time constant and noise off the bank's parabola, eqs. (9) to (11). */

@@ -1,5 +1,14 @@
 package stillwater.estimate
 
+/** Goes through readings: a sensor model's filters. */
+internal interface ReadingPlayer {
+    /** Takes the scaled reading [value] in the cell with [slot], or under water that is no cell's; see [Crossings]. */
+    fun take(slot: Int, seconds: Double, value: Double)
+
+    /** The boat left without a reading of where it went: the next one finds the sensor in an unknown state. */
+    fun leave()
+}
+
 /**
  * The first readings of a survey, kept to be gone through again.
  *
@@ -9,6 +18,10 @@ internal class ReadingTape(capacity: Int) {
     private val slots = IntArray(capacity)
     private val times = DoubleArray(capacity)
     private val values = DoubleArray(capacity)
+    private val places = ByteArray(capacity)
+
+    /** What readings near borders count for. */
+    val crossings = Crossings()
 
     /** Readings and interruptions on the tape. */
     var size: Int = 0
@@ -40,14 +53,48 @@ internal class ReadingTape(capacity: Int) {
         return if (stays == 0) 0.0 else sum / stays
     }
 
-    /** Keeps a reading, where there is room; [slot] may be [LagBank.NONE] for an interruption. */
-    fun add(slot: Int, seconds: Double, value: Double) {
+    /** Share of the stays in a cell of which [count] readings or more are surely of that cell; 0 for an empty tape. */
+    fun shareOfStays(count: Int): Double {
+        var sure = 0
+        var stays = 0
+        var enough = 0
+        for (i in 0 until size) {
+            if (slots[i] == LagBank.NONE) continue
+            if (i == 0 || slots[i] != slots[i - 1]) {
+                stays++
+                sure = 0
+            }
+            if (places[i] != Crossings.NEAR && ++sure == count) enough++
+        }
+        return if (stays == 0) 0.0 else enough.toDouble() / stays
+    }
+
+    /**
+     * Keeps a reading, where there is room; [slot] may be [LagBank.NONE] for an interruption. [place] is how well its place
+     * is known, as [Crossings] has it.
+     */
+    fun add(slot: Int, seconds: Double, value: Double, place: Byte = Crossings.EXACT) {
         if (size == slots.size) {
             isComplete = false
             return
         }
         slots[size] = slot
         times[size] = seconds
+        places[size] = place
         values[size++] = value
+    }
+
+    /** Goes through all with [player], borders crossed as [crossings] say, which are then as after the last reading. */
+    fun play(player: ReadingPlayer) {
+        crossings.leave()
+        for (i in 0 until size) {
+            if (slots[i] == LagBank.NONE) {
+                crossings.leave()
+                player.leave()
+                continue
+            }
+            val slot = crossings.slot(slots[i], places[i])
+            if (slot != Crossings.PASSED_OVER) player.take(slot, times[i], values[i])
+        }
     }
 }

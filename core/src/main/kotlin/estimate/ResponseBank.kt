@@ -9,7 +9,7 @@ package stillwater.estimate
  * noise's. Derivation: core/docs/SelfCalibratingEstimator.md, section "Other sensors". O(1) a reading, no allocation
  * once the cells' memory has grown.
  */
-internal class ResponseBank {
+internal class ResponseBank : ReadingPlayer {
     private val filters = ResponseFilter()
     private var memory = DoubleArray(FIRST_SLOTS * SLOT)
 
@@ -19,7 +19,7 @@ internal class ResponseBank {
     private val entryBranches = IntArray(PENDING)
     private var entries = 0
     private val reached = IntArray(NODES)
-    private val seconds = DoubleArray(NODES)
+    private val clocks = DoubleArray(NODES)
     private val current = IntArray(NODES)
     private val previous = IntArray(NODES)
     private val delays = DoubleArray(NODES)
@@ -106,8 +106,7 @@ internal class ResponseBank {
         previous.fill(LagBank.NONE)
     }
 
-    /** The boat left without a reading of where it went: the next one finds the sensor in an unknown state. */
-    fun leave() {
+    override fun leave() {
         if (lastSlot == LagBank.NONE) return
         val chosen = branch()
         for (i in 0 until nodes) {
@@ -118,31 +117,31 @@ internal class ResponseBank {
         idle()
     }
 
-    /** Takes the scaled reading [value] in the cell with [slot]; equal slots in a row are one visit. */
-    fun take(slot: Int, time: Double, value: Double) {
+    /** Equal slots in a row are one visit. */
+    override fun take(slot: Int, seconds: Double, value: Double) {
         if (lastSlot == LagBank.NONE) {
             for (i in 0 until nodes) {
                 filters.begin(i, kind.lags)
                 current[i] = ELSEWHERE
-                seconds[i] = time
+                clocks[i] = seconds
             }
             stateBefore = value
             freedom -= kind.lags
-            push(slot, time)
+            push(slot, seconds)
         } else if (slot != lastSlot) {
             push(slot, lastSeconds)
         }
         lastSlot = slot
-        lastSeconds = time
+        lastSeconds = seconds
         for (i in 0 until nodes) {
             while (reached[i] < entries) {
                 val entry = reached[i] % PENDING
                 val at = entryTimes[entry] + delays[i]
-                if (at >= time && entries - reached[i] < PENDING) break
-                advance(i, minOf(at, time))
+                if (at >= seconds && entries - reached[i] < PENDING) break
+                advance(i, minOf(at, seconds))
                 enter(i, entry)
             }
-            advance(i, time)
+            advance(i, seconds)
             for (branch in 0 until kind.branches) filters.correct(i, branch, value)
         }
         freedom++
@@ -155,9 +154,9 @@ internal class ResponseBank {
     }
 
     private fun advance(i: Int, time: Double) {
-        val elapsed = time - seconds[i]
+        val elapsed = time - clocks[i]
         if (!(elapsed > 0)) return
-        seconds[i] = time
+        clocks[i] = time
         for (branch in 0 until kind.branches) filters.predict(i, branch, elapsed)
     }
 

@@ -204,7 +204,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     private fun cost(tape: ReadingTape, first: Double, second: Double): Double {
         bank.resetMiddle(kind, first, second, noiseVariance)
-        play(tape)
+        tape.play(bank)
         val off = first - belief.mean
         return bank.misfit(0) / noiseVariance + off * off / (belief.spread * belief.spread)
     }
@@ -220,13 +220,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         val reach = minOf(secondStep, (most - kind.least) / 2)
         startSecond = startSecond.coerceIn(kind.least + reach, most - reach)
         bank.reset(kind, startFirst, firstStep, startSecond, reach, noiseVariance)
-        play(tape)
-    }
-
-    private fun play(tape: ReadingTape) {
-        for (i in 0 until tape.size) {
-            if (tape.slot(i) == LagBank.NONE) bank.leave() else bank.take(tape.slot(i), tape.time(i), tape.value(i))
-        }
+        tape.play(bank)
     }
 
     private fun learn() {

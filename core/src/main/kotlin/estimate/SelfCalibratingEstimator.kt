@@ -20,7 +20,8 @@ import kotlin.math.sqrt
  * keeps the prior.
  *
  * Assumes the field constant within a cell and in time, and that the interval between two readings in different cells is
- * spent in the second: sample often on a border. Between cells that do not touch, or after leaving the grid or a reading
+ * spent in the second: sample often on a border. Where readings say how well their places are known, in
+ * [Conditions.POSITION_DEVIATION], that is not assumed: those nearer to a border than it count for no cell. Between cells that do not touch, or after leaving the grid or a reading
  * without a value in another cell, the sensor's state is taken as unknown. A reading farther than [FARTHEST] widths of
  * the prior from its middle is not used and counts as a conflict. Where no model explains the readings [isExplained] says
  * so: bounds are then those of a [BoundedExtendedFilter], which needs no model, and so are values if the nearest model's
@@ -73,6 +74,10 @@ public class SelfCalibratingEstimator(
     /** Standard deviation σ of the readings about the sensor's state, noise and resolution together, sensor units. */
     public val noise: Double get() = scale * sqrt(choice.active.noiseVariance)
 
+    /** Readings near borders or right behind one, by [Conditions.POSITION_DEVIATION], that told of the sensor but of no cell. */
+    public var unplaced: Long = 0
+        private set
+
     /** Where [timeConstant] lies with a probability of 95 %, s. Allocates. */
     public fun timeConstantInterval(): Interval {
         val spread = quantile(choice.active) * relativeUncertainty
@@ -91,23 +96,25 @@ public class SelfCalibratingEstimator(
             return
         }
         if (cell != lastCell) enter(cell)
-        val slot = slots[cell]
-        tape.add(slot, seconds, scaled)
+        val place = placeOf(conditions)
+        tape.add(slots[cell], seconds, scaled, place)
+        val slot = tape.crossings.slot(slots[cell], place)
+        if (slot < 0) unplaced++
         if (tape.isComplete && tape.size >= nextReplay) {
             while (nextReplay <= tape.size) nextReplay += nextReplay / 2
-            choice.decide(tape)
+            decide()
             writeAll()
             return
         }
         if (!tape.isComplete) choice.follow()
         val wasExplained = isExplained
-        choice.take(slot, seconds, scaled)
+        if (slot != Crossings.PASSED_OVER) choice.take(slot, seconds, scaled)
         if (isExplained != wasExplained) {
             // Bounds that no longer hold, or hold again, do so in all cells.
             writeAll()
             return
         }
-        write(slot)
+        write(slots[cell])
         if (choice.active.here != LagBank.NONE) write(choice.active.here)
         if (choice.active.before != LagBank.NONE) write(choice.active.before)
         repeat(REFRESHED) {
@@ -117,6 +124,29 @@ public class SelfCalibratingEstimator(
             }
             write(refreshed)
         }
+    }
+
+    /** How well the place of the reading with [conditions] is known. */
+    private fun placeOf(conditions: Conditions): Byte {
+        if (conditions === Conditions.NONE) return Crossings.EXACT
+        val deviation = conditions[Conditions.POSITION_DEVIATION]
+        return when {
+            !(deviation >= 0) -> Crossings.EXACT
+            distanceToBorder() < deviation -> Crossings.NEAR
+            else -> Crossings.SURE
+        }
+    }
+
+    /**
+     * Chooses and fits the sensor's model anew. Where stays are short beside the time constant, a slow sensor and water that
+     * changes evenly within a cell look the same but at the borders: what happens there counts then.
+     */
+    private fun decide() {
+        tape.crossings.areHeeded = tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
+        choice.decide(tape)
+        if (!tape.crossings.areHeeded || choice.timeConstant <= LONGEST * tape.meanStay()) return
+        tape.crossings.areHeeded = false
+        choice.decide(tape)
     }
 
     private fun writeAll() {
@@ -147,6 +177,7 @@ public class SelfCalibratingEstimator(
         lastCell = Grid.OUTSIDE
         fallback.leave()
         choice.leave()
+        tape.crossings.leave()
         tape.add(LagBank.NONE, 0.0, 0.0)
     }
 
@@ -197,6 +228,12 @@ public class SelfCalibratingEstimator(
         /** Largest distance of a usable reading from the prior's middle, in widths of the prior. */
         public const val FARTHEST: Double = 100.0
 
+        /** Borders are heeded where so large a share of the stays has so many readings that are surely of its cell. */
+        private const val MOST_STAYS = 0.95
+        private const val FEWEST_SURE = 2
+
+        /** Time constant over the mean stay, beyond which they are not. */
+        private const val LONGEST = 2.0
         private const val FIRST_CELLS = 128
         private const val FIRST_REPLAY = 16
     }

@@ -12,14 +12,14 @@ import kotlin.math.sqrt
  * the state; moving all along bounds the truth on one side. Scaled values. Eqs. (18) to (20) of
  * core/docs/SelfCalibratingEstimator.md. O(1) a reading, no allocation once the cells' memory has grown.
  */
-internal class SlewFilter {
+internal class SlewFilter : ReadingPlayer {
     private val ways = DoubleArray(WAYS * STRIDE)
     private var memory = DoubleArray(FIRST_SLOTS * SLOT)
     private var noise = 1.0
     private var lastSeconds = Double.NaN
     private var lastElapsed = 0.0
 
-    /** Slot of the cell the boat is in, or [LagBank.NONE]. */
+    /** Slot of the cell the boat is in; below 0 if it is in none. */
     var here: Int = LagBank.NONE
         private set
 
@@ -62,8 +62,7 @@ internal class SlewFilter {
         freedomBefore = 0.0
     }
 
-    /** The boat left without a reading of where it went: the next one finds the sensor in an unknown state. */
-    fun leave() {
+    override fun leave() {
         if (here == LagBank.NONE) return
         settle()
         if (before != LagBank.NONE) pool(before)
@@ -71,8 +70,8 @@ internal class SlewFilter {
         here = LagBank.NONE
     }
 
-    /** Takes the scaled reading [value] in the cell with [slot]; equal slots in a row are one visit. */
-    fun take(slot: Int, seconds: Double, value: Double) {
+    /** Equal slots in a row are one visit. */
+    override fun take(slot: Int, seconds: Double, value: Double) {
         var elapsed = 0.0
         if (here == LagBank.NONE) {
             for (way in 0 until WAYS) {
@@ -185,7 +184,7 @@ internal class SlewFilter {
         remember(slot)
         if (best >= LEVEL) {
             freedomBefore--
-            before = slot
+            before = maxOf(slot, LagBank.NONE)
             for (way in 0 until WAYS) {
                 val at = way * STRIDE
                 ways[at + Q] = ways[at + S]
@@ -203,7 +202,7 @@ internal class SlewFilter {
             }
             val beyond = CERTAIN * sqrt(ways[SS])
             val at = slot * SLOT
-            if (isOpen) return
+            if (isOpen || slot < 0) return
             if (best == UP) {
                 memory[at + LOWER] = maxOf(memory[at + LOWER], ways[S] - beyond + HALF)
             } else {

@@ -16,7 +16,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** Standard deviation of ln r. */
     val relativeUncertainty: Double get() = sqrt(filter.rateVariance) / rate
 
-    override val here: Int get() = filter.here
+    override val here: Int get() = maxOf(filter.here, LagBank.NONE)
     override val before: Int get() = filter.before
 
     /** Whether the readings of [tape] ever move: if not, every rate explains them. */
@@ -54,9 +54,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     private fun score(tape: ReadingTape, rate: Double): Double {
         filter.reset(rate, KNOWN, noiseVariance)
-        for (i in 0 until tape.size) {
-            if (tape.slot(i) == LagBank.NONE) filter.leave() else filter.take(tape.slot(i), tape.time(i), tape.value(i))
-        }
+        tape.play(filter)
         return filter.score
     }
 

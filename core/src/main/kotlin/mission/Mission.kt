@@ -61,7 +61,7 @@ public class Mission(
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
         object : SurveyListener {
             override fun read(message: Message, verdict: ReadingVerdict, taken: List<Reading>, gate: PlausibilityGate) {
-                log.reading(now, message, verdict, taken, gate.held, gate.same)
+                log.reading(now, message, verdict, taken, gate.held, gate.same, gate.run)
                 taken.forEach(this@Mission.taken::take)
             }
 
@@ -100,6 +100,12 @@ public class Mission(
 
     /** What the estimator believes of its probe; null where it has no model of one. Allocates. */
     public val sensor: SensorBelief? get() = sensorBelief(survey.estimator)
+
+    /**
+     * Of the readings that the map took, those so near to a cell's border, or right behind one, that they told of the probe
+     * but of no cell; 0 where the estimator takes all places at their word.
+     */
+    public val unplaced: Long get() = unplacedReadings(survey.estimator)
 
     /** Where the boat is believed to be, m; null where not known. */
     public val position: Position?
@@ -164,7 +170,7 @@ public class Mission(
         val dt = if (now.seconds.isNaN()) begin(time) else time - now
         now = time
         pose.advance(time, dt, drive)
-        if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y)
+        if (pose.track.isKnown) survey.pose(time, pose.track.x, pose.track.y, pose.track.deviation)
         port.hear(time)
         val ruling = assess()
         val before = state

@@ -1,6 +1,7 @@
 package stillwater.mission
 
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Drive
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
@@ -50,8 +51,8 @@ public data class StepRecord(
  * Writes a mission down, line by line: a superset of the Platypus 4.2 log, `<ms>` tab `I` tab `{json}`.
  *
  * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step) and `in` (all that came
- * in since the step before, for a replay), `reading` (what the map took, exactly) or `pass` (a cell left without a
- * reading); the first line has the whole mission. Numbers are written so that they are read back to the last bit; what
+ * in since the step before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the place's
+ * standard deviation) or `pass` (a cell left without a reading); the first line has the whole mission. Numbers are written so that they are read back to the last bit; what
  * is not finite is `null`. [MissionRecovery] reads it back.
  *
  * A mission that goes on after a restart appends to the same log; the new first line then says so to any reader.
@@ -104,7 +105,10 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         platypus(message)?.let { write(now, it) }
     }
 
-    /** Writes what the probe said at [now], the [verdict] on it, what the map took, and what waits. */
+    /**
+     * Writes what the probe said at [now], the [verdict] on it, what the map took, what waits, and how many equal readings
+     * there were on end.
+     */
     public fun reading(
         now: BoatTime,
         message: Message,
@@ -112,6 +116,7 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         taken: List<Reading>,
         held: Reading?,
         same: List<Reading> = emptyList(),
+        run: Int = same.size + 1,
     ) {
         val sensor = platypus(message) ?: return
         val list = taken.joinToString(",") { exact(it) }
@@ -119,7 +124,8 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         val equal = same.joinToString(",") { exact(it) }
         val equals = if (same.isEmpty()) "" else ""","same":[$equal]"""
         val word = verdict.name.lowercase().replace('_', '-')
-        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits$equals}""")
+        val count = if (run == same.size + 1) "" else ""","run":$run"""
+        write(now, """$sensor,"reading":{"verdict":"$word","taken":[$list]$waits$equals$count}""")
     }
 
     /** Writes that a cell was left, without a reading in it, at [place] at [time]; [now] is when that was noticed. */
@@ -170,7 +176,9 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
         """"sensor":{"channel":$port,"type":"$type","data":[${values.joinToString(",") { number(it) }}]}"""
 
     private fun exact(reading: Reading) = reading.run {
-        "[${number(time.seconds)},${number(position.x)},${number(position.y)},${number(value)}]"
+        val deviation = conditions[Conditions.POSITION_DEVIATION]
+        val known = if (deviation.isFinite()) ",$deviation" else ""
+        "[${number(time.seconds)},${number(position.x)},${number(position.y)},${number(value)}$known]"
     }
 
     private fun number(value: Double) = if (value.isFinite()) value.toString() else "null"

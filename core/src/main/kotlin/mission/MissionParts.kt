@@ -119,6 +119,13 @@ internal fun sensorBelief(estimator: FieldEstimator): SensorBelief? = when (esti
     else -> null
 }
 
+/** Readings near borders that told of the sensor but of no cell; see [SelfCalibratingEstimator.unplaced]. */
+internal fun unplacedReadings(estimator: FieldEstimator): Long = when (estimator) {
+    is SelfCalibratingEstimator -> estimator.unplaced
+    is UpToDate -> unplacedReadings(estimator.bayesian.cells)
+    else -> 0
+}
+
 /** Longest stay of the settling lawnmower in a cell, over the longest time constant. */
 private const val SETTLING = 2.0
 

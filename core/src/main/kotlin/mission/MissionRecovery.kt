@@ -6,9 +6,11 @@ import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
+import kotlinx.serialization.json.intOrNull
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.update
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Position
 import stillwater.model.Reading
 
@@ -21,7 +23,8 @@ import stillwater.model.Reading
  * @property lastTime latest time on the boat's clock that the log has, s.
  * @property lastValue value of the last reading taken, sensor units; NaN where there was none.
  * @property held reading that waits for its confirmation; null where none does.
- * @property same readings equal to the last that wait for one that is not.
+ * @property same readings equal to the last, and one other among them at most, which wait for how they go on.
+ * @property run equal readings on end, whatever became of them.
  * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
@@ -34,6 +37,7 @@ public class RecoveredMission internal constructor(
     public val lastValue: Double,
     public val held: Reading?,
     public val same: List<Reading>,
+    public val run: Int,
     public val lastState: String,
     public val readings: Long,
     public val unreadable: Long,
@@ -53,6 +57,7 @@ public class MissionRecovery {
     private var lastValue = Double.NaN
     private var held: Reading? = null
     private var same = emptyList<Reading>()
+    private var run = 0
     private var lastState = MissionState.Idle.word
     private var readings = 0L
     private var unreadable = 0L
@@ -68,7 +73,19 @@ public class MissionRecovery {
     public fun recovered(): RecoveredMission? {
         val spec = spec ?: return null
         val estimator = estimator ?: return null
-        return RecoveredMission(spec, estimator, used, lastTime, lastValue, held, same, lastState, readings, unreadable)
+        return RecoveredMission(
+            spec,
+            estimator,
+            used,
+            lastTime,
+            lastValue,
+            held,
+            same,
+            run,
+            lastState,
+            readings,
+            unreadable,
+        )
     }
 
     private fun take(json: JsonObject): Boolean {
@@ -112,6 +129,7 @@ public class MissionRecovery {
         }
         held = json["held"]?.let { reading(it) }
         same = (json["same"] as? JsonArray)?.mapNotNull { reading(it) }.orEmpty()
+        run = (json["run"] as? JsonPrimitive)?.intOrNull ?: (same.size + 1)
         return true
     }
 
@@ -125,11 +143,15 @@ public class MissionRecovery {
     }
 
     private fun reading(json: JsonElement): Reading? =
-        numbers(json, READING_SIZE)?.let { Reading(BoatTime(it[0]), Position(it[1], it[2]), it[3]) }
+        // Older logs do not say how well the place was known.
+        numbers(json, READING_SIZE, READING_SIZE + 1)?.let {
+            val known = it.getOrNull(READING_SIZE)?.let { m -> Conditions(mapOf(Conditions.POSITION_DEVIATION to m)) }
+            Reading(BoatTime(it[0]), Position(it[1], it[2]), it[3], known ?: Conditions.NONE)
+        }
 
-    private fun numbers(json: JsonElement, size: Int): List<Double>? {
+    private fun numbers(json: JsonElement, least: Int, most: Int = least): List<Double>? {
         val all = (json as? JsonArray)?.map { (it as? JsonPrimitive)?.doubleOrNull ?: return null }
-        return all?.takeIf { it.size == size }
+        return all?.takeIf { it.size in least..most }
     }
 
     private companion object {

@@ -18,7 +18,7 @@ public enum class ReadingVerdict {
     /** It is outside of what the water can have. */
     OUT_OF_RANGE,
 
-    /** It is what the one before it was, to the last digit, and waits for one that is not. */
+    /** It is what the one before it was, to the last digit, or stands alone among such, and waits for how they go on. */
     SAME,
 
     /** It is one of too many that are the same: the probe is stuck, or its line is. */
@@ -39,7 +39,8 @@ public fun interface ReadingSink {
  *
  * A reading outside [range] is dropped. Readings equal to the one before wait for one that is not; where there are [stuckAfter]
  * of them or more, that one included, the probe is taken to be stuck and they are dropped, all but the first, which was
- * true when it was read. The first, and one that differs from the reading before by more than
+ * true when it was read. One other reading among them, a digit changed on the wire, does not end them: it waits for the
+ * next and is dropped with them; once the probe is taken to be stuck any number of such may come. The first, and one that differs from the reading before by more than
  * [largestJump], is held until the next: if it lies between its neighbours, or beyond them by no more than a jump, it
  * passes, else it was alone and is dropped. So a probe that moves fast loses nothing, and a jump of a few deviations of the
  * noise is a good choice. Every reading is counted under
@@ -63,7 +64,6 @@ public class PlausibilityGate(
     }
 
     private val equals = ArrayList<Reading>()
-    private var isStuck = false
 
     private var last = Double.NaN
 
@@ -71,7 +71,11 @@ public class PlausibilityGate(
     public var held: Reading? = null
         private set
 
-    /** Readings equal to the last that passed, which wait for one that is not. Not to be modified. */
+    /** Equal readings on end, the one that passed among them, whatever became of the others; 0 before the first. */
+    public var run: Int = 0
+        private set
+
+    /** Readings equal to the last that passed, and one other among them at most, which wait. Not to be modified. */
     public val same: List<Reading> get() = equals
 
     /** Readings that wait for a later one. */
@@ -109,6 +113,7 @@ public class PlausibilityGate(
             outOfRange++
             return ReadingVerdict.OUT_OF_RANGE
         }
+        if (isInterrupted() && reading.value != last) handOnEquals()
         val waiting = held
         held = null
         val isConfirmed = waiting != null && confirms(waiting.value, reading.value)
@@ -116,6 +121,10 @@ public class PlausibilityGate(
         // The one just confirmed counts, too.
         if (stuckAfter != null && reading.value == last) return wait(reading, stuckAfter)
         if (abs(reading.value - last) <= largestJump) {
+            if (mayInterrupt()) {
+                equals.add(reading)
+                return ReadingVerdict.SAME
+            }
             pass(reading)
             return if (isConfirmed) ReadingVerdict.CONFIRMED else ReadingVerdict.PASSED
         }
@@ -140,7 +149,10 @@ public class PlausibilityGate(
         held?.let {
             lone++
             // Or a boat that leaves each cell before the next reading would never have a first one.
-            if (last.isNaN()) last = it.value
+            if (last.isNaN()) {
+                last = it.value
+                run = 1
+            }
         }
         held = null
         stuck += equals.size
@@ -148,10 +160,11 @@ public class PlausibilityGate(
     }
 
     /**
-     * Goes on after a restart: [last] is the value that passed last, NaN where none did, and [held] and [same] are what
-     * waited.
+     * Goes on after a restart: [last] is the value that passed last, NaN where none did, [held] and [same] are what
+     * waited, and [run] was as here.
      */
-    public fun resume(last: Double, held: Reading?, same: List<Reading> = emptyList()) {
+    public fun resume(last: Double, held: Reading?, same: List<Reading> = emptyList(), run: Int = same.size + 1) {
+        this.run = run
         equals.clear()
         equals.addAll(same)
         this.last = last
@@ -160,24 +173,35 @@ public class PlausibilityGate(
 
     private fun wait(reading: Reading, most: Int): ReadingVerdict {
         equals.add(reading)
-        // The one that passed counts among the equal ones.
-        if (!isStuck && equals.size + 1 < most) return ReadingVerdict.SAME
-        isStuck = true
+        if (++run < most) return ReadingVerdict.SAME
         stuck += equals.size
         equals.clear()
         return ReadingVerdict.STUCK
     }
 
+    /** Whether the last reading was another among equal ones. */
+    private fun isInterrupted() = equals.isNotEmpty() && equals.last().value != last
+
+    /** Whether another reading may stand among the equal ones now: one until the probe is stuck, and never two on end. */
+    private fun mayInterrupt(): Boolean {
+        if (stuckAfter == null || run < 2 || isInterrupted()) return false
+        return run >= stuckAfter || equals.none { it.value != last }
+    }
+
     private fun pass(reading: Reading) {
         held = null
-        isStuck = false
+        handOnEquals()
+        handOn(reading)
+    }
+
+    private fun handOnEquals() {
         for (i in equals.indices) handOn(equals[i])
         equals.clear()
-        handOn(reading)
     }
 
     private fun handOn(reading: Reading) {
         last = reading.value
+        run = 1
         passed++
         sink.take(reading)
     }

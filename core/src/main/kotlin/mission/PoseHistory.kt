@@ -23,6 +23,7 @@ public class PoseHistory(public val capacity: Int = 600, public val longestGap: 
     private val seconds = DoubleArray(capacity)
     private val xs = DoubleArray(capacity)
     private val ys = DoubleArray(capacity)
+    private val deviations = DoubleArray(capacity)
     private var first = 0
 
     /** Poses kept. */
@@ -33,8 +34,11 @@ public class PoseHistory(public val capacity: Int = 600, public val longestGap: 
     public var refused: Long = 0
         private set
 
-    /** Takes the boat's place at [time], m; false where it is not finite or not later than the newest. */
-    public fun add(time: BoatTime, x: Double, y: Double): Boolean {
+    /**
+     * Takes the boat's place at [time], m, and its standard deviation, each axis, m; false where the place is not finite or
+     * the time not later than the newest.
+     */
+    public fun add(time: BoatTime, x: Double, y: Double, deviation: Double = 0.0): Boolean {
         val late = size > 0 && time.seconds <= seconds[index(size - 1)]
         if (!time.seconds.isFinite() || !x.isFinite() || !y.isFinite() || late) {
             refused++
@@ -45,28 +49,42 @@ public class PoseHistory(public val capacity: Int = 600, public val longestGap: 
         seconds[at] = time.seconds
         xs[at] = x
         ys[at] = y
+        deviations[at] = deviation
         return true
     }
 
     /** Where the boat was at [time]; null where that is not known. O(log size). */
     public fun at(time: BoatTime): Position? {
-        if (size == 0 || !time.seconds.isFinite()) return null
-        // The number of poses that are not after the time.
+        val later = laterThan(time)
+        if (later < 0) return null
+        if (later == 0) return near(0, time)
+        if (later == size) return near(size - 1, time)
+        val a = index(later - 1)
+        val b = index(later)
+        val gap = seconds[b] - seconds[a]
+        if (time.seconds == seconds[a]) return Position(xs[a], ys[a])
+        if (gap > longestGap) return null
+        val share = (time.seconds - seconds[a]) / gap
+        return Position(xs[a] + share * (xs[b] - xs[a]), ys[a] + share * (ys[b] - ys[a]))
+    }
+
+    /** The larger deviation of the poses before and after [time], m; NaN where there is none. O(log size). */
+    public fun deviationAt(time: BoatTime): Double {
+        val later = laterThan(time)
+        if (later < 0) return Double.NaN
+        return maxOf(deviations[index(maxOf(later - 1, 0))], deviations[index(minOf(later, size - 1))])
+    }
+
+    /** The number of poses that are not after [time]; −1 where there is none at all or [time] is not finite. */
+    private fun laterThan(time: BoatTime): Int {
+        if (size == 0 || !time.seconds.isFinite()) return -1
         var low = 0
         var high = size
         while (low < high) {
             val middle = (low + high) / 2
             if (seconds[index(middle)] <= time.seconds) low = middle + 1 else high = middle
         }
-        if (low == 0) return near(0, time)
-        if (low == size) return near(size - 1, time)
-        val a = index(low - 1)
-        val b = index(low)
-        val gap = seconds[b] - seconds[a]
-        if (time.seconds == seconds[a]) return Position(xs[a], ys[a])
-        if (gap > longestGap) return null
-        val share = (time.seconds - seconds[a]) / gap
-        return Position(xs[a] + share * (xs[b] - xs[a]), ys[a] + share * (ys[b] - ys[a]))
+        return low
     }
 
     /** Forgets all poses: the boat's clock or frame has changed. */

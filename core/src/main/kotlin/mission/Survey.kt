@@ -4,6 +4,7 @@ import stillwater.estimate.FieldEstimator
 import stillwater.estimate.update
 import stillwater.field.FieldMap
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Position
 import stillwater.model.Reading
@@ -54,12 +55,12 @@ internal class Survey(
     fun resume(recovered: RecoveredMission, now: BoatTime) {
         shift = maxOf(0.0, recovered.lastTime + AFTER - now.seconds)
         lastValue = recovered.lastValue
-        gate.resume(recovered.lastValue, recovered.held, recovered.same)
+        gate.resume(recovered.lastValue, recovered.held, recovered.same, recovered.run)
     }
 
-    /** The boat is at ([x], [y]), m, [now]. */
-    fun pose(now: BoatTime, x: Double, y: Double) {
-        if (!history.add(now, x, y)) return
+    /** The boat is at ([x], [y]), m, [now], known to [deviation], m. */
+    fun pose(now: BoatTime, x: Double, y: Double, deviation: Double) {
+        if (!history.add(now, x, y, deviation)) return
         val sampled = now + -probe.latency
         val place = history.at(sampled) ?: return
         val cell = map.grid.cellAt(place)
@@ -79,7 +80,12 @@ internal class Survey(
         val sampled = now + -probe.latency
         val place = history.at(sampled)
         taken.clear()
-        val verdict = if (place == null) gate.lacksPlace() else gate.take(Reading(sampled + shift, place, value))
+        val verdict = if (place == null) {
+            gate.lacksPlace()
+        } else {
+            val known = Conditions(mapOf(Conditions.POSITION_DEVIATION to history.deviationAt(sampled)))
+            gate.take(Reading(sampled + shift, place, value, known))
+        }
         listener.read(message, verdict, taken, gate)
         return true
     }

@@ -31,6 +31,12 @@ public class Conditions(values: Map<String, Double>) {
         /** Water temperature, °C. */
         public const val TEMPERATURE: String = "temperature"
 
+        /**
+         * Standard deviation of the reading's own place, each axis, m, at least 0: how well it is known where the boat was.
+         * Where it is missing nobody said, and the place is taken at its word.
+         */
+        public const val POSITION_DEVIATION: String = "position_deviation"
+
         /** Heading, rad, counter-clockwise from east. */
         public const val HEADING: String = "heading"
     }

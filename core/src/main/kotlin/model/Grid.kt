@@ -1,7 +1,9 @@
 package stillwater.model
 
+import kotlin.math.abs
 import kotlin.math.cos
 import kotlin.math.floor
+import kotlin.math.round
 import kotlin.math.sin
 
 /**
@@ -71,6 +73,18 @@ public data class Grid(
         val row = floor((cosine * north - sine * east) / cellHeight)
         val inside = column >= 0 && column < columns && row >= 0 && row < rows
         return if (inside) row.toInt() * columns + column.toInt() else OUTSIDE
+    }
+
+    /**
+     * How far the point ([x], [y]), local frame, m, is from the nearest line between two rows or columns, m: from the
+     * border of its cell. NaN where a coordinate is. O(1), no allocation.
+     */
+    public fun distanceToBorder(x: Double, y: Double): Double {
+        val east = x - origin.x
+        val north = y - origin.y
+        val column = (cosine * east + sine * north) / cellWidth
+        val row = (cosine * north - sine * east) / cellHeight
+        return minOf(abs(column - round(column)) * cellWidth, abs(row - round(row)) * cellHeight)
     }
 
     /** Index of [cell], which must lie in the grid. */

@@ -5,6 +5,7 @@ import stillwater.field.FieldMap
 import stillwater.model.BoatTime
 import stillwater.model.Position
 import stillwater.model.Reading
+import stillwater.wire.Message
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
@@ -83,6 +84,19 @@ class MissionRecoveryTest {
             assertEquals(readings + next.mission.readings.passed, all.readings)
             assertSame(next.mission.map, all.estimator.map)
         }
+    }
+
+    /** A probe that was stuck before the restart is stuck after it, not for the first time. */
+    @Test
+    fun howLongAProbeHasSaidTheSameIsNotForgotten() {
+        val lines = ArrayList<String>()
+        val log = MissionLog(lines::add, LogStart(0, "a day"), Desk.small())
+        fun said(verdict: ReadingVerdict, run: Int) =
+            log.reading(BoatTime(run.toDouble()), Message.Oxygen(1, 7.1), verdict, emptyList(), null, emptyList(), run)
+        said(ReadingVerdict.SAME, 1)
+        assertEquals(1, checkNotNull(Desk.replay(lines).recovered()).run)
+        said(ReadingVerdict.STUCK, 7)
+        assertEquals(7, checkNotNull(Desk.replay(lines).recovered()).run)
     }
 
     @Test

@@ -69,35 +69,64 @@ class PlausibilityGateTest {
         assertEquals(listOf(9.5, 9.6), taken)
     }
 
+    /** [values] through a gate to which four equal readings are a stuck probe. */
+    private fun stuckAfterFour(vararg values: Double): PlausibilityGate {
+        taken.clear()
+        val gate = PlausibilityGate(Interval(0.0, 15.0), 2.0, stuckAfter = 4) { taken.add(it.value) }
+        for (value in values) gate.take(Reading(BoatTime(seconds++), Position(0.0, 0.0), value))
+        return gate
+    }
+
     @Test
     fun aProbeThatSaysTheSameTooOftenIsStuckSinceTheFirst() {
-        val gate = PlausibilityGate(Interval(0.0, 15.0), 2.0, stuckAfter = 4) { taken.add(it.value) }
-        fun take(value: Double) = gate.take(Reading(BoatTime(seconds++), Position(0.0, 0.0), value))
-        listOf(7.0, 7.1, 7.1, 7.1).forEach { take(it) }
+        assertEquals(2, stuckAfterFour(7.0, 7.1, 7.1, 7.1).same.size)
         assertEquals(listOf(7.0, 7.1), taken)
-        assertEquals(2, gate.same.size)
         // Three are borne.
-        take(7.2)
-        assertEquals(listOf(7.0, 7.1, 7.1, 7.1, 7.2), taken)
-        val verdicts = List(6) { take(7.2) }
-        assertEquals(List(2) { ReadingVerdict.SAME } + List(4) { ReadingVerdict.STUCK }, verdicts)
-        // A line that was hit does not set a stuck probe free.
-        take(12.0)
-        assertEquals(ReadingVerdict.STUCK, take(7.2))
-        take(7.4)
-        assertEquals(listOf(7.4), taken.drop(5))
-        assertEquals(7, gate.stuck)
-        assertEquals(1, gate.lone)
-        // The boat leaves the cell.
-        take(7.4)
-        gate.giveUp()
-        take(7.5)
-        assertEquals(listOf(7.5), taken.drop(6))
-        assertEquals(8, gate.stuck)
+        stuckAfterFour(7.0, 7.1, 7.1, 7.1, 7.2, 7.3)
+        assertEquals(listOf(7.0, 7.1, 7.1, 7.1, 7.2, 7.3), taken)
+        val gate = stuckAfterFour(7.0, 7.1, 7.1, 7.1, 7.1, 7.1, 7.2, 7.3)
+        assertEquals(listOf(7.0, 7.1, 7.2, 7.3), taken)
+        assertEquals(4, gate.stuck)
         // It gets stuck on its way, at a value that has to be confirmed.
-        val before = taken.size
-        listOf(11.0, 11.0, 11.0, 11.0, 11.1).forEach { take(it) }
-        assertEquals(listOf(11.0, 11.1), taken.drop(before))
+        stuckAfterFour(7.0, 7.1, 11.0, 11.0, 11.0, 11.0, 11.1, 11.2)
+        assertEquals(listOf(7.0, 7.1, 11.0, 11.1, 11.2), taken)
+    }
+
+    @Test
+    fun aLineThatWasHitDoesNotSetAStuckProbeFree() {
+        // Far off, and near enough to be water; before the probe is known to be stuck, and after.
+        for (hit in listOf(12.0, 7.2)) {
+            stuckAfterFour(7.0, 7.1, 7.1, hit, 7.1, 7.1, 7.3, 7.4)
+            assertEquals(listOf(7.0, 7.1, 7.3, 7.4), taken, "hit $hit")
+            val gate = stuckAfterFour(7.0, 7.1, 7.1, 7.1, 7.1, hit, 7.1, hit, 7.1, 7.3, 7.4)
+            assertEquals(listOf(7.0, 7.1, 7.3, 7.4), taken, "hit $hit")
+            assertEquals(11, gate.passed + gate.leftOut)
+        }
+    }
+
+    @Test
+    fun readingsThatChangeEverySecondTimeAreNoStuckProbe() {
+        val gate = stuckAfterFour(7.0, 7.1, 7.1, 7.2, 7.1, 7.2, 7.1, 7.2, 7.1, 7.3)
+        assertEquals(listOf(7.0, 7.1, 7.1, 7.2, 7.1, 7.2, 7.1, 7.2, 7.1, 7.3), taken)
+        assertEquals(0, gate.leftOut)
+    }
+
+    @Test
+    fun aStuckProbeStaysStuckOverBordersAndRestarts() {
+        val gate = stuckAfterFour(7.0, 7.1, 7.1)
+        // The boat leaves the cell.
+        gate.giveUp()
+        assertEquals(1, gate.stuck)
+        val next = PlausibilityGate(gate.range, 2.0, stuckAfter = 4) { taken.add(it.value) }
+        next.resume(7.1, gate.held, gate.same, gate.run)
+        val verdicts = listOf(7.1, 7.1, 7.3, 7.4).map {
+            next.take(Reading(BoatTime(seconds++), Position(0.0, 0.0), it))
+        }
+        assertEquals(
+            listOf(ReadingVerdict.SAME, ReadingVerdict.STUCK, ReadingVerdict.SAME, ReadingVerdict.PASSED),
+            verdicts,
+        )
+        assertEquals(listOf(7.0, 7.1, 7.3, 7.4), taken)
     }
 
     @Test

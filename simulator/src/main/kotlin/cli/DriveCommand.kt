@@ -162,7 +162,8 @@ class DriveCommand : WorkCommand("drive") {
         val log = file.complete()
         for (warning in warnings) echo("warning: $warning", err = true)
         val why = reason?.name?.lowercase() ?: "stopped before it began"
-        tell("$why; ${mission.readings.passed} readings, ${mission.readings.leftOut} left out; log $log")
+        val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
+        tell("$why; ${mission.readings.passed} readings$borders, ${mission.readings.leftOut} left out; log $log")
         if (reason != StopReason.COMPLETED) throw ProgramResult(1)
     }
 

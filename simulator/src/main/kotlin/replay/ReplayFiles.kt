@@ -56,6 +56,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
             val gate = replayed.mission.readings
             putJsonObject("readings") {
                 put("taken", gate.passed)
+                put("taken_but_at_borders", replayed.mission.unplaced)
                 put("out_of_range", gate.outOfRange)
                 put("alone", gate.lone)
                 put("stuck", gate.stuck)

@@ -5,6 +5,7 @@ import stillwater.estimate.update
 import stillwater.field.FieldMap
 import stillwater.mission.MissionSpec
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Position
 import stillwater.model.Reading
@@ -41,7 +42,8 @@ object InProcessMap {
             while (next < readings.size && readings[next].time.seconds <= time) {
                 val reading = readings[next++]
                 val truly = track.at(reading.time.seconds)
-                estimator.update(reading.copy(position = truly))
+                // As in the benchmark, nothing is said of how well the place is known.
+                estimator.update(reading.copy(position = truly, conditions = Conditions.NONE))
                 if (grid.cellAt(truly) == watched) hasReading = true
             }
         }

@@ -8,6 +8,7 @@ import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import stillwater.mission.LogSink
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Position
 import stillwater.model.Reading
 import java.util.TreeMap
@@ -53,7 +54,8 @@ class ReadingLog(private val file: LogSink) : LogSink {
         verdicts.merge(reading.getValue("verdict").jsonPrimitive.content, 1, Long::plus)
         for (element in reading.getValue("taken").jsonArray) {
             val numbers = element.jsonArray.map { it.jsonPrimitive.double }
-            all += Reading(BoatTime(numbers[0]), Position(numbers[1], numbers[2]), numbers[3])
+            val known = Conditions(mapOf(Conditions.POSITION_DEVIATION to numbers[4]))
+            all += Reading(BoatTime(numbers[0]), Position(numbers[1], numbers[2]), numbers[3], known)
         }
     }
 }

@@ -44,7 +44,7 @@ internal object SimulationJson {
             put("mission_over_in_process", finite(result.comparedError.mean / result.inProcessError.mean))
         }
         way(result)
-        readings(result.readings)
+        readings(result.readings, run.mission.unplaced)
         link(result)
         result.belief?.let { belief ->
             putJsonObject("sensor_learned") {
@@ -86,7 +86,7 @@ internal object SimulationJson {
         }
     }
 
-    private fun JsonObjectBuilder.readings(account: ReadingAccount) = putJsonObject("readings") {
+    private fun JsonObjectBuilder.readings(account: ReadingAccount, unplaced: Long) = putJsonObject("readings") {
         put("sent", account.sent)
         put("received", account.received)
         put("lost_on_the_link", account.lost)
@@ -95,6 +95,7 @@ internal object SimulationJson {
         putJsonObject("refused") { account.refused.forEach { (reason, count) -> put(reason, count) } }
         put("waiting", account.waiting)
         put("in_cells", account.inCells)
+        put("in_cells_but_at_borders", unplaced)
         put("off_the_map", account.outside)
         put("rejected_by_the_estimator", account.rejected)
         put("complete", account.isComplete)

@@ -5,6 +5,7 @@ import stillwater.estimate.update
 import stillwater.field.FieldMap
 import stillwater.mission.MissionRecovery
 import stillwater.model.BoatTime
+import stillwater.model.Conditions
 import stillwater.model.Position
 import stillwater.model.Reading
 
@@ -59,11 +60,12 @@ internal class LogAccount(text: String, steps: List<Int> = emptyList()) {
 
     private fun numbers(text: String, value: Double): Reading {
         val all = text.substringBefore(']').split(',').filter { it.isNotBlank() }.map { it.toDouble() }
-        return Reading(BoatTime(all[0]), Position(all[1], all[2]), if (value.isNaN()) value else all[3])
+        val known = if (all.size > 4) Conditions(mapOf(Conditions.POSITION_DEVIATION to all[4])) else Conditions.NONE
+        return Reading(BoatTime(all[0]), Position(all[1], all[2]), if (value.isNaN()) value else all[3], known)
     }
 
     companion object {
-        private val READING = Regex("\\[([-0-9.E]+,[-0-9.E]+,[-0-9.E]+,[-0-9.E]+)]")
+        private val READING = Regex("\\[([-0-9.E]+,[-0-9.E]+,[-0-9.E]+(?:,[-0-9.E]+){1,2})]")
 
         /** Cells in which the two differ in any bit. */
         fun differences(one: FieldMap, other: FieldMap): Int = (0 until one.grid.size).count {
