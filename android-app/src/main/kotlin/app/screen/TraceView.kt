@@ -65,7 +65,7 @@ internal class TraceView(context: Context) : View(context) {
         drawValues(canvas, upper, moments)
         if (isLow) return drawTimes(canvas, upper)
         val lower = Panel(left, middle + text, width - GAP_DP * density, bottom, time, slopes)
-        drawFrame(canvas, lower, resources.getString(R.string.trace_gradient, perSecond()))
+        drawFrame(canvas, lower, resources.getString(R.string.trace_gradient, context.perSecond(scene.unit)))
         drawLine(canvas, lower, moments, R.color.text) { it.gradient }
         drawTimes(canvas, lower)
     }
@@ -146,9 +146,6 @@ internal class TraceView(context: Context) : View(context) {
         words.textAlign = Paint.Align.RIGHT
         canvas.drawText(resources.getString(R.string.trace_now), panel.right, baseline, words)
     }
-
-    private fun perSecond(): String =
-        if (scene.unit.isEmpty()) resources.getString(R.string.per_second) else "${scene.unit}/s"
 
     private fun described(scene: TraceScene): String {
         val last =

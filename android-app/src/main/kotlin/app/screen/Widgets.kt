@@ -129,6 +129,10 @@ internal fun Context.duration(seconds: Double): String {
     }
 }
 
+/** The unit of a change of what is measured in [unit], which may be empty. */
+internal fun Context.perSecond(unit: String): String =
+    if (unit.isEmpty()) getString(R.string.per_second) else getString(R.string.unit_per_second, unit)
+
 private const val MINUTE = 60
 private const val HOUR = 3600
 

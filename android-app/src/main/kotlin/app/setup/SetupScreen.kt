@@ -19,6 +19,7 @@ import stillwater.app.screen.column
 import stillwater.app.screen.heading
 import stillwater.app.screen.largeButton
 import stillwater.app.screen.liveLine
+import stillwater.app.screen.perSecond
 import stillwater.app.screen.row
 import stillwater.app.screen.say
 import stillwater.app.service.BoatSnapshot
@@ -155,7 +156,8 @@ internal class SetupScreen(
         part(R.string.field_area, area, numbers.getValue(DraftField.CELL))
         part(R.string.part_probe, quantity)
         numbers(DraftField.LOWEST, DraftField.HIGHEST, DraftField.SLOWEST, DraftField.LATENCY)
-        numbers(DraftField.LARGEST_JUMP, DraftField.PORT)
+        numbers(DraftField.PORT, DraftField.LARGEST_JUMP, DraftField.STUCK_AFTER)
+        numbers(DraftField.SMALLEST_SLOPE, DraftField.READING_ERROR)
         below(documentButton(R.string.load_probe, R.id.load_probe) { host.choose(OPEN, DocumentPurpose.PROBE) })
         part(R.string.part_method, estimator, planner)
         part(R.string.part_budget, unit)
@@ -186,7 +188,9 @@ internal class SetupScreen(
 
     private fun unitOf(field: DraftField, draft: MissionDraft): String =
         when (field) {
-            DraftField.LOWEST, DraftField.HIGHEST, DraftField.LARGEST_JUMP -> draft.quantity.unit
+            DraftField.LOWEST, DraftField.HIGHEST, DraftField.LARGEST_JUMP, DraftField.READING_ERROR ->
+                draft.quantity.unit
+            DraftField.SMALLEST_SLOPE -> context.perSecond(draft.quantity.unit)
             DraftField.BUDGET -> context.getString(if (draft.isTimed) R.string.unit_seconds else R.string.unit_metres)
             else -> field.unit
         }
