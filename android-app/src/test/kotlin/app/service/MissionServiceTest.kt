@@ -19,6 +19,7 @@ import stillwater.app.mission.FileOutput
 import stillwater.app.mission.LogFolder
 import stillwater.app.mission.LogOpener
 import stillwater.app.mission.LogOutput
+import stillwater.app.mission.MissionReport
 import stillwater.control.Danger
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionState
@@ -139,6 +140,7 @@ class MissionServiceTest {
         assertTrue(file.name.endsWith(LogFolder.INCOMPLETE))
         // As it was on the disk when the process was killed: nobody closed anything, and a line is cut.
         val left = file.readText().dropLast(20)
+        val before = desk.report
         desk.end()
         file.writeText(left)
         val told = desk.told.length
@@ -150,6 +152,8 @@ class MissionServiceTest {
         val logged = read(file)
         assertTrue(logged.readings > 30)
         sameMap(logged)
+        sameWay(before, desk.report)
+        val recovered = desk.report
         assertTrue(DISARM in desk.told.substring(told), "disarmed")
         assertFalse("arm\"" in desk.told.substring(told).replace(DISARM, ""), "and not armed")
         assertTrue(desk.boat.board.actuation.isAtRest)
@@ -158,6 +162,9 @@ class MissionServiceTest {
         assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying })
         desk.pass(20.0)
         assertEquals(listOf(file.name), logs().map { it.name }, "the same log goes on")
+        assertEquals(recovered.trace, desk.report.trace.take(recovered.trace.size))
+        assertEquals(recovered.track, desk.report.track.take(recovered.track.size))
+        assertTrue(desk.report.trace.size > recovered.trace.size && desk.report.track.size > recovered.track.size)
         desk.ask { stop() }
         assertTrue(desk.until(10.0) { it.mission?.isOver == true })
         desk.pass(1.0)
@@ -294,6 +301,15 @@ class MissionServiceTest {
 
     private fun read(file: File): RecoveredMission =
         assertNotNull(MissionRecovery().apply { file.forEachLine { line(it) } }.recovered())
+
+    /** What was shown before the process died is shown after it, but for what was not on the disk yet: a second. */
+    private fun sameWay(before: MissionReport, after: MissionReport) {
+        assertEquals(before.trace.take(after.trace.size), after.trace)
+        assertTrue(after.trace.size >= before.trace.size - 2, "${after.trace.size} of ${before.trace.size}")
+        assertTrue(after.track.size > 10 && after.track.size >= before.track.size - 4)
+        val off = before.track.zip(after.track).maxOf { (a, b) -> a.distanceTo(b) }
+        assertEquals(0.0, off, 1e-3) // m; the log has places as the boats' tools know them, by UTM
+    }
 
     private fun sameMap(logged: RecoveredMission) {
         val (ours, read) = desk.report.map to logged.estimator.map
