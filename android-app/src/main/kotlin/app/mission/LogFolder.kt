@@ -1,15 +1,16 @@
 package stillwater.app.mission
 
-import stillwater.field.FieldMap
-import stillwater.mission.MissionRecovery
-import stillwater.mission.RecoveryListener
-import stillwater.model.Position
-import stillwater.model.Reading
 import java.io.File
 import java.io.IOException
 import java.time.Instant
 import java.time.ZoneOffset
 import java.time.format.DateTimeFormatter
+import stillwater.app.mayWait
+import stillwater.field.FieldMap
+import stillwater.mission.MissionRecovery
+import stillwater.mission.RecoveryListener
+import stillwater.model.Position
+import stillwater.model.Reading
 
 /**
  * The folder of the missions' logs. Touches the disk: for the disk's thread.
@@ -42,6 +43,7 @@ internal class LogFolder(
 
     /** Gives the incomplete log [name] the name of a complete one: nobody goes on with it. */
     fun complete(name: String) {
+        mayWait("rename a log")
         File(folder, name).renameTo(File(folder, name.removeSuffix(INCOMPLETE)))
     }
 
@@ -75,8 +77,10 @@ internal class LogFolder(
         return opener.open(file)
     }
 
-    private fun files() =
-        folder.listFiles().orEmpty().filter { it.name.endsWith(LOG) || it.name.endsWith(LOG + INCOMPLETE) }
+    private fun files(): List<File> {
+        mayWait("list logs")
+        return folder.listFiles().orEmpty().filter { it.name.endsWith(LOG) || it.name.endsWith(LOG + INCOMPLETE) }
+    }
 
     companion object {
         const val LOG = ".log"

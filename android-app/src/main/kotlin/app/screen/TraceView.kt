@@ -6,13 +6,13 @@ import android.graphics.DashPathEffect
 import android.graphics.Paint
 import android.graphics.Path
 import android.view.View
-import stillwater.app.R
 import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.floor
 import kotlin.math.log10
 import kotlin.math.pow
+import stillwater.app.R
 
 /**
  * The last minutes: readings, and what is believed of the water with its bounds; below, the gradient of the readings.
@@ -79,7 +79,7 @@ internal class TraceView(context: Context) : View(context) {
     }
 
     private fun drawValues(canvas: Canvas, panel: Panel, moments: List<TraceMoment>) {
-        drawFrame(canvas, panel, scene.unit)
+        drawFrame(canvas, panel, resources.getString(R.string.trace_values, scene.unit).trim())
         canvas.save()
         canvas.clipRect(panel.left, panel.top, panel.right, panel.bottom)
         val known = moments.filter { it.lower.isFinite() && it.upper.isFinite() }

@@ -4,11 +4,15 @@ import android.content.Context
 import android.content.res.ColorStateList
 import android.graphics.Typeface
 import android.os.Build
+import android.text.SpannableString
+import android.text.Spanned
+import android.text.style.AbsoluteSizeSpan
 import android.util.TypedValue
 import android.view.View
 import android.view.ViewGroup
 import android.widget.Button
 import android.widget.LinearLayout
+import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.AboveMinSdk
 import stillwater.app.R
@@ -26,6 +30,13 @@ internal fun Context.liveLine(text: CharSequence = ""): TextView =
     line(text).apply {
         accessibilityLiveRegion = View.ACCESSIBILITY_LIVE_REGION_POLITE
         show(text.isNotEmpty())
+    }
+
+/** [title], and below it in smaller type what it is [about]. */
+internal fun Context.titled(title: String, about: String): CharSequence =
+    SpannableString("$title\n$about").apply {
+        val size = resources.getDimensionPixelSize(R.dimen.map_text)
+        setSpan(AbsoluteSizeSpan(size), title.length, length, Spanned.SPAN_EXCLUSIVE_EXCLUSIVE)
     }
 
 /** A line that begins a part of a screen; talk-back can jump to it where the platform knows headings. */
@@ -81,6 +92,18 @@ internal fun Context.stopButton(action: () -> Unit): Button =
         setTextSize(TypedValue.COMPLEX_UNIT_PX, resources.getDimension(R.dimen.stop_text))
         setTextColor(context.getColor(R.color.stop_text))
         backgroundTintList = ColorStateList.valueOf(context.getColor(R.color.stop))
+    }
+
+/** A column of what [fill] puts into it, that scrolls where it is longer than the screen. */
+internal fun Context.scrolling(fill: LinearLayout.() -> Unit): ScrollView =
+    ScrollView(this).apply {
+        val gap = resources.getDimensionPixelSize(R.dimen.gap)
+        addView(
+            context.column().apply {
+                setPadding(gap, 0, gap, gap)
+                fill()
+            },
+        )
     }
 
 /** An empty column. */

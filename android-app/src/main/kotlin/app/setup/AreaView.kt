@@ -3,6 +3,7 @@ package stillwater.app.setup
 import android.content.Context
 import android.graphics.Canvas
 import android.graphics.Paint
+import kotlin.math.floor
 import stillwater.app.R
 import stillwater.app.screen.LineStyle
 import stillwater.app.screen.MapProjection
@@ -11,7 +12,6 @@ import stillwater.mission.GridSpec
 import stillwater.mission.MissionDraft
 import stillwater.mission.PlaceSpec
 import stillwater.model.Position
-import kotlin.math.floor
 
 /**
  * The water as it is being drawn: a metric grid, the shore, keep-outs, home and where the phone is. There is no map
@@ -51,6 +51,9 @@ internal class AreaView(
         // Around the first place, room for what comes next.
         return listOf(all.single().moved(-FIRST_SPAN, -FIRST_SPAN), all.single().moved(FIRST_SPAN, FIRST_SPAN))
     }
+
+    /** Room for a corner's number, too. */
+    override val margin get() = super.margin + words.textSize
 
     override fun boat(): Position? = here
 
@@ -119,6 +122,8 @@ internal class AreaView(
             val isSelected = pen.selected == Corner(ring, index)
             fill.color = context.getColor(if (isSelected) R.color.plan else R.color.fence)
             canvas.drawCircle(x, y, (if (isSelected) SELECTED_DP else CORNER_DP) * density, fill)
+            // A keep-out is small, and its numbers would hide it.
+            if (ring >= 0) return@forEachIndexed
             words.textAlign = Paint.Align.CENTER
             drawWords(canvas, "${index + 1}", x, y - LABEL_DP * density)
         }

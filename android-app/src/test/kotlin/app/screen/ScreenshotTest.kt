@@ -6,6 +6,9 @@ import android.graphics.Canvas
 import android.graphics.Color
 import android.view.View
 import android.widget.Button
+import java.io.File
+import java.util.TimeZone
+import kotlin.math.abs
 import org.junit.Assert.assertTrue
 import org.junit.Before
 import org.junit.Test
@@ -16,9 +19,6 @@ import org.robolectric.annotation.GraphicsMode
 import stillwater.app.R
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.MissionDraft
-import java.io.File
-import java.util.TimeZone
-import kotlin.math.abs
 
 /**
  * The pictures in docs/screenshots are what the app draws. A difference fails and leaves the new picture in
@@ -134,7 +134,7 @@ class ScreenshotTest {
         val window = Window()
         window.activity.go(ScreenName.PAST)
         window.activity.show(snapshot)
-        window.activity.shown().filterIsInstance<Button>().first { "CUT OFF" in it.text }.performClick()
+        window.activity.shown().filterIsInstance<Button>().first { "CUT\u00A0OFF" in it.text }.performClick()
         return window.activity.window.decorView
     }
 

@@ -3,6 +3,14 @@ package stillwater.app.service
 import android.app.Application
 import android.app.NotificationManager
 import android.os.Looper
+import java.io.File
+import java.io.IOException
+import java.time.Duration
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -11,6 +19,7 @@ import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.Shadows.shadowOf
 import org.robolectric.annotation.Config
+import org.robolectric.shadows.ShadowNotification
 import org.robolectric.shadows.ShadowSystemClock
 import stillwater.app.link.BoardLink
 import stillwater.app.link.LinkChoice
@@ -20,20 +29,13 @@ import stillwater.app.mission.LogFolder
 import stillwater.app.mission.LogOpener
 import stillwater.app.mission.LogOutput
 import stillwater.app.mission.MissionReport
+import stillwater.app.screen.stateWords
 import stillwater.control.Danger
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionState
 import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.model.LatLon
-import java.io.File
-import java.io.IOException
-import java.time.Duration
-import kotlin.test.assertEquals
-import kotlin.test.assertFalse
-import kotlin.test.assertNotNull
-import kotlin.test.assertNull
-import kotlin.test.assertTrue
 
 /** What a person and bad luck do to a mission; the phone's side of it. */
 @RunWith(RobolectricTestRunner::class)
@@ -82,6 +84,23 @@ class MissionServiceTest {
     }
 
     @Test
+    fun whenTheBudgetIsSpentItGoesHomeAndSaysSo() {
+        desk.ask { load(ServiceDesk.POND.replace("\"seconds\":200", "\"seconds\":60")) }
+        survey()
+        val returning = MissionState.Returning(Danger.BUDGET_SPENT)
+        assertTrue(desk.until(70.0) { it.mission?.state == returning }, "${desk.state}")
+        val words = "Going home: budget spent but for the way home"
+        assertEquals(words, context.stateWords(desk.snapshot).lines().first())
+        assertEquals(words, notification().contentTitle)
+        assertTrue(desk.until(60.0) { it.mission?.state == MissionState.Stopped(StopReason.COMPLETED) })
+        assertEquals("Stopped: done", context.stateWords(desk.snapshot).lines().first())
+        assertTrue(desk.until(10.0) { it.mission?.isOver == true })
+        desk.pass(1.0)
+        assertTrue(desk.report.used <= desk.report.budget, "${desk.report.used} s of ${desk.report.budget} s")
+        assertEquals("standby", desk.snapshot.board.state?.word)
+    }
+
+    @Test
     fun whatIsNoMissionIsToldAndTheOneBeforeStays() {
         desk.ask { load("""{"name":"pond"}""") }
         val answer = assertNotNull(desk.snapshot.answer)
@@ -119,7 +138,7 @@ class MissionServiceTest {
         assertTrue(desk.until(3.0) { it.mission?.state == MissionState.Returning(Danger.LOG_LOST) }, "${desk.state}")
         desk.pass(0.5)
         assertEquals("No space left on device", desk.report.log?.problem)
-        assertEquals("Boat 3: connected. LOG NOT WRITTEN: No space left on device", notificationText())
+        assertEquals("Boat 3: connected. LOG NOT WRITTEN: No space left on device", notification().contentText)
         assertTrue(desk.until(120.0) { it.mission?.state == MissionState.Stopped(StopReason.LOG_LOST) })
         desk.pass(6.0)
         assertEquals(before, logs().single().readText(), "what was written is as it was")
@@ -320,9 +339,9 @@ class MissionServiceTest {
         }
     }
 
-    private fun notificationText(): CharSequence? {
+    private fun notification(): ShadowNotification {
         val manager = context.getSystemService(NotificationManager::class.java)!!
-        return shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
+        return shadowOf(shadowOf(manager).getNotification(BoatNotification.ID))
     }
 
     /** A disk that somebody fills up. */
