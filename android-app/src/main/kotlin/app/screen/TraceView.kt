@@ -79,7 +79,13 @@ internal class TraceView(context: Context) : View(context) {
     }
 
     private fun drawValues(canvas: Canvas, panel: Panel, moments: List<TraceMoment>) {
-        drawFrame(canvas, panel, resources.getString(R.string.trace_values, scene.unit).trim())
+        val title =
+            if (scene.unit.isEmpty()) {
+                resources.getString(R.string.trace_values_without_unit)
+            } else {
+                resources.getString(R.string.trace_values, scene.unit)
+            }
+        drawFrame(canvas, panel, title)
         canvas.save()
         canvas.clipRect(panel.left, panel.top, panel.right, panel.bottom)
         val known = moments.filter { it.lower.isFinite() && it.upper.isFinite() }

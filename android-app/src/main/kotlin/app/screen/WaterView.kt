@@ -69,11 +69,11 @@ internal abstract class WaterView(context: Context) : View(context) {
         }
         val extent = extent()
         if (extent.isEmpty()) return null
-        return MapProjection.fitting(extent, width.toFloat(), height.toFloat(), margin, foot())
+        return MapProjection.fitting(extent, width.toFloat(), height.toFloat(), MARGIN_DP * density, foot(), head())
     }
 
-    /** What is kept free at every edge, px. */
-    protected open val margin get() = MARGIN_DP * density
+    /** What is kept free of it at the upper edge beside the margin, px. */
+    protected open fun head() = 0f
 
     /** What is kept free of the water at the lower edge, for scale and legend, px. */
     private fun foot() = words.textSize + FOOT_DP * density

@@ -52,8 +52,8 @@ internal class AreaView(
         return listOf(all.single().moved(-FIRST_SPAN, -FIRST_SPAN), all.single().moved(FIRST_SPAN, FIRST_SPAN))
     }
 
-    /** Room for a corner's number, too. */
-    override val margin get() = super.margin + words.textSize
+    /** A corner's number stands above it. */
+    override fun head() = words.textSize
 
     override fun boat(): Position? = here
 
@@ -121,7 +121,8 @@ internal class AreaView(
             val (x, y) = projection.x(place.position) to projection.y(place.position)
             val isSelected = pen.selected == Corner(ring, index)
             fill.color = context.getColor(if (isSelected) R.color.plan else R.color.fence)
-            canvas.drawCircle(x, y, (if (isSelected) SELECTED_DP else CORNER_DP) * density, fill)
+            val size = if (isSelected) SELECTED_DP else if (ring < 0) CORNER_DP else SMALL_CORNER_DP
+            canvas.drawCircle(x, y, size * density, fill)
             // A keep-out is small, and its numbers would hide it.
             if (ring >= 0) return@forEachIndexed
             words.textAlign = Paint.Align.CENTER
@@ -140,6 +141,7 @@ internal class AreaView(
         const val OUTLINE_DP = 2.5f
         const val HAIR_DP = 0.75f
         const val CORNER_DP = 8f
+        const val SMALL_CORNER_DP = 5f
         const val SELECTED_DP = 13f
         const val LABEL_DP = 14f
         const val LEAST_CELL_DP = 5f
