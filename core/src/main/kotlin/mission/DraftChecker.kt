@@ -104,20 +104,29 @@ internal class DraftChecker(private val draft: MissionDraft) {
     private fun probe(): ProbeSpec? {
         val lowest = numbers[DraftField.LOWEST] ?: return null
         val highest = numbers[DraftField.HIGHEST] ?: return null
-        val port = numbers[DraftField.PORT]
-        require(port == null || port == floor(port)) { "port ($port) must be a whole number" }
+        val port = wholeNumber(DraftField.PORT, "port")
+        val stuckAfter = wholeNumber(DraftField.STUCK_AFTER, "stuck_after")
         val latency = numbers[DraftField.LATENCY] ?: return null
         val slowest = numbers[DraftField.SLOWEST] ?: return null
         val base = draft.loaded?.probe ?: ProbeSpec(draft.quantity, lowest = 0.0, highest = 1.0)
         return base.copy(
             quantity = draft.quantity,
-            port = port?.toInt(),
+            port = port,
             lowest = lowest,
             highest = highest,
             largestJump = numbers[DraftField.LARGEST_JUMP],
+            stuckAfter = stuckAfter,
             latency = latency,
             longestTimeConstant = slowest,
+            smallestSlope = numbers[DraftField.SMALLEST_SLOPE],
+            readingError = numbers[DraftField.READING_ERROR],
         )
+    }
+
+    private fun wholeNumber(field: DraftField, name: String): Int? {
+        val number = numbers[field] ?: return null
+        require(number == floor(number)) { "$name ($number) must be a whole number" }
+        return number.toInt()
     }
 
     private fun budget(): BudgetSpec? {
@@ -197,6 +206,9 @@ internal class DraftChecker(private val draft: MissionDraft) {
             "lowestVolts" to DraftField.LOWEST_VOLTS,
             "lowest" to DraftField.LOWEST,
             "largest_jump" to DraftField.LARGEST_JUMP,
+            "stuck_after" to DraftField.STUCK_AFTER,
+            "smallest_slope_per_s" to DraftField.SMALLEST_SLOPE,
+            "reading_error" to DraftField.READING_ERROR,
             "latency_s" to DraftField.LATENCY,
             "longest_time_constant_s" to DraftField.SLOWEST,
             "reserve" to DraftField.RESERVE,

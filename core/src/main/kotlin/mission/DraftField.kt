@@ -37,6 +37,15 @@ public enum class DraftField(
     /** Largest step between readings that needs no confirmation. */
     LARGEST_JUMP("", optional = true),
 
+    /** Equal readings in a row that a sound probe does not give. */
+    STUCK_AFTER("", optional = true),
+
+    /** Least change of the readings that counts as one. */
+    SMALLEST_SLOPE("", optional = true),
+
+    /** Most that a reading may be off. */
+    READING_ERROR("", optional = true),
+
     /** From sample to arrival. */
     LATENCY("0", "s"),
 

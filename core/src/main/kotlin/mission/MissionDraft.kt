@@ -57,10 +57,18 @@ public data class MissionDraft(
     public fun with(field: DraftField, text: String): MissionDraft =
         if (field == DraftField.NAME) copy(name = text) else copy(texts = texts + (field to text))
 
-    /** For [quantity], in the range that fresh water has of it. */
+    /** For [quantity], in the range that fresh water has of it; what was said in the units of another is forgotten. */
     public fun measuring(quantity: Quantity): MissionDraft {
+        if (quantity == this.quantity) return this
         val (lowest, highest) = usual(quantity)
-        return copy(quantity = quantity, texts = texts - DraftField.LARGEST_JUMP)
+        val ofAnother =
+            setOf(
+                DraftField.LARGEST_JUMP,
+                DraftField.STUCK_AFTER,
+                DraftField.SMALLEST_SLOPE,
+                DraftField.READING_ERROR,
+            )
+        return copy(quantity = quantity, texts = texts - ofAnother)
             .with(DraftField.LOWEST, lowest)
             .with(DraftField.HIGHEST, highest)
     }
@@ -73,6 +81,9 @@ public data class MissionDraft(
             DraftField.LOWEST to written(spec.lowest),
             DraftField.HIGHEST to written(spec.highest),
             DraftField.LARGEST_JUMP to spec.largestJump?.let(::written).orEmpty(),
+            DraftField.STUCK_AFTER to spec.stuckAfter?.toString().orEmpty(),
+            DraftField.SMALLEST_SLOPE to spec.smallestSlope?.let(::written).orEmpty(),
+            DraftField.READING_ERROR to spec.readingError?.let(::written).orEmpty(),
             DraftField.LATENCY to written(spec.latency),
             DraftField.SLOWEST to written(spec.longestTimeConstant),
         ),

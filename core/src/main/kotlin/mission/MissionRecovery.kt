@@ -9,10 +9,14 @@ import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.intOrNull
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.update
+import stillwater.field.FieldMap
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.Reading
+import stillwater.model.Utm
 
 /**
  * What a log tells of a mission.
@@ -43,13 +47,25 @@ public class RecoveredMission internal constructor(
     public val unreadable: Long,
 )
 
+/** Hears what a log tells besides the map, in the log's order, and keeps of it what it likes. */
+public interface RecoveryListener {
+    /** [reading] was taken, and [map] is what was believed after it. Lives on: not to be kept, nor modified. */
+    public fun took(reading: Reading, map: FieldMap)
+
+    /** The boat was believed to be at [place], m, in the mission's frame; as in the log, exact to less than a millimetre. */
+    public fun at(place: Position)
+}
+
 /**
  * Reads a [MissionLog] back: the same readings in the same order into a fresh estimator give the same map, bit for bit.
  *
  * A line that was cut, or is not of the log's form, is counted and passed over. What is not in the log is forgotten: the
- * track, the plan, and whether the board was armed. Confined to one thread.
+ * plan, and whether the board was armed. Track and trace grow with the log, so they go to [listener] and are not kept
+ * here. Confined to one thread.
+ *
+ * @param listener hears of readings and places; null where nobody asks. Retained.
  */
-public class MissionRecovery {
+public class MissionRecovery(private val listener: RecoveryListener? = null) {
     private var spec: MissionSpec? = null
     private var estimator: FieldEstimator? = null
     private var used = 0.0
@@ -61,6 +77,7 @@ public class MissionRecovery {
     private var lastState = MissionState.Idle.word
     private var readings = 0L
     private var unreadable = 0L
+    private var frame: LocalFrame? = null
 
     /** Takes one line of the log. Never throws. */
     public fun line(line: String) {
@@ -93,7 +110,7 @@ public class MissionRecovery {
         val known = estimator ?: return false
         json["pass"]?.let { return pass(known, it) }
         (json["reading"] as? JsonObject)?.let { return read(known, it) }
-        (json["mission"] as? JsonObject)?.let { return step(it) }
+        (json["mission"] as? JsonObject)?.let { return step(it, json["pose"]) }
         return "sensor" in json
     }
 
@@ -107,6 +124,7 @@ public class MissionRecovery {
         if (spec == null) {
             spec = found
             estimator = found.estimator.build(found.grid.grid(), found.probe)
+            frame = LocalFrame(LatLon(found.origin.latitude, found.origin.longitude))
         }
         return spec == found
     }
@@ -127,18 +145,34 @@ public class MissionRecovery {
             lastTime = maxOf(lastTime, reading.time.seconds)
             readings++
         }
+        // As the mission itself hands them on: what was kept back together is judged by the map after the last of them.
+        listener?.let { taken.forEach { reading -> it.took(reading, estimator.map) } }
         held = json["held"]?.let { reading(it) }
         same = (json["same"] as? JsonArray)?.mapNotNull { reading(it) }.orEmpty()
         run = (json["run"] as? JsonPrimitive)?.intOrNull ?: (same.size + 1)
         return true
     }
 
-    private fun step(json: JsonObject): Boolean {
+    private fun step(json: JsonObject, pose: JsonElement?): Boolean {
         val time = (json["t_s"] as? JsonPrimitive)?.doubleOrNull ?: return false
         val spent = (json["used"] as? JsonPrimitive)?.doubleOrNull ?: return false
         lastTime = maxOf(lastTime, time)
         used = spent
         lastState = (json["state"] as? JsonPrimitive)?.contentOrNull ?: return false
+        return pose == null || listener == null || at(pose, listener)
+    }
+
+    private fun at(pose: JsonElement, listener: RecoveryListener): Boolean {
+        val known = pose as? JsonObject ?: return false
+        val numbers = known["p"]?.let { numbers(it, PLACE_SIZE) } ?: return false
+        val zone = (known["zone"] as? JsonPrimitive)?.contentOrNull ?: return false
+        val number = zone.takeWhile(Char::isDigit).toIntOrNull() ?: return false
+        val place = try {
+            Utm(numbers[0], numbers[1], number, zone.endsWith(NORTH)).toLatLon()
+        } catch (_: IllegalArgumentException) {
+            return false
+        }
+        frame?.let { listener.at(it.toLocal(place)) }
         return true
     }
 
@@ -157,5 +191,7 @@ public class MissionRecovery {
     private companion object {
         const val PASS_SIZE = 3
         const val READING_SIZE = 4
+        const val PLACE_SIZE = 3
+        const val NORTH = "North"
     }
 }

@@ -1,5 +1,6 @@
 package stillwater.mission
 
+import kotlinx.serialization.json.Json
 import org.junit.jupiter.api.Test
 import stillwater.model.LatLon
 import kotlin.test.assertEquals
@@ -55,6 +56,10 @@ class MissionDraftTest {
             Triple(triangle.with(DraftField.LARGEST_JUMP, "0"), DraftField.LARGEST_JUMP, "above 0"),
             Triple(triangle.with(DraftField.PORT, "1.5"), DraftField.PORT, "whole number"),
             Triple(triangle.with(DraftField.PORT, "12"), DraftField.PORT, "0..9"),
+            Triple(triangle.with(DraftField.STUCK_AFTER, "1"), DraftField.STUCK_AFTER, "at least 2"),
+            Triple(triangle.with(DraftField.STUCK_AFTER, "2.5"), DraftField.STUCK_AFTER, "whole number"),
+            Triple(triangle.with(DraftField.SMALLEST_SLOPE, "-1"), DraftField.SMALLEST_SLOPE, "at least 0"),
+            Triple(triangle.with(DraftField.READING_ERROR, "-1"), DraftField.READING_ERROR, "at least 0"),
             Triple(triangle.with(DraftField.LATENCY, "99"), DraftField.LATENCY, "latency_s"),
             Triple(triangle.with(DraftField.SLOWEST, "0"), DraftField.SLOWEST, "above 0"),
             Triple(triangle.with(DraftField.CRUISE, "3"), DraftField.CRUISE, "not be above topSpeed"),
@@ -95,8 +100,26 @@ class MissionDraftTest {
         val acidity = triangle.with(DraftField.LARGEST_JUMP, "3").measuring(Quantity.ACIDITY)
         assertEquals("4", acidity.text(DraftField.LOWEST))
         assertEquals("", acidity.text(DraftField.LARGEST_JUMP))
-        val probe = ProbeSpec(Quantity.DEPTH, 3, 0.5, 12.0, 1.0, latency = 0.25, longestTimeConstant = 2.0)
-        assertEquals(probe, triangle.measuring(probe).check().spec?.probe)
+        val depth = triangle.measuring(WHOLE_PROBE).measuring(Quantity.DEPTH)
+        val ofDepth = depth.copy(texts = depth.texts - KEPT).check().spec?.probe
+        assertEquals(triangle.measuring(Quantity.DEPTH).check().spec?.probe, ofDepth, "conductivity's numbers are gone")
+        assertEquals(acidity, acidity.measuring(Quantity.ACIDITY), "what is chosen already changes nothing")
+    }
+
+    /** Every number that a probe can have is one that nothing else here has, so that none can be lost or mixed up. */
+    @Test
+    fun aProbeGoesThroughTheFormAndComesBackWhole() {
+        assertEquals(WHOLE_PROBE, triangle.measuring(WHOLE_PROBE).check().spec?.probe)
+        val json = Json.encodeToString(ProbeSpec.serializer(), WHOLE_PROBE)
+        val draft = triangle.measuring(json)
+        assertEquals(WHOLE_PROBE, draft.check().spec?.probe)
+        assertEquals(WHOLE_PROBE, MissionDraft.fromJson(draft.toJson()).check().spec?.probe)
+        // Over a mission that has a probe of its own, and a probe that says less over one that said more.
+        val loaded = MissionDraft.of(Desk.small().let { it.copy(probe = it.probe.copy(stuckAfter = 44)) })
+        assertEquals(44, loaded.check().spec?.probe?.stuckAfter)
+        assertEquals(WHOLE_PROBE, loaded.measuring(json).check().spec?.probe)
+        val plain = ProbeSpec(Quantity.DISSOLVED_OXYGEN, lowest = 1.0, highest = 9.0)
+        assertEquals(plain, draft.measuring(plain).check().spec?.probe)
     }
 
     @Test
@@ -115,4 +138,10 @@ class MissionDraftTest {
     }
 
     private fun place(x: Int, y: Int) = PlaceSpec(x.toDouble(), y.toDouble())
+
+    private companion object {
+        val WHOLE_PROBE =
+            ProbeSpec(Quantity.CONDUCTIVITY, 3, 0.5, 1234.5, 11.5, 7, 0.25, 2.5, 1e-4, 0.125)
+        val KEPT = setOf(DraftField.PORT, DraftField.LATENCY, DraftField.SLOWEST)
+    }
 }

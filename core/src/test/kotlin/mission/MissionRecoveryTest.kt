@@ -100,6 +100,41 @@ class MissionRecoveryTest {
     }
 
     @Test
+    fun theWayAndWhatWasReadOnItAreToldInTheirOrder() {
+        val desk = underWay(Desk.small(), 431, 120.0)
+        val values = ArrayList<Double>()
+        val places = ArrayList<Position>()
+        val beliefs = ArrayList<Double>()
+        val recovery = MissionRecovery(
+            object : RecoveryListener {
+                override fun took(reading: Reading, map: FieldMap) {
+                    values += reading.value
+                    beliefs += map.value(map.grid.cellAt(reading.position))
+                }
+
+                override fun at(place: Position) {
+                    places += place
+                }
+            },
+        )
+        desk.lines.forEach(recovery::line)
+        assertEquals(desk.replayedReadings().map { it.value }, values)
+        assertTrue(values.size > 50 && beliefs.all { it.isFinite() })
+        assertEquals(0, checkNotNull(recovery.recovered()).unreadable)
+        // The last step's own place, and one for each step that knew it.
+        val last = checkNotNull(desk.mission.position)
+        assertEquals(0.0, places.last().distanceTo(last), 1e-3) // m; through UTM and back
+        assertEquals(desk.lines.count { "\"pose\"" in it }, places.size)
+        val bad = listOf(
+            """{"pose":{},"mission":{"t_s":1.0,"state":"idle","used":0.0}}""",
+            """{"pose":{"p":[1.0,2.0,0.0],"zone":"99North"},"mission":{"t_s":1.0,"state":"idle","used":0.0}}""",
+            """{"pose":[1],"mission":{"t_s":1.0,"state":"idle","used":0.0}}""",
+        )
+        bad.forEach { recovery.line("1\tI\t$it") }
+        assertEquals(bad.size.toLong(), checkNotNull(recovery.recovered()).unreadable)
+    }
+
+    @Test
     fun whatIsNoLogIsCounted() {
         val recovery = MissionRecovery()
         listOf(

@@ -1,9 +1,9 @@
 package stillwater.architecture
 
-import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
+import org.junit.jupiter.api.Test
 
 /** Rules for every source of every module: small files, and a package that says where the file is. */
 class SourceLayoutTest {
@@ -20,6 +20,14 @@ class SourceLayoutTest {
     fun packageIsTheDirectory() {
         val found = sources.mapNotNull(::misplaced)
         assertTrue(found.isEmpty(), found.joinToString("\n", prefix = "Directories leave the root package out:\n"))
+    }
+
+    /** One that is not, in the same process, has Kotlin ask for Android's version outside of any, and all after it fail. */
+    @Test
+    fun everyTestOfTheAppRunsInAnAndroid() {
+        val tests = KotlinSource.of("android-app", "test").filter { "@Test" in it.code }
+        val found = tests.filter { "@RunWith(RobolectricTestRunner::class)" !in it.code }.map { it.path }
+        assertTrue(tests.size > 10 && found.isEmpty(), found.joinToString("\n"))
     }
 
     @Test

@@ -1,9 +1,10 @@
 package stillwater.app.link
 
 import android.util.Log
-import stillwater.wire.ByteLink
 import java.io.IOException
 import java.util.concurrent.ArrayBlockingQueue
+import stillwater.app.mayWait
+import stillwater.wire.ByteLink
 
 /** Lets a thread wait; a test's does not. */
 internal fun interface Pause {
@@ -125,6 +126,7 @@ internal class ReconnectingLink(
         }
 
         private fun readUntilLost() {
+            mayWait("connect")
             val fresh = transport.connection()
             connection = fresh
             // end() may have looked for the connection just before it was there.
@@ -165,6 +167,7 @@ internal class ReconnectingLink(
                     val bytes = commands.take()
                     try {
                         val open = connection ?: throw IOException("the connection is gone")
+                        mayWait("send")
                         open.write(bytes)
                         report { copy(bytesOut = bytesOut + bytes.size) }
                     } catch (error: IOException) {

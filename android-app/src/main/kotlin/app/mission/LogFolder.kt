@@ -1,12 +1,16 @@
 package stillwater.app.mission
 
-import stillwater.mission.MissionRecovery
-import stillwater.mission.RecoveredMission
 import java.io.File
 import java.io.IOException
 import java.time.Instant
 import java.time.ZoneOffset
 import java.time.format.DateTimeFormatter
+import stillwater.app.mayWait
+import stillwater.field.FieldMap
+import stillwater.mission.MissionRecovery
+import stillwater.mission.RecoveryListener
+import stillwater.model.Position
+import stillwater.model.Reading
 
 /**
  * The folder of the missions' logs. Touches the disk: for the disk's thread.
@@ -33,14 +37,13 @@ internal class LogFolder(
     /** The log [name], to go on with. */
     fun goOn(name: String): LogFile = LogFile(File(folder, name), ::open, room)
 
-    /** What the newest incomplete log tells, with its name; null where there is none. Older ones stay. */
-    fun recover(): Pair<String, RecoveredMission>? =
-        files().filter { it.name.endsWith(INCOMPLETE) }.sortedByDescending { it.name }.firstNotNullOfOrNull { file ->
-            read(file)?.let { file.name to it }
-        }
+    /** What the newest incomplete log tells; null where there is none. Older ones stay. */
+    fun recover(): RecoveredRun? =
+        files().filter { it.name.endsWith(INCOMPLETE) }.sortedByDescending { it.name }.firstNotNullOfOrNull(::read)
 
     /** Gives the incomplete log [name] the name of a complete one: nobody goes on with it. */
     fun complete(name: String) {
+        mayWait("rename a log")
         File(folder, name).renameTo(File(folder, name.removeSuffix(INCOMPLETE)))
     }
 
@@ -50,20 +53,34 @@ internal class LogFolder(
             PastMission(it.name, it.length(), !it.name.endsWith(INCOMPLETE), it.lastModified())
         }
 
-    private fun read(file: File): RecoveredMission? =
-        try {
-            file.bufferedReader().useLines { lines -> MissionRecovery().apply { lines.forEach(::line) }.recovered() }
+    private fun read(file: File): RecoveredRun? {
+        val trace = Trace()
+        val track = Track()
+        val recovery =
+            MissionRecovery(
+                object : RecoveryListener {
+                    override fun took(reading: Reading, map: FieldMap) = trace.take(reading, map)
+
+                    override fun at(place: Position) = track.add(place)
+                },
+            )
+        return try {
+            file.useLines { lines -> lines.forEach(recovery::line) }
+            recovery.recovered()?.let { RecoveredRun(file.name, it, trace, track) }
         } catch (_: IOException) {
             null
         }
+    }
 
     private fun open(file: File): LogOutput {
         if (!folder.isDirectory && !folder.mkdirs()) throw IOException("$folder can't be made")
         return opener.open(file)
     }
 
-    private fun files() =
-        folder.listFiles().orEmpty().filter { it.name.endsWith(LOG) || it.name.endsWith(LOG + INCOMPLETE) }
+    private fun files(): List<File> {
+        mayWait("list logs")
+        return folder.listFiles().orEmpty().filter { it.name.endsWith(LOG) || it.name.endsWith(LOG + INCOMPLETE) }
+    }
 
     companion object {
         const val LOG = ".log"

@@ -3,6 +3,7 @@ package stillwater.app.mission
 import java.io.File
 import java.io.IOException
 import java.io.RandomAccessFile
+import stillwater.app.mayWait
 
 /** Where a log's bytes go. A seam, for a test has no full disk. May wait: for the disk's thread. */
 internal interface LogOutput {
@@ -23,6 +24,10 @@ internal fun interface LogOpener {
 
 /** A file that is only ever longer; what could be appended in part only is taken off again. */
 internal class FileOutput(file: File) : LogOutput {
+    init {
+        mayWait("open a log")
+    }
+
     private val access = RandomAccessFile(file, "rw")
     private var length = access.length()
 
@@ -35,6 +40,7 @@ internal class FileOutput(file: File) : LogOutput {
     }
 
     override fun append(bytes: ByteArray) {
+        mayWait("write a log")
         try {
             access.seek(length)
             access.write(bytes)

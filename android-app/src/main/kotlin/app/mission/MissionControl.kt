@@ -6,7 +6,6 @@ import stillwater.app.service.FixCounts
 import stillwater.mission.MissionDraft
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
-import stillwater.mission.RecoveredMission
 import stillwater.mission.Wish
 import stillwater.wire.ByteLink
 
@@ -48,7 +47,7 @@ internal class MissionControl(
     var past: List<PastMission>? = null
         private set
 
-    private var recovered: Pair<String, RecoveredMission>? = null
+    private var recovered: RecoveredRun? = null
     private var run: MissionRun? = null
     private var last: MissionReport? = null
     private var flushing = false
@@ -87,10 +86,10 @@ internal class MissionControl(
         }
     }
 
-    private fun takeUp(found: Pair<String, RecoveredMission>?) {
+    private fun takeUp(found: RecoveredRun?) {
         if (found != null) {
             recovered = found
-            spec = found.second.spec
+            spec = found.mission.spec
             last = null
             return
         }
@@ -114,8 +113,8 @@ internal class MissionControl(
         if (last?.isOver == true) return Answer(Answer.Reason.OVER)
         if (link == null || !isReady) return Answer(Answer.Reason.NOT_READY)
         val now = epochMillis()
-        val log = recovered?.let { folder.goOn(it.first) } ?: folder.begin(spec.name, now)
-        run = MissionRun(spec, link, log, recovered?.second, now).also {
+        val log = recovered?.let { folder.goOn(it.name) } ?: folder.begin(spec.name, now)
+        run = MissionRun(spec, link, log, recovered, now).also {
             it.wish = wish
             it.start()
         }
@@ -203,7 +202,7 @@ internal class MissionControl(
         FixCounts(pose.fixes, pose.jumps, run?.wideFixes ?: 0, run?.refusedFixes ?: 0)
 
     private fun waiting(spec: MissionSpec): MissionReport {
-        val found = recovered?.second
+        val found = recovered?.mission
         val map = (found?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe)).map
         return MissionReport(
             spec,
@@ -213,12 +212,12 @@ internal class MissionControl(
             isOver = false,
             map.copy(),
             position = null,
-            emptyList(),
+            recovered?.track?.places().orEmpty(),
             emptyList(),
             found?.used ?: 0.0,
-            emptyList(),
+            recovered?.trace?.points().orEmpty(),
             ReadingCounts(received = found?.readings ?: 0, taken = found?.readings ?: 0),
-            recovered?.let { LogReport(it.first) },
+            recovered?.let { LogReport(it.name) },
             DoubleArray(map.grid.size) { Double.NaN },
             now = 0.0,
         )
@@ -226,7 +225,7 @@ internal class MissionControl(
 
     /** Closes the log of a mission that nobody will go on with. */
     private fun forget() {
-        val name = recovered?.first ?: return
+        val name = recovered?.name ?: return
         recovered = null
         disk.run { folder.complete(name) }
     }

@@ -7,7 +7,6 @@ import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
-import stillwater.mission.RecoveredMission
 import stillwater.mission.Wish
 import stillwater.model.BoatTime
 import stillwater.model.Reading
@@ -27,14 +26,14 @@ internal class MissionRun(
     private val spec: MissionSpec,
     link: ByteLink,
     val log: LogFile,
-    private val recovered: RecoveredMission?,
+    private val recovered: RecoveredRun?,
     epochMillis: Long,
 ) {
     private val start = LogStart(epochMillis, Instant.ofEpochMilli(epochMillis).toString())
     private val mission =
-        Mission(spec, link, MissionLog(log, start, spec), recovered = recovered, taken = ::took)
-    private val trace = Trace()
-    private val track = Track()
+        Mission(spec, link, MissionLog(log, start, spec), recovered = recovered?.mission, taken = ::took)
+    private val trace = recovered?.trace ?: Trace()
+    private val track = recovered?.track ?: Track()
     private val readAt = DoubleArray(spec.grid.grid().size) { Double.NaN }
     private var fixNanos = Long.MIN_VALUE
     private var headingNanos = Long.MIN_VALUE

@@ -5,18 +5,19 @@ import android.content.Intent
 import android.net.Uri
 import android.os.Bundle
 import android.provider.DocumentsContract
+import java.io.ByteArrayOutputStream
+import java.io.File
+import java.io.IOException
+import java.io.InputStream
+import java.io.OutputStream
 import stillwater.app.R
+import stillwater.app.mayWait
 import stillwater.app.service.BoatService
 import stillwater.app.setup.DraftDesk
 import stillwater.mission.CellsText
 import stillwater.mission.MissionDraft
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionSpec
-import java.io.ByteArrayOutputStream
-import java.io.File
-import java.io.IOException
-import java.io.InputStream
-import java.io.OutputStream
 
 /**
  * Reads and writes the documents that a person chose, aside from the main thread, and tells what came of it.
@@ -143,6 +144,7 @@ internal class Documents(
     /** What [work] gives, or what another app's documents, the disk or the text had against it. */
     private fun <T> attempt(work: () -> T): Result<T> =
         try {
+            mayWait("a document")
             Result.success(work())
         } catch (e: IOException) {
             Result.failure(e)

@@ -4,7 +4,6 @@ import android.content.Context
 import android.graphics.Typeface
 import android.os.SystemClock
 import android.view.View
-import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.R
 import stillwater.app.link.BluetoothTransport
@@ -20,24 +19,26 @@ internal class LinkScreen(private val context: Context, private val host: Screen
     private val choices = context.column()
     private val rates = LinkRates()
     private var offered: List<LinkChoice>? = null
+    private val choose = context.heading(context.getString(R.string.choose_link))
+    private val another =
+        context.largeButton(context.getString(R.string.another_link)) { choices.show(!choices.isShown) }
+
+    /** Whether a link was held at the last look; null before the first. */
+    private var isHeld: Boolean? = null
 
     override val view: View =
-        ScrollView(context).apply {
-            val gap = resources.getDimensionPixelSize(R.dimen.gap)
-            addView(
-                context.column().apply {
-                    setPadding(gap, 0, gap, gap)
-                    below(health)
-                    below(context.heading(context.getString(R.string.choose_link)))
-                    below(choices)
-                },
-            )
+        context.scrolling {
+            below(choose)
+            below(another)
+            below(choices)
+            below(health)
         }
 
     override fun opened() = offer()
 
     override fun show(snapshot: BoatSnapshot) {
         rates.look(SystemClock.elapsedRealtime(), snapshot)
+        fold(snapshot.linkName != null)
         val words = parts.of(snapshot, rates)
         while (lines.size < words.size) {
             val line = context.line("")
@@ -50,6 +51,15 @@ internal class LinkScreen(private val context: Context, private val host: Screen
             line.setTextColor(context.getColor(if (each?.isBad == true) R.color.bad else R.color.text))
             line.setTypeface(null, if (each?.isTitle == true) Typeface.BOLD else Typeface.NORMAL)
         }
+    }
+
+    /** What there is to connect to is in sight where nothing is connected, and one press away where something is. */
+    private fun fold(isHeld: Boolean) {
+        if (isHeld == this.isHeld) return
+        this.isHeld = isHeld
+        choose.show(!isHeld)
+        another.show(isHeld)
+        choices.show(!isHeld)
     }
 
     /** Offers what there is to connect to now. */

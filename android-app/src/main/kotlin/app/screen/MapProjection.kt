@@ -31,20 +31,21 @@ internal class MapProjection(val centre: Position, val scale: Float, width: Floa
         /** A boat that has not moved yet is shown in 10 m of water, m. */
         private const val SMALLEST_SPAN = 10.0
 
-        /** All of [extent], not empty, in sight, [margin] px free at every edge and [foot] px more below. */
+        /** All of [extent], not empty, in sight, [margin] px free at every edge, [foot] more below, [head] above. */
         fun fitting(
             extent: List<Position>,
             width: Float,
             height: Float,
             margin: Float,
             foot: Float = 0f,
+            head: Float = 0f,
         ): MapProjection {
             val (west, east) = extent.minOf { it.x } to extent.maxOf { it.x }
             val (south, north) = extent.minOf { it.y } to extent.maxOf { it.y }
             val across = (width - 2 * margin) / (east - west).coerceAtLeast(SMALLEST_SPAN)
-            val up = (height - foot - 2 * margin) / (north - south).coerceAtLeast(SMALLEST_SPAN)
+            val up = (height - foot - head - 2 * margin) / (north - south).coerceAtLeast(SMALLEST_SPAN)
             val scale = minOf(across, up).coerceAtLeast(Float.MIN_VALUE.toDouble()).toFloat()
-            val middle = Position((west + east) / 2, (south + north) / 2 - foot / 2 / scale)
+            val middle = Position((west + east) / 2, (south + north) / 2 + (head - foot) / 2 / scale)
             return MapProjection(middle, scale, width, height)
         }
     }

@@ -6,6 +6,9 @@ import android.widget.LinearLayout
 import stillwater.app.R
 import stillwater.app.mission.MissionReport
 import stillwater.app.service.BoatSnapshot
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
+import stillwater.model.Position
 
 /** The live map, what is known of the cell that was touched, and how near it is seen. */
 internal class MapScreen(private val context: Context) : Screen {
@@ -18,7 +21,7 @@ internal class MapScreen(private val context: Context) : Screen {
             setPadding(gap, gap / 3, gap, gap / 3)
         }
     private val follow = button(R.string.follow, R.string.follow_said, R.id.follow) { toggleFollow() }
-    private var drawn: Pair<MissionReport?, Float?>? = null
+    private var drawn: List<Any?>? = null
 
     override val view: LinearLayout =
         context.column().apply {
@@ -48,10 +51,11 @@ internal class MapScreen(private val context: Context) : Screen {
 
     override fun show(snapshot: BoatSnapshot) {
         // The same report twice is drawn once.
-        val now = snapshot.mission to snapshot.headingDeg
-        if (drawn?.first === now.first && drawn?.second == now.second) return
+        val boat = snapshot.mission?.let { it.position ?: atRest(it, snapshot) }
+        val now = listOf(snapshot.mission, snapshot.headingDeg, boat)
+        if (drawn == now) return
         drawn = now
-        map.scene = snapshot.mission?.let { scene(it, snapshot.headingDeg) } ?: MapScene()
+        map.scene = snapshot.mission?.let { scene(it, boat, snapshot.headingDeg) } ?: MapScene()
         if (!map.isTold) {
             words.say(context.getString(if (snapshot.mission == null) R.string.map_begin else R.string.map_hint))
         }
@@ -71,7 +75,18 @@ internal class MapScreen(private val context: Context) : Screen {
     private companion object {
         const val ZOOM = 1.6f
 
-        fun scene(report: MissionReport, headingDeg: Float?): MapScene =
+        /** Farther from home, the phone is not on this water, and the map would shrink to a dot beside it, m. */
+        const val FAR = 1_000.0
+
+        /** Where the phone is, while no mission under way knows its boat; null where that is not at this water. */
+        fun atRest(report: MissionReport, snapshot: BoatSnapshot): Position? {
+            val fix = snapshot.fix ?: return null
+            val origin = report.spec.origin
+            val place = LocalFrame(LatLon(origin.latitude, origin.longitude)).toLocal(fix.place)
+            return place.takeIf { it.distanceTo(report.spec.home.position) < FAR }
+        }
+
+        fun scene(report: MissionReport, boat: Position?, headingDeg: Float?): MapScene =
             MapScene(
                 map = report.map,
                 track = report.track,
@@ -79,7 +94,7 @@ internal class MapScreen(private val context: Context) : Screen {
                 fence = report.spec.area.corners(),
                 keepOuts = report.spec.area.keepOuts.map { ring -> ring.map { it.position } },
                 home = report.spec.home.position,
-                boat = report.position,
+                boat = boat,
                 headingDeg = headingDeg,
                 unit = report.spec.probe.quantity.unit,
                 ageOf = report::ageOf,

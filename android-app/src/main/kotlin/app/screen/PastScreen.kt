@@ -6,8 +6,8 @@ import android.text.format.Formatter
 import android.view.View
 import android.widget.Button
 import android.widget.LinearLayout
-import android.widget.ScrollView
 import stillwater.app.R
+import stillwater.app.mayWait
 import stillwater.app.mission.LogFolder
 import stillwater.app.mission.PastMission
 import stillwater.app.service.BoatService
@@ -31,16 +31,10 @@ internal class PastScreen(
     private var asksDeletion = false
 
     override val view: View =
-        ScrollView(context).apply {
-            val gap = resources.getDimensionPixelSize(R.dimen.gap)
-            addView(
-                context.column().apply {
-                    setPadding(gap, 0, gap, gap)
-                    below(said)
-                    below(empty)
-                    below(list)
-                },
-            )
+        context.scrolling {
+            below(said)
+            below(empty)
+            below(list)
         }
 
     override fun opened() {
@@ -147,7 +141,10 @@ internal class PastScreen(
     }
 
     private fun onDisk(done: Int, notDone: Int, work: () -> Boolean) =
-        Background.run(work) { isDone ->
+        Background.run({
+            mayWait("a log's folder")
+            work()
+        }) { isDone ->
             say(context.getString(if (isDone) done else notDone))
             host.boat?.lookForPast()
         }

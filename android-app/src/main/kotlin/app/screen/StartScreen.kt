@@ -6,7 +6,6 @@ import android.provider.Settings
 import android.view.View
 import android.widget.Button
 import android.widget.LinearLayout
-import android.widget.ScrollView
 import stillwater.app.R
 import stillwater.app.mission.MissionReport
 import stillwater.app.service.BoatSnapshot
@@ -37,27 +36,22 @@ internal class StartScreen(private val context: Context, private val host: Scree
     private val checks = PreflightCheck.entries.associateWith(::CheckLine)
 
     override val view: View =
-        ScrollView(context).apply {
-            val gap = resources.getDimensionPixelSize(R.dimen.gap)
+        context.scrolling {
             for (button in listOf(arm, start, hold, goHome)) {
                 button.minimumHeight = resources.getDimensionPixelSize(R.dimen.control_height)
             }
             controls.below(context.row(arm, start))
             controls.below(context.row(hold, goHome))
-            addView(
-                context.column().apply {
-                    setPadding(gap, 0, gap, gap)
-                    below(name)
-                    below(about)
-                    below(answer)
-                    below(ready)
-                    below(controls)
-                    below(setUp)
-                    below(another)
-                    below(context.heading(context.getString(R.string.preflight)))
-                    checks.values.forEach { below(it) }
-                },
-            )
+            // What moves the boat is in sight on the smallest phone; what there is to read comes after it.
+            below(name)
+            below(answer)
+            below(ready)
+            below(controls)
+            below(about)
+            below(setUp)
+            below(another)
+            below(context.heading(context.getString(R.string.preflight)))
+            checks.values.forEach { below(it) }
         }
 
     override fun show(snapshot: BoatSnapshot) {

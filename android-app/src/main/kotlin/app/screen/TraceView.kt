@@ -6,13 +6,13 @@ import android.graphics.DashPathEffect
 import android.graphics.Paint
 import android.graphics.Path
 import android.view.View
-import stillwater.app.R
 import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.floor
 import kotlin.math.log10
 import kotlin.math.pow
+import stillwater.app.R
 
 /**
  * The last minutes: readings, and what is believed of the water with its bounds; below, the gradient of the readings.
@@ -65,7 +65,7 @@ internal class TraceView(context: Context) : View(context) {
         drawValues(canvas, upper, moments)
         if (isLow) return drawTimes(canvas, upper)
         val lower = Panel(left, middle + text, width - GAP_DP * density, bottom, time, slopes)
-        drawFrame(canvas, lower, resources.getString(R.string.trace_gradient, perSecond()))
+        drawFrame(canvas, lower, resources.getString(R.string.trace_gradient, context.perSecond(scene.unit)))
         drawLine(canvas, lower, moments, R.color.text) { it.gradient }
         drawTimes(canvas, lower)
     }
@@ -79,7 +79,13 @@ internal class TraceView(context: Context) : View(context) {
     }
 
     private fun drawValues(canvas: Canvas, panel: Panel, moments: List<TraceMoment>) {
-        drawFrame(canvas, panel, scene.unit)
+        val title =
+            if (scene.unit.isEmpty()) {
+                resources.getString(R.string.trace_values_without_unit)
+            } else {
+                resources.getString(R.string.trace_values, scene.unit)
+            }
+        drawFrame(canvas, panel, title)
         canvas.save()
         canvas.clipRect(panel.left, panel.top, panel.right, panel.bottom)
         val known = moments.filter { it.lower.isFinite() && it.upper.isFinite() }
@@ -146,9 +152,6 @@ internal class TraceView(context: Context) : View(context) {
         words.textAlign = Paint.Align.RIGHT
         canvas.drawText(resources.getString(R.string.trace_now), panel.right, baseline, words)
     }
-
-    private fun perSecond(): String =
-        if (scene.unit.isEmpty()) resources.getString(R.string.per_second) else "${scene.unit}/s"
 
     private fun described(scene: TraceScene): String {
         val last =

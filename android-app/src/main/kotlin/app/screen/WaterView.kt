@@ -69,8 +69,11 @@ internal abstract class WaterView(context: Context) : View(context) {
         }
         val extent = extent()
         if (extent.isEmpty()) return null
-        return MapProjection.fitting(extent, width.toFloat(), height.toFloat(), MARGIN_DP * density, foot())
+        return MapProjection.fitting(extent, width.toFloat(), height.toFloat(), MARGIN_DP * density, foot(), head())
     }
+
+    /** What is kept free of it at the upper edge beside the margin, px. */
+    protected open fun head() = 0f
 
     /** What is kept free of the water at the lower edge, for scale and legend, px. */
     private fun foot() = words.textSize + FOOT_DP * density
@@ -274,7 +277,7 @@ internal abstract class WaterView(context: Context) : View(context) {
     }
 
     protected companion object {
-        const val MARGIN_DP = 24f
+        private const val MARGIN_DP = 24f
         private const val HALO_DP = 2f
         private const val FOOT_DP = 14f
         private const val MARK_DP = 10f

@@ -4,11 +4,15 @@ import android.content.Context
 import android.content.res.ColorStateList
 import android.graphics.Typeface
 import android.os.Build
+import android.text.SpannableString
+import android.text.Spanned
+import android.text.style.AbsoluteSizeSpan
 import android.util.TypedValue
 import android.view.View
 import android.view.ViewGroup
 import android.widget.Button
 import android.widget.LinearLayout
+import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.AboveMinSdk
 import stillwater.app.R
@@ -26,6 +30,13 @@ internal fun Context.liveLine(text: CharSequence = ""): TextView =
     line(text).apply {
         accessibilityLiveRegion = View.ACCESSIBILITY_LIVE_REGION_POLITE
         show(text.isNotEmpty())
+    }
+
+/** [title], and below it in smaller type what it is [about]. */
+internal fun Context.titled(title: String, about: String): CharSequence =
+    SpannableString("$title\n$about").apply {
+        val size = resources.getDimensionPixelSize(R.dimen.map_text)
+        setSpan(AbsoluteSizeSpan(size), title.length, length, Spanned.SPAN_EXCLUSIVE_EXCLUSIVE)
     }
 
 /** A line that begins a part of a screen; talk-back can jump to it where the platform knows headings. */
@@ -83,6 +94,18 @@ internal fun Context.stopButton(action: () -> Unit): Button =
         backgroundTintList = ColorStateList.valueOf(context.getColor(R.color.stop))
     }
 
+/** A column of what [fill] puts into it, that scrolls where it is longer than the screen. */
+internal fun Context.scrolling(fill: LinearLayout.() -> Unit): ScrollView =
+    ScrollView(this).apply {
+        val gap = resources.getDimensionPixelSize(R.dimen.gap)
+        addView(
+            context.column().apply {
+                setPadding(gap, 0, gap, gap)
+                fill()
+            },
+        )
+    }
+
 /** An empty column. */
 internal fun Context.column(): LinearLayout = LinearLayout(this).apply { orientation = LinearLayout.VERTICAL }
 
@@ -128,6 +151,10 @@ internal fun Context.duration(seconds: Double): String {
         else -> getString(R.string.hours_minutes, whole / HOUR, whole % HOUR / MINUTE)
     }
 }
+
+/** The unit of a change of what is measured in [unit], which may be empty. */
+internal fun Context.perSecond(unit: String): String =
+    if (unit.isEmpty()) getString(R.string.per_second) else getString(R.string.unit_per_second, unit)
 
 private const val MINUTE = 60
 private const val HOUR = 3600

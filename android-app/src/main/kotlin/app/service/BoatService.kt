@@ -5,6 +5,7 @@ import android.app.NotificationManager
 import android.app.Service
 import android.content.Context
 import android.content.Intent
+import android.content.SharedPreferences
 import android.content.pm.ServiceInfo
 import android.os.Build
 import android.os.Handler
@@ -13,9 +14,11 @@ import android.os.IBinder
 import android.os.Looper
 import android.os.PowerManager
 import android.util.Log
+import java.io.File
 import stillwater.app.AboveMinSdk
 import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkMaker
+import stillwater.app.mayWait
 import stillwater.app.mission.Disk
 import stillwater.app.mission.FileOutput
 import stillwater.app.mission.Keeper
@@ -23,7 +26,6 @@ import stillwater.app.mission.LogFolder
 import stillwater.app.mission.LogOpener
 import stillwater.app.mission.MissionControl
 import stillwater.mission.Wish
-import java.io.File
 
 /**
  * Keeps boat and mission going while the app is out of sight: in the foreground, with the processor awake.
@@ -239,7 +241,10 @@ open class BoatService :
         @Volatile internal var logs: LogOpener = LogOpener(::FileOutput)
 
         /** The file of the past mission [name]; may not be there any more. Touches the disk. */
-        fun logOf(context: Context, name: String): File = File(File(context.filesDir, LOGS), name)
+        fun logOf(context: Context, name: String): File {
+            mayWait("the app's folder")
+            return File(File(context.filesDir, LOGS), name)
+        }
 
         /** Starts the service with [choice], or hands a running one that link instead. */
         fun startIntent(context: Context, choice: LinkChoice): Intent =
@@ -263,7 +268,11 @@ private class HandlerDisk(private val disk: Handler, private val boat: Handler) 
 
 /** On the boat thread; on the disk before anything moves, for what comes next may be the process's death. */
 private class KeptMission(private val context: Context) : Keeper {
-    private val kept get() = context.getSharedPreferences("kept-mission", Context.MODE_PRIVATE)
+    private val kept: SharedPreferences
+        get() {
+            mayWait("preferences")
+            return context.getSharedPreferences("kept-mission", Context.MODE_PRIVATE)
+        }
 
     override var mission: String?
         get() = kept.getString(JSON, null)

@@ -3,6 +3,7 @@ package stillwater.app.setup
 import android.content.Context
 import android.graphics.Canvas
 import android.graphics.Paint
+import kotlin.math.floor
 import stillwater.app.R
 import stillwater.app.screen.LineStyle
 import stillwater.app.screen.MapProjection
@@ -11,7 +12,6 @@ import stillwater.mission.GridSpec
 import stillwater.mission.MissionDraft
 import stillwater.mission.PlaceSpec
 import stillwater.model.Position
-import kotlin.math.floor
 
 /**
  * The water as it is being drawn: a metric grid, the shore, keep-outs, home and where the phone is. There is no map
@@ -51,6 +51,9 @@ internal class AreaView(
         // Around the first place, room for what comes next.
         return listOf(all.single().moved(-FIRST_SPAN, -FIRST_SPAN), all.single().moved(FIRST_SPAN, FIRST_SPAN))
     }
+
+    /** A corner's number stands above it. */
+    override fun head() = words.textSize
 
     override fun boat(): Position? = here
 
@@ -118,7 +121,10 @@ internal class AreaView(
             val (x, y) = projection.x(place.position) to projection.y(place.position)
             val isSelected = pen.selected == Corner(ring, index)
             fill.color = context.getColor(if (isSelected) R.color.plan else R.color.fence)
-            canvas.drawCircle(x, y, (if (isSelected) SELECTED_DP else CORNER_DP) * density, fill)
+            val size = if (isSelected) SELECTED_DP else if (ring < 0) CORNER_DP else SMALL_CORNER_DP
+            canvas.drawCircle(x, y, size * density, fill)
+            // A keep-out is small, and its numbers would hide it.
+            if (ring >= 0) return@forEachIndexed
             words.textAlign = Paint.Align.CENTER
             drawWords(canvas, "${index + 1}", x, y - LABEL_DP * density)
         }
@@ -135,6 +141,7 @@ internal class AreaView(
         const val OUTLINE_DP = 2.5f
         const val HAIR_DP = 0.75f
         const val CORNER_DP = 8f
+        const val SMALL_CORNER_DP = 5f
         const val SELECTED_DP = 13f
         const val LABEL_DP = 14f
         const val LEAST_CELL_DP = 5f

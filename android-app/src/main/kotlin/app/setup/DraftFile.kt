@@ -1,10 +1,11 @@
 package stillwater.app.setup
 
 import android.content.Context
-import stillwater.app.screen.Background
-import stillwater.mission.MissionDraft
 import java.io.File
 import java.io.IOException
+import stillwater.app.mayWait
+import stillwater.app.screen.Background
+import stillwater.mission.MissionDraft
 
 /** Keeps the draft over the app's end: half a shore that was walked is not to be walked again. */
 internal class DraftFile(context: Context) {
@@ -15,6 +16,7 @@ internal class DraftFile(context: Context) {
     fun read(then: (MissionDraft) -> Unit) =
         Background.run({
             try {
+                mayWait("read the draft")
                 file.takeIf { it.isFile }?.readText()?.let(MissionDraft::fromJson)
             } catch (_: IOException) {
                 // As if nothing had been kept: the person sees an empty form.
@@ -26,6 +28,7 @@ internal class DraftFile(context: Context) {
     fun write(draft: MissionDraft) =
         Background.run({
             try {
+                mayWait("write the draft")
                 val next = File(file.path + ".new")
                 next.writeText(draft.toJson())
                 next.renameTo(file)

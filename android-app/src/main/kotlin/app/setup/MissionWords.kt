@@ -81,6 +81,9 @@ internal fun DraftField.words(): Int =
         DraftField.LOWEST -> R.string.field_lowest
         DraftField.HIGHEST -> R.string.field_highest
         DraftField.LARGEST_JUMP -> R.string.field_jump
+        DraftField.STUCK_AFTER -> R.string.field_stuck
+        DraftField.SMALLEST_SLOPE -> R.string.field_slope
+        DraftField.READING_ERROR -> R.string.field_error
         DraftField.LATENCY -> R.string.field_latency
         DraftField.SLOWEST -> R.string.field_slowest
         DraftField.PLANNER -> R.string.field_planner

@@ -15,12 +15,13 @@ import stillwater.app.screen.ScreenHost
 import stillwater.app.screen.ScreenName
 import stillwater.app.screen.TextField
 import stillwater.app.screen.below
-import stillwater.app.screen.column
 import stillwater.app.screen.heading
 import stillwater.app.screen.largeButton
 import stillwater.app.screen.liveLine
+import stillwater.app.screen.perSecond
 import stillwater.app.screen.row
 import stillwater.app.screen.say
+import stillwater.app.screen.scrolling
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.DraftField
 import stillwater.mission.EstimatorName
@@ -51,46 +52,22 @@ internal class SetupScreen(
     }
     private val area = AreaField()
     private val quantity =
-        choice(R.string.field_quantity, Quantity.entries, Quantity::words) { picked ->
-            desk.change { it.measuring(picked) }
-        }
+        choice(R.string.field_quantity, Quantity.entries, Quantity::words) { measuring(it) }
     private val estimator =
-        choice(R.string.field_estimator, EstimatorName.entries, EstimatorName::words) { picked ->
-            desk.change { it.copy(estimator = picked) }
-        }
+        choice(R.string.field_estimator, EstimatorName.entries, EstimatorName::words) { copy(estimator = it) }
     private val planner =
-        choice(R.string.field_planner, PlannerName.entries, PlannerName::words) { picked ->
-            desk.change { it.copy(planner = picked) }
-        }
-    private val unit =
-        choice(R.string.field_budget_unit, listOf(false, true), ::unitWords) { picked ->
-            desk.change { it.copy(isTimed = picked) }
-        }
-    private val onBattery =
-        choice(R.string.field_on_battery, FailsafeSpec.entries, FailsafeSpec::words) { picked ->
-            desk.change { it.copy(onBattery = picked) }
-        }
-    private val onFence =
-        choice(R.string.field_on_fence, FailsafeSpec.entries, FailsafeSpec::words) { picked ->
-            desk.change { it.copy(onFence = picked) }
-        }
-    private val atEnd =
-        choice(R.string.field_at_end, FailsafeSpec.entries, FailsafeSpec::words) { picked ->
-            desk.change { it.copy(atEnd = picked) }
-        }
-    private val rearms =
-        choice(R.string.field_rearms, listOf(true, false), ::rearmWords) { picked ->
-            desk.change { it.copy(rearms = picked) }
-        }
+        choice(R.string.field_planner, PlannerName.entries, PlannerName::words) { copy(planner = it) }
+    private val unit = choice(R.string.field_budget_unit, listOf(false, true), ::unitWords) { copy(isTimed = it) }
+    private val onBattery = failsafe(R.string.field_on_battery) { copy(onBattery = it) }
+    private val onFence = failsafe(R.string.field_on_fence) { copy(onFence = it) }
+    private val atEnd = failsafe(R.string.field_at_end) { copy(atEnd = it) }
+    private val rearms = choice(R.string.field_rearms, listOf(true, false), ::rearmWords) { copy(rearms = it) }
     private val toMend = context.liveLine().apply { setTextColor(context.getColor(R.color.bad)) }
     private val use: Button = context.largeButton(context.getString(R.string.use_mission), ::use).apply {
         id = R.id.use_mission
     }
 
-    override val view: ScrollView = ScrollView(context).apply {
-        id = R.id.setup
-        addView(form())
-    }
+    override val view: ScrollView = context.scrolling { form() }.apply { id = R.id.setup }
 
     override fun opened() = refresh()
 
@@ -141,9 +118,7 @@ internal class SetupScreen(
         }
     }
 
-    private fun form(): LinearLayout = context.column().apply {
-        val gap = resources.getDimensionPixelSize(R.dimen.gap)
-        setPadding(gap, 0, gap, gap)
+    private fun LinearLayout.form() {
         below(
             context.row(
                 documentButton(R.string.load_mission, R.id.load_mission) { host.choose(OPEN, DocumentPurpose.MISSION) },
@@ -155,7 +130,8 @@ internal class SetupScreen(
         part(R.string.field_area, area, numbers.getValue(DraftField.CELL))
         part(R.string.part_probe, quantity)
         numbers(DraftField.LOWEST, DraftField.HIGHEST, DraftField.SLOWEST, DraftField.LATENCY)
-        numbers(DraftField.LARGEST_JUMP, DraftField.PORT)
+        numbers(DraftField.PORT, DraftField.LARGEST_JUMP, DraftField.STUCK_AFTER)
+        numbers(DraftField.SMALLEST_SLOPE, DraftField.READING_ERROR)
         below(documentButton(R.string.load_probe, R.id.load_probe) { host.choose(OPEN, DocumentPurpose.PROBE) })
         part(R.string.part_method, estimator, planner)
         part(R.string.part_budget, unit)
@@ -181,12 +157,25 @@ internal class SetupScreen(
     private fun documentButton(words: Int, id: Int, action: () -> Unit): Button =
         context.largeButton(context.getString(words), action).also { it.id = id }
 
-    private fun <T> choice(name: Int, options: List<T>, words: (T) -> Int, onChoice: (T) -> Unit): ChoiceField<T> =
-        ChoiceField(context, context.getString(name), options.map { it to context.getString(words(it)) }, onChoice)
+    /** One of [options] to choose, which makes of the draft what [change] does. */
+    private fun <T> choice(
+        name: Int,
+        options: List<T>,
+        words: (T) -> Int,
+        change: MissionDraft.(T) -> MissionDraft,
+    ): ChoiceField<T> =
+        ChoiceField(context, context.getString(name), options.map { it to context.getString(words(it)) }) { picked ->
+            desk.change { it.change(picked) }
+        }
+
+    private fun failsafe(name: Int, change: MissionDraft.(FailsafeSpec) -> MissionDraft) =
+        choice(name, FailsafeSpec.entries, FailsafeSpec::words, change)
 
     private fun unitOf(field: DraftField, draft: MissionDraft): String =
         when (field) {
-            DraftField.LOWEST, DraftField.HIGHEST, DraftField.LARGEST_JUMP -> draft.quantity.unit
+            DraftField.LOWEST, DraftField.HIGHEST, DraftField.LARGEST_JUMP, DraftField.READING_ERROR ->
+                draft.quantity.unit
+            DraftField.SMALLEST_SLOPE -> context.perSecond(draft.quantity.unit)
             DraftField.BUDGET -> context.getString(if (draft.isTimed) R.string.unit_seconds else R.string.unit_metres)
             else -> field.unit
         }

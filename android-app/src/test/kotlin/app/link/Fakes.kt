@@ -97,7 +97,8 @@ internal fun <T : Any> eventually(message: String, what: () -> T?): T {
     val end = System.nanoTime() + TimeUnit.SECONDS.toNanos(PATIENCE_SECONDS)
     while (System.nanoTime() < end) {
         what()?.let { return it }
-        Thread.onSpinWait()
+        // To those that are waited for, where there are fewer processors than threads.
+        Thread.yield()
     }
     throw AssertionError("not within $PATIENCE_SECONDS s: $message")
 }

@@ -5,6 +5,12 @@ import org.junit.Test
 import org.junit.rules.TemporaryFolder
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
+import stillwater.estimate.AveragingFilter
+import stillwater.model.BoatTime
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.model.Position
+import stillwater.model.Reading
 import java.io.File
 import java.io.IOException
 import kotlin.test.assertEquals
@@ -92,6 +98,23 @@ class LogFileTest {
         val full = File("/dev/full")
         org.junit.Assume.assumeTrue("no $full here", full.exists())
         assertFailsWith<IOException> { FileOutput(full).append("line\n".toByteArray()) }
+    }
+
+    /** However long the log was: the way stays whole and becomes coarser, of the readings the last ones stay. */
+    @Test
+    fun trackAndTraceAreOfAFixedSize() {
+        val track = Track()
+        val way = List(50_000) { Position(it.toDouble(), 0.0) }
+        way.forEach(track::add)
+        val kept = track.places()
+        assertTrue(kept.size in 2_000..4_000, "${kept.size}")
+        assertEquals(way.first(), kept.first())
+        assertTrue(kept.last().distanceTo(way.last()) <= kept[1].distanceTo(kept[0]))
+        val trace = Trace()
+        val map = AveragingFilter(Grid(Position(0.0, 0.0), 1, 1, 10.0), Interval(0.0, 9.0)).map
+        repeat(5_000) { trace.take(Reading(BoatTime(it.toDouble()), Position(5.0, 5.0), 1.0), map) }
+        assertEquals(600, trace.points().size)
+        assertEquals(4_999.0, trace.points().last().seconds)
     }
 
     @Test

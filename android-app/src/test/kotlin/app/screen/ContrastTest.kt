@@ -1,19 +1,20 @@
 package stillwater.app.screen
 
 import android.graphics.Color
+import kotlin.test.assertTrue
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.annotation.Config
 import stillwater.app.R
-import kotlin.test.assertTrue
 
-/** Text that is read in the sun: 7 to 1, the "enhanced" contrast of WCAG 2.1, section 1.4.6. */
+/** Text, and lines on the map, that are read in the sun: 7 to 1, the "enhanced" contrast of WCAG 2.1, section 1.4.6. */
 @RunWith(RobolectricTestRunner::class)
 class ContrastTest {
     private val pairs =
-        listOf(R.color.text, R.color.quiet_text, R.color.good, R.color.bad, R.color.plan).map { it to R.color.ground } +
+        listOf(R.color.text, R.color.quiet_text, R.color.good, R.color.bad).map { it to R.color.ground } +
+            listOf(R.color.plan, R.color.fence, R.color.track, R.color.boat).map { it to R.color.ground } +
             listOf(R.color.stop_text to R.color.stop, R.color.text to R.color.button) +
             listOf(R.color.ground to R.color.text, R.color.text to R.color.band)
 

@@ -5,9 +5,13 @@ import android.content.ComponentName
 import android.os.BatteryManager
 import android.os.Looper
 import android.os.PowerManager
+import android.os.StrictMode
 import android.view.View
 import android.widget.TextView
+import java.time.Duration
+import kotlin.test.assertTrue
 import org.junit.After
+import org.junit.Before
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
@@ -21,9 +25,6 @@ import stillwater.app.service.Preflight
 import stillwater.app.service.ServiceDesk
 import stillwater.mission.MissionDraft
 import stillwater.mission.MissionSpec
-import java.time.Duration
-import java.util.concurrent.Executor
-import kotlin.test.assertTrue
 
 /** Someone without a boat tries the app: from the first look to the end of a mission, with the service that it has. */
 @RunWith(RobolectricTestRunner::class)
@@ -32,8 +33,16 @@ class DemoTest {
     private val context: Application = RuntimeEnvironment.getApplication()
     private val service = Robolectric.buildService(BoatService::class.java)
 
+    /** Whoever waits for the disk or the link on the main thread falls over; see StrictModeTest for what is seen. */
+    @Before
+    fun nothingWaitsOnTheMainThread() {
+        Background.executor = AnotherThread
+        StrictMode.setThreadPolicy(STRICT)
+    }
+
     @After
     fun end() {
+        StrictMode.setThreadPolicy(StrictMode.ThreadPolicy.LAX)
         val threads = listOf(service.get().boatLooper.thread, service.get().diskLooper.thread)
         service.destroy()
         threads.forEach { it.join() }
@@ -41,7 +50,6 @@ class DemoTest {
 
     @Test
     fun theDemoGoesFromTheMenuToAMeasuredMap() {
-        Background.executor = Executor { it.run() }
         Preflight.neededPermissions().forEach { shadowOf(context).grantPermissions(it) }
         shadowOf(checkNotNull(context.getSystemService(PowerManager::class.java)))
             .setIgnoringBatteryOptimizations(context.packageName, true)

@@ -6,6 +6,15 @@ import android.content.Intent
 import android.net.Uri
 import android.view.View
 import android.widget.Button
+import java.io.ByteArrayOutputStream
+import java.io.File
+import java.io.IOException
+import java.io.OutputStream
+import java.util.concurrent.Executor
+import kotlin.test.assertContentEquals
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
@@ -26,15 +35,6 @@ import stillwater.model.BoatTime
 import stillwater.model.Position
 import stillwater.model.Reading
 import stillwater.wire.Message
-import java.io.ByteArrayOutputStream
-import java.io.File
-import java.io.IOException
-import java.io.OutputStream
-import java.util.concurrent.Executor
-import kotlin.test.assertContentEquals
-import kotlin.test.assertEquals
-import kotlin.test.assertFalse
-import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
 class DocumentsTest {
@@ -65,7 +65,7 @@ class DocumentsTest {
         val past = listOf(PastMission(NAME, log.length(), isComplete = false, epochMillis = 1_784_000_000_000))
         window.boat.snapshot = Scenes.standingBy.copy(past = past)
         activity.show(window.boat.snapshot)
-        activity.shown().filterIsInstance<Button>().single { "CUT OFF" in it.text }.performClick()
+        activity.shown().filterIsInstance<Button>().single { "CUT\u00A0OFF" in it.text }.performClick()
     }
 
     /** Presses [words] and answers Android's question with [answer]; null is a change of mind. */
@@ -148,7 +148,7 @@ class DocumentsTest {
         assertTrue("Delete the log and all that was measured?" in activity.wordsShown())
         activity.button("Keep it").performClick()
         assertTrue(log.isFile)
-        activity.button("Close it as it is").performClick()
+        activity.button("Mark as finished").performClick()
         window.settle()
         val closed = BoatService.logOf(context, NAME.removeSuffix(".incomplete"))
         assertTrue(closed.isFile && !log.isFile)
@@ -185,7 +185,7 @@ class DocumentsTest {
         activity.shown().filterIsInstance<Button>().single { "in use" in it.text }.performClick()
         val words = activity.wordsShown()
         assertTrue("Log" in words)
-        assertTrue("Delete" !in words && "Close it as it is" !in words, "$words")
+        assertTrue("Delete" !in words && "Mark as finished" !in words, "$words")
     }
 
     @Test

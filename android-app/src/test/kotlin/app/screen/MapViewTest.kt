@@ -1,22 +1,28 @@
 package stillwater.app.screen
 
+import android.graphics.Bitmap
+import android.graphics.Canvas
+import android.graphics.Color
 import android.os.Parcelable
 import android.util.SparseArray
 import android.view.MotionEvent
 import android.view.View
+import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.annotation.Config
+import stillwater.field.FieldMap
+import stillwater.model.Grid
+import stillwater.model.Interval
 import stillwater.model.Position
-import kotlin.test.assertEquals
-import kotlin.test.assertNotNull
-import kotlin.test.assertNull
-import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
-@Config(sdk = [26, 35])
+@Config(sdk = [35])
 class MapViewTest {
     private val map = mapView()
 
@@ -35,6 +41,29 @@ class MapViewTest {
         val unmeasured = field.grid.center(field.grid.size - 1)
         assertEquals("Not measured; between 4.000 and 12.000 mg/L", map.tap(unmeasured))
         assertNull(map.tap(Position(-500.0, 0.0)), "no cell there")
+    }
+
+    /** Two cells of one value: the one that is known less of is nearer to the ground's colour. */
+    @Test
+    fun whatIsLessCertainIsFainter() {
+        val grid = Grid(Position(0.0, 0.0), 3, 1, 10.0)
+        val field = FieldMap(grid, Interval(0.0, 10.0))
+        for ((cell, value) in listOf(0 to 8.0, 1 to 2.0, 2 to 2.0)) {
+            field.countVisit(cell)
+            field.countReading(cell)
+            field.setValue(cell, value)
+        }
+        field.setBounds(1, 1.9, 2.1)
+        map.scene = MapScene(map = field)
+        val drawn = Bitmap.createBitmap(map.width, map.height, Bitmap.Config.ARGB_8888)
+        drawn.eraseColor(Color.WHITE)
+        map.draw(Canvas(drawn))
+        val projection = assertNotNull(map.projection())
+        val (certain, vague) = listOf(1, 2).map { cell ->
+            val at = grid.center(cell)
+            Color.luminance(drawn.getPixel(projection.x(at).toInt(), projection.y(at).toInt()))
+        }
+        assertTrue(vague > certain + 0.1f, "$certain, $vague")
     }
 
     @Test

@@ -1,5 +1,7 @@
 package stillwater.app.screen
 
+import kotlin.math.exp
+import kotlin.math.hypot
 import stillwater.app.link.BoardReport
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
@@ -35,15 +37,13 @@ import stillwater.model.LatLon
 import stillwater.model.Position
 import stillwater.sensor.FirstOrderLag
 import stillwater.wire.BoardState
-import kotlin.math.exp
-import kotlin.math.hypot
 
 /** What the screens' tests and pictures show: a pond of 100 m by 60 m, half surveyed by a boat with a slow probe. */
 internal object Scenes {
     private val shore =
         listOf(0 to -4, 60 to -9, 108 to 0, 112 to 40, 84 to 66, 30 to 69, -8 to 50, -10 to 12)
             .map { (x, y) -> place(x, y) }
-    private val island = listOf(60 to 50, 72 to 48, 75 to 57, 64 to 60).map { (x, y) -> place(x, y) }
+    private val island = listOf(60 to 51, 71 to 50, 74 to 58, 64 to 60).map { (x, y) -> place(x, y) }
 
     val spec =
         MissionSpec(
@@ -57,6 +57,10 @@ internal object Scenes {
             home = place(2, 3),
         )
     private val grid = spec.grid.grid()
+
+    /** The last lane, shortened by the shore. */
+    private val aroundTheIsland =
+        listOf(87.5 to 57.5, 80.0 to 62.5, 56.0 to 62.5, 50.0 to 57.5, 12.5 to 57.5).map { (x, y) -> Position(x, y) }
     private val trace = ArrayList<TracePoint>()
     private val track = ArrayList<Position>()
     private val map: FieldMap = surveyed()
@@ -126,7 +130,7 @@ internal object Scenes {
             map = map,
             position = track.last(),
             track = track,
-            plan = lane(ROWS_DONE).reversed() + lane(ROWS_DONE + 2) + lane(ROWS_DONE + 4).reversed(),
+            plan = lane(ROWS_DONE).reversed() + lane(ROWS_DONE + 2) + aroundTheIsland,
             used = if (state == MissionState.Idle && !isRecovered) 0.0 else 662.0,
             trace = trace.takeLast(TRACE),
             counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 0, 7, 3),

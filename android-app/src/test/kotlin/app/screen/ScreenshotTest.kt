@@ -6,6 +6,9 @@ import android.graphics.Canvas
 import android.graphics.Color
 import android.view.View
 import android.widget.Button
+import java.io.File
+import java.util.TimeZone
+import kotlin.math.abs
 import org.junit.Assert.assertTrue
 import org.junit.Before
 import org.junit.Test
@@ -16,9 +19,6 @@ import org.robolectric.annotation.GraphicsMode
 import stillwater.app.R
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.MissionDraft
-import java.io.File
-import java.util.TimeZone
-import kotlin.math.abs
 
 /**
  * The pictures in docs/screenshots are what the app draws. A difference fails and leaves the new picture in
@@ -105,40 +105,33 @@ class ScreenshotTest {
     @Config(qualifiers = SMALL, fontScale = LARGE)
     fun smallPast() = compare("small-past", pastScreen())
 
-    private fun screen(name: ScreenName, snapshot: BoatSnapshot): View {
-        val window = Window()
-        if (name != ScreenName.MAP) window.activity.go(name)
-        window.settle()
-        window.activity.show(snapshot)
-        return window.activity.window.decorView
-    }
+    /** [name], opened by the menu and filled by [before], with [snapshot] to show. */
+    private fun screen(name: ScreenName, snapshot: BoatSnapshot, before: Window.() -> Unit = {}): Window =
+        Window().apply {
+            if (name != ScreenName.MAP) activity.go(name)
+            before()
+            settle()
+            activity.show(snapshot)
+        }
 
-    private fun mapScreen(): View {
-        val view = screen(ScreenName.MAP, Scenes.surveying)
-        checkNotNull(view.findViewById<MapView>(R.id.map)).tap(Scenes.spec.grid.grid().center(TAPPED))
-        return view
-    }
+    private fun mapScreen() =
+        screen(ScreenName.MAP, Scenes.surveying).apply {
+            activity.view<MapView>(R.id.map).tap(Scenes.spec.grid.grid().center(TAPPED))
+        }
 
-    private fun areaScreen(): View {
-        val window = Window()
-        window.activity.desk.change { MissionDraft.of(Scenes.spec) }
-        window.activity.go(ScreenName.MISSION)
-        window.activity.view<View>(R.id.draw_area).performClick()
-        window.settle()
-        window.activity.show(Scenes.standingBy)
-        return window.activity.window.decorView
-    }
+    private fun areaScreen() =
+        screen(ScreenName.MISSION, Scenes.standingBy) {
+            activity.desk.change { MissionDraft.of(Scenes.spec) }
+            activity.view<View>(R.id.draw_area).performClick()
+        }
 
-    private fun pastScreen(): View {
-        val snapshot = Scenes.standingBy.copy(past = Scenes.past)
-        val window = Window()
-        window.activity.go(ScreenName.PAST)
-        window.activity.show(snapshot)
-        window.activity.shown().filterIsInstance<Button>().first { "CUT OFF" in it.text }.performClick()
-        return window.activity.window.decorView
-    }
+    private fun pastScreen() =
+        screen(ScreenName.PAST, Scenes.standingBy.copy(past = Scenes.past)).apply {
+            activity.shown().filterIsInstance<Button>().first { "CUT\u00A0OFF" in it.text }.performClick()
+        }
 
-    private fun compare(name: String, view: View) {
+    private fun compare(name: String, window: Window) {
+        val view = window.activity.window.decorView
         val size = view.context.resources.displayMetrics
         view.measure(exactly(size.widthPixels), exactly(size.heightPixels))
         view.layout(0, 0, size.widthPixels, size.heightPixels)

@@ -31,5 +31,5 @@ internal fun Activity.button(words: String): Button =
 /** Opens [name] by the menu, as a person does. */
 internal fun MainActivity.go(name: ScreenName) {
     view<View>(stillwater.app.R.id.menu).performClick()
-    if (name != ScreenName.MENU) button(getString(name.title)).performClick()
+    if (name != ScreenName.MENU) shown().single { it.tag == name }.performClick()
 }

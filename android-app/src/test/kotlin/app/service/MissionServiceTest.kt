@@ -3,28 +3,6 @@ package stillwater.app.service
 import android.app.Application
 import android.app.NotificationManager
 import android.os.Looper
-import org.junit.After
-import org.junit.Before
-import org.junit.Test
-import org.junit.runner.RunWith
-import org.robolectric.RobolectricTestRunner
-import org.robolectric.RuntimeEnvironment
-import org.robolectric.Shadows.shadowOf
-import org.robolectric.annotation.Config
-import org.robolectric.shadows.ShadowSystemClock
-import stillwater.app.link.BoardLink
-import stillwater.app.link.LinkChoice
-import stillwater.app.link.LinkMaker
-import stillwater.app.mission.FileOutput
-import stillwater.app.mission.LogFolder
-import stillwater.app.mission.LogOpener
-import stillwater.app.mission.LogOutput
-import stillwater.control.Danger
-import stillwater.mission.MissionRecovery
-import stillwater.mission.MissionState
-import stillwater.mission.RecoveredMission
-import stillwater.mission.StopReason
-import stillwater.model.LatLon
 import java.io.File
 import java.io.IOException
 import java.time.Duration
@@ -33,6 +11,31 @@ import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
+import org.junit.After
+import org.junit.Before
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
+import org.robolectric.Shadows.shadowOf
+import org.robolectric.annotation.Config
+import org.robolectric.shadows.ShadowNotification
+import org.robolectric.shadows.ShadowSystemClock
+import stillwater.app.link.BoardLink
+import stillwater.app.link.LinkChoice
+import stillwater.app.link.LinkMaker
+import stillwater.app.mission.FileOutput
+import stillwater.app.mission.LogFolder
+import stillwater.app.mission.LogOpener
+import stillwater.app.mission.LogOutput
+import stillwater.app.mission.MissionReport
+import stillwater.app.screen.stateWords
+import stillwater.control.Danger
+import stillwater.mission.MissionRecovery
+import stillwater.mission.MissionState
+import stillwater.mission.RecoveredMission
+import stillwater.mission.StopReason
+import stillwater.model.LatLon
 
 /** What a person and bad luck do to a mission; the phone's side of it. */
 @RunWith(RobolectricTestRunner::class)
@@ -81,6 +84,23 @@ class MissionServiceTest {
     }
 
     @Test
+    fun whenTheBudgetIsSpentItGoesHomeAndSaysSo() {
+        desk.ask { load(ServiceDesk.POND.replace("\"seconds\":200", "\"seconds\":60")) }
+        survey()
+        val returning = MissionState.Returning(Danger.BUDGET_SPENT)
+        assertTrue(desk.until(70.0) { it.mission?.state == returning }, "${desk.state}")
+        val words = "Going home: budget spent but for the way home"
+        assertEquals(words, context.stateWords(desk.snapshot).lines().first())
+        assertEquals(words, notification().contentTitle)
+        assertTrue(desk.until(60.0) { it.mission?.state == MissionState.Stopped(StopReason.COMPLETED) })
+        assertEquals("Stopped: done", context.stateWords(desk.snapshot).lines().first())
+        assertTrue(desk.until(10.0) { it.mission?.isOver == true })
+        desk.pass(1.0)
+        assertTrue(desk.report.used <= desk.report.budget, "${desk.report.used} s of ${desk.report.budget} s")
+        assertEquals("standby", desk.snapshot.board.state?.word)
+    }
+
+    @Test
     fun whatIsNoMissionIsToldAndTheOneBeforeStays() {
         desk.ask { load("""{"name":"pond"}""") }
         val answer = assertNotNull(desk.snapshot.answer)
@@ -118,7 +138,7 @@ class MissionServiceTest {
         assertTrue(desk.until(3.0) { it.mission?.state == MissionState.Returning(Danger.LOG_LOST) }, "${desk.state}")
         desk.pass(0.5)
         assertEquals("No space left on device", desk.report.log?.problem)
-        assertEquals("Boat 3: connected. LOG NOT WRITTEN: No space left on device", notificationText())
+        assertEquals("Boat 3: connected. LOG NOT WRITTEN: No space left on device", notification().contentText)
         assertTrue(desk.until(120.0) { it.mission?.state == MissionState.Stopped(StopReason.LOG_LOST) })
         desk.pass(6.0)
         assertEquals(before, logs().single().readText(), "what was written is as it was")
@@ -139,6 +159,7 @@ class MissionServiceTest {
         assertTrue(file.name.endsWith(LogFolder.INCOMPLETE))
         // As it was on the disk when the process was killed: nobody closed anything, and a line is cut.
         val left = file.readText().dropLast(20)
+        val before = desk.report
         desk.end()
         file.writeText(left)
         val told = desk.told.length
@@ -150,6 +171,8 @@ class MissionServiceTest {
         val logged = read(file)
         assertTrue(logged.readings > 30)
         sameMap(logged)
+        sameWay(before, desk.report)
+        val recovered = desk.report
         assertTrue(DISARM in desk.told.substring(told), "disarmed")
         assertFalse("arm\"" in desk.told.substring(told).replace(DISARM, ""), "and not armed")
         assertTrue(desk.boat.board.actuation.isAtRest)
@@ -158,6 +181,9 @@ class MissionServiceTest {
         assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying })
         desk.pass(20.0)
         assertEquals(listOf(file.name), logs().map { it.name }, "the same log goes on")
+        assertEquals(recovered.trace, desk.report.trace.take(recovered.trace.size))
+        assertEquals(recovered.track, desk.report.track.take(recovered.track.size))
+        assertTrue(desk.report.trace.size > recovered.trace.size && desk.report.track.size > recovered.track.size)
         desk.ask { stop() }
         assertTrue(desk.until(10.0) { it.mission?.isOver == true })
         desk.pass(1.0)
@@ -295,6 +321,15 @@ class MissionServiceTest {
     private fun read(file: File): RecoveredMission =
         assertNotNull(MissionRecovery().apply { file.forEachLine { line(it) } }.recovered())
 
+    /** What was shown before the process died is shown after it, but for what was not on the disk yet: a second. */
+    private fun sameWay(before: MissionReport, after: MissionReport) {
+        assertEquals(before.trace.take(after.trace.size), after.trace)
+        assertTrue(after.trace.size >= before.trace.size - 2, "${after.trace.size} of ${before.trace.size}")
+        assertTrue(after.track.size > 10 && after.track.size >= before.track.size - 4)
+        val off = before.track.zip(after.track).maxOf { (a, b) -> a.distanceTo(b) }
+        assertEquals(0.0, off, 1e-3) // m; the log has places as the boats' tools know them, by UTM
+    }
+
     private fun sameMap(logged: RecoveredMission) {
         val (ours, read) = desk.report.map to logged.estimator.map
         for (cell in 0 until ours.grid.size) {
@@ -304,9 +339,9 @@ class MissionServiceTest {
         }
     }
 
-    private fun notificationText(): CharSequence? {
+    private fun notification(): ShadowNotification {
         val manager = context.getSystemService(NotificationManager::class.java)!!
-        return shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
+        return shadowOf(shadowOf(manager).getNotification(BoatNotification.ID))
     }
 
     /** A disk that somebody fills up. */

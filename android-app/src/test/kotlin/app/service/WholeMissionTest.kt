@@ -101,18 +101,18 @@ class WholeMissionTest {
     fun bluetoothThatGoesAndComesBackInterruptsItOnly() {
         desk.start()
         desk.ask { load(ServiceDesk.POND) }
-        desk.until(10.0) { shot -> shot.preflight.all { it.ready } }
+        assertTrue(desk.until(10.0) { shot -> shot.preflight.all { it.ready } }, "${desk.snapshot.preflight}")
         desk.ask { start() }
-        assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying })
+        assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying }, "${desk.state}")
         desk.wire.cut()
-        assertTrue(desk.until(2.0) { it.mission?.state == MissionState.Holding(Danger.LINK_LOST) })
+        assertTrue(desk.until(2.0) { it.mission?.state == MissionState.Holding(Danger.LINK_LOST) }, "${desk.state}")
         desk.pass(1.0)
         assertTrue(desk.boat.board.actuation.isAtRest, "the board's own watchdog")
         val manager = context.getSystemService(NotificationManager::class.java)!!
         val text = shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
         assertEquals("Boat 3: LINK LOST, trying again", text)
         desk.wire.mend()
-        assertTrue(desk.until(5.0) { it.mission?.state == MissionState.Surveying })
+        assertTrue(desk.until(5.0) { it.mission?.state == MissionState.Surveying }, "${desk.state}")
         assertEquals(1L, desk.snapshot.link.drops)
     }
 }

@@ -4,11 +4,14 @@ import android.os.Bundle
 import android.view.View
 import android.widget.Button
 import android.widget.EditText
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
-import org.robolectric.annotation.Config
 import stillwater.app.R
 import stillwater.app.screen.MainActivity
 import stillwater.app.screen.Scenes
@@ -25,10 +28,6 @@ import stillwater.mission.MissionSpec
 import stillwater.mission.PlannerName
 import stillwater.model.LatLon
 import stillwater.model.Position
-import kotlin.test.assertEquals
-import kotlin.test.assertFalse
-import kotlin.test.assertNotNull
-import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
 class SetupTest {
@@ -176,7 +175,6 @@ class SetupTest {
     }
 
     @Test
-    @Config(sdk = [26, 35])
     fun aTurnOfThePhoneKeepsAHalfDrawnAreaAndWhatWasTyped() {
         openArea()
         standAt(45.33, -73.15)

@@ -1,0 +1,58 @@
+package stillwater.app.screen
+
+import android.view.View
+import android.widget.TextView
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+import org.junit.Test
+import org.junit.runner.RunWith
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.Shadows.shadowOf
+import stillwater.app.R
+import stillwater.app.link.LinkChoice
+import stillwater.app.service.BoatService
+import stillwater.app.service.BoatSnapshot
+import stillwater.app.service.Gaps
+
+@RunWith(RobolectricTestRunner::class)
+class LinkScreenTest {
+    private val window = Window()
+    private val activity = window.activity.apply { go(ScreenName.LINK) }
+
+    @Test
+    fun whatWasDroppedLostAndRefusedIsCountedOnTheScreen() {
+        activity.show(Scenes.surveying.copy(gaps = Gaps(2, 31.0)))
+        val words = activity.wordsShown()
+        for (line in listOf(
+            "Connections: 2; lost: 1; failed: 3",
+            "0 bytes and 4 commands dropped",
+            "Last error: read failed, socket might closed",
+            "5210 lines, 3 not understood, 0 commands refused",
+            "812 positions; 2 jumps, 1 too wide, 0 refused",
+            "The phone slept 2 times, 31.0 s at most",
+            "1412 received, 1400 taken, 0 waiting",
+            "Refused: 2 out of range, 3 unconfirmed jumps, 7 without a place, 0 of a stuck probe",
+            "9113 lines, 9110 on the disk, 0 lost",
+        )) {
+            assertTrue(line in words, "$line: $words")
+        }
+        val bad = activity.shown().filterIsInstance<TextView>().filter { "slept" in it.text }
+        assertEquals(activity.getColor(R.color.bad), bad.single().currentTextColor)
+    }
+
+    @Test
+    fun anotherLinkIsOnePressAwayAndInSightWhereThereIsNone() {
+        activity.show(BoatSnapshot())
+        val demo = "Connect to Demo: virtual boat"
+        activity.button(demo)
+        activity.show(Scenes.surveying)
+        assertTrue(demo !in activity.wordsShown(), "counters come first on the water")
+        activity.button("Another link ▾").performClick()
+        activity.show(Scenes.surveying)
+        activity.button(demo).performClick()
+        val sent = generateSequence { shadowOf(activity.application).nextStartedService }.last()
+        assertEquals(LinkChoice.Demo, LinkChoice.of(sent))
+        assertEquals(BoatService::class.java.name, sent.component?.className)
+        assertTrue(activity.view<View>(R.id.stop).isShown)
+    }
+}
