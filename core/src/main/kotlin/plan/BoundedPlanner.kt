@@ -4,7 +4,6 @@ import stillwater.field.FieldMap
 import stillwater.model.Grid
 import stillwater.model.Plan
 import stillwater.model.Position
-import kotlin.math.abs
 import kotlin.random.Random
 
 /** How much of the chosen path the boat runs before it plans again. */
@@ -99,14 +98,10 @@ public class BoundedPlanner(
     random: Random,
     public val settings: BoundedPlannerSettings = BoundedPlannerSettings(),
 ) : Planner {
-    private val tree =
-        SearchTree(capacity = minOf(MOST_CHILDREN.toLong() * settings.expansions + 1, MAX_INITIAL_NODES).toInt())
-    private val path = IntArray(minOf(settings.horizon, settings.expansions))
-
-    /** The node with the highest value, of equal ones the first; [ROOT] when none has any. */
-    private var best = ROOT
-    private val neighbours =
-        NeighbourOrder(random, if (settings.neighbours == Neighbours.EDGE) EDGES else MOST_CHILDREN)
+    private val tree = BoundedTree(
+        settings,
+        NeighbourOrder(random, if (settings.neighbours == Neighbours.EDGE) EDGES else NeighbourOrder.ALL),
+    )
 
     override fun plan(
         map: FieldMap,
@@ -119,9 +114,7 @@ public class BoundedPlanner(
         val start = map.grid.cellAt(from)
         if (start == Grid.OUTSIDE) return PlanOutcome.OffMap
         val sensor = if (sensorValue.isFinite()) sensorValue else midpoint(map, start)
-        tree.clear(map.grid.size)
-        best = ROOT
-        tree.add(start, parent = -1, value = 0.0, sensor = sensor, priority = 0.0, queued = true)
+        tree.begin(map, start, sensor)
         var lastPolled = ROOT
         var polls = 0
         var stopped = false
@@ -130,52 +123,15 @@ public class BoundedPlanner(
             if (stopped) break
             val node = tree.poll()
             if (tree.value(node) > 0) lastPolled = node
-            if (tree.depth(node) < settings.horizon) expand(map, node)
+            tree.expand(node)
             polls++
         }
-        val chosen = if (settings.choice == PathChoice.BEST) best else lastPolled
-        if (chosen == ROOT) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
-        write(map.grid, chosen, plan)
+        val isBest = settings.choice == PathChoice.BEST
+        val found = if (isBest) tree.hasBest else lastPolled != ROOT
+        if (!found) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
+        if (isBest) tree.writeBest(plan) else tree.write(lastPolled, plan)
         if (settings.execution == Execution.SINGLE_STEP) plan.truncate(1)
         return PlanOutcome.Planned
-    }
-
-    private fun expand(map: FieldMap, node: Int) {
-        if (settings.discountVisits) tree.walk(node)
-        val value = tree.value(node)
-        val sensor = tree.sensor(node)
-        val depth = tree.depth(node) + 1
-        // A node at the horizon can't be expanded; polling it matters only to the original's choice.
-        val queued = depth < settings.horizon || settings.choice == PathChoice.LAST_POLLED
-        neighbours.forEach(map.grid, tree.cell(node)) { cell ->
-            val middle = midpoint(map, cell)
-            val promise = map.upper(cell) - map.lower(cell) - abs(middle - sensor)
-            var gain = if (promise > 0) promise else 0.0
-            if (settings.discountVisits) gain /= 1 + tree.visitsOnPath(cell)
-            enter(node, cell, value + gain, towards(sensor, middle), depth, queued)
-        }
-    }
-
-    private fun towards(sensor: Double, middle: Double) =
-        sensor + (middle - sensor).coerceIn(-settings.maxChange, settings.maxChange)
-
-    /** What is not queued and not the best so far will never be looked at again. */
-    private fun enter(from: Int, cell: Int, value: Double, sensor: Double, depth: Int, queued: Boolean) {
-        val isBest = value > tree.value(best)
-        if (!queued && !isBest) return
-        if (isBest) best = tree.size
-        val priority = if (settings.priority == Priority.VALUE) value else value / depth
-        tree.add(cell, from, value, sensor, priority, queued)
-    }
-
-    private fun write(grid: Grid, node: Int, plan: Plan) {
-        val length = tree.depth(node)
-        var at = node
-        for (place in length - 1 downTo 0) {
-            path[place] = tree.cell(at)
-            at = tree.parent(at)
-        }
-        for (place in 0 until length) plan.add(grid.centerX(path[place]), grid.centerY(path[place]))
     }
 
     private fun midpoint(map: FieldMap, cell: Int) = map.lower(cell) / 2 + map.upper(cell) / 2
@@ -183,7 +139,5 @@ public class BoundedPlanner(
     private companion object {
         const val ROOT = 0
         const val EDGES = 4
-        const val MOST_CHILDREN = 8
-        const val MAX_INITIAL_NODES = 1L shl 16
     }
 }

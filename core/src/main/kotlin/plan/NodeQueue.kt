@@ -15,9 +15,8 @@ package stillwater.plan
 internal class NodeQueue(capacity: Int) {
     private var priorities = DoubleArray(capacity)
 
-    /** First child of a node, and the next child of its parent. */
-    private var children = IntArray(capacity)
-    private var siblings = IntArray(capacity)
+    /** First child of a node, and in the place after it the next child of its parent. */
+    private var links = IntArray(2 * capacity)
 
     /** The best node of each bucket that its bit says to hold any; a bit of [groups] stands for a word of [filled]. */
     private val heads = IntArray(BUCKETS)
@@ -41,38 +40,46 @@ internal class NodeQueue(capacity: Int) {
     fun push(node: Int, priority: Double) {
         if (node >= priorities.size) grow(node)
         priorities[node] = priority
-        siblings[node] = NONE
+        links[2 * node + 1] = NONE
         val bucket = bucketOf(priority)
         val word = bucket / WORD
         val bit = 1L shl bucket
         if (filled[word] and bit == 0L) {
             filled[word] = filled[word] or bit
             groups = groups or (1L shl word)
-            children[node] = NONE
+            links[2 * node] = NONE
             heads[bucket] = node
             return
         }
         val head = heads[bucket]
         // Of equal priorities the newer one goes first.
         if (priorities[head] > priority) {
-            children[node] = NONE
-            siblings[node] = children[head]
-            children[head] = node
+            links[2 * node] = NONE
+            links[2 * node + 1] = links[2 * head]
+            links[2 * head] = node
         } else {
-            children[node] = head
+            links[2 * node] = head
             heads[bucket] = node
         }
     }
 
+    /** The best node, which stays. */
+    fun peek(): Int = heads[bestBucket()]
+
+    private fun bestBucket(): Int {
+        check(groups != 0L) { "nothing in an empty queue" }
+        val word = LAST_BIT - groups.countLeadingZeroBits()
+        return word * WORD + LAST_BIT - filled[word].countLeadingZeroBits()
+    }
+
     /** Takes the best node out. */
     fun poll(): Int {
-        check(groups != 0L) { "poll of an empty queue" }
-        val word = LAST_BIT - groups.countLeadingZeroBits()
-        val bucket = word * WORD + LAST_BIT - filled[word].countLeadingZeroBits()
+        val bucket = bestBucket()
+        val word = bucket / WORD
         val best = heads[bucket]
-        val child = children[best]
+        val child = links[2 * best]
         if (child != NONE) {
-            heads[bucket] = if (siblings[child] == NONE) child else merged(child)
+            heads[bucket] = if (links[2 * child + 1] == NONE) child else merged(child)
         } else {
             filled[word] = filled[word] xor (1L shl bucket)
             if (filled[word] == 0L) groups = groups xor (1L shl word)
@@ -85,26 +92,26 @@ internal class NodeQueue(capacity: Int) {
         var pairs = NONE
         var at = first
         while (at != NONE) {
-            val other = siblings[at]
+            val other = links[2 * at + 1]
             if (other == NONE) {
-                siblings[at] = pairs
+                links[2 * at + 1] = pairs
                 pairs = at
                 break
             }
-            val next = siblings[other]
+            val next = links[2 * other + 1]
             val pair = joined(at, other)
-            siblings[pair] = pairs
+            links[2 * pair + 1] = pairs
             pairs = pair
             at = next
         }
         var heap = pairs
-        at = siblings[heap]
+        at = links[2 * heap + 1]
         while (at != NONE) {
-            val next = siblings[at]
+            val next = links[2 * at + 1]
             heap = joined(heap, at)
             at = next
         }
-        siblings[heap] = NONE
+        links[2 * heap + 1] = NONE
         return heap
     }
 
@@ -113,8 +120,8 @@ internal class NodeQueue(capacity: Int) {
         val isOne = priorities[one] > priorities[other] || (priorities[one] == priorities[other] && one > other)
         val above = if (isOne) one else other
         val below = if (isOne) other else one
-        siblings[below] = children[above]
-        children[above] = below
+        links[2 * below + 1] = links[2 * above]
+        links[2 * above] = below
         return above
     }
 
@@ -129,8 +136,7 @@ internal class NodeQueue(capacity: Int) {
     private fun grow(node: Int) {
         val capacity = maxOf(2 * priorities.size, node + 1)
         priorities = priorities.copyOf(capacity)
-        children = children.copyOf(capacity)
-        siblings = siblings.copyOf(capacity)
+        links = links.copyOf(2 * capacity)
     }
 
     private companion object {
