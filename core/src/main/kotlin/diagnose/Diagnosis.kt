@@ -119,7 +119,8 @@ public class Diagnosis(
         val best = if (fits.last().score > fits[0].score + HELD) fits.last() else fits[0]
         if (settings.base == null) return best
         val free = BooleanArray(best.free.size) { it == ResponseModel.FIRST }
-        return Fitting.fit(best.model, GivenSensor(settings.base, best.model.scales).numbers(best.model), free, used, longest)
+        val numbers = GivenSensor(settings.base, best.model.scales).numbers(best.model)
+        return Fitting.fit(best.model, numbers, free, used, longest)
     }
 
     private fun base(held: Boolean, scales: Scales): ModelFit {
