@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
@@ -44,8 +45,11 @@ internal class CorrelatedNoise(
         var factor = 1.0
         for (i in times.indices) {
             val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
-            if (dt != step) factor = exp(-dt / time)
-            step = dt
+            // Even times differ by a rounding error.
+            if (!(abs(dt - step) < SAME * dt)) {
+                factor = exp(-dt / time)
+                step = dt
+            }
             variance = factor * factor * variance + share * (1 - factor * factor)
             keep[i] = factor
             if (shocks != null) {
@@ -112,6 +116,7 @@ internal class CorrelatedNoise(
 
     companion object {
         private const val SMALLEST = 1e-9
+        private const val SAME = 1e-9
         private const val TINY = 1e-290
         private val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95, 0.99)
         private val STEPS = doubleArrayOf(1.5, 4.0, 10.0, 25.0, 60.0, 150.0)

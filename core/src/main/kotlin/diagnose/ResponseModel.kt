@@ -122,9 +122,12 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             if (isGap(i, dt)) {
                 state = input[i]
             } else {
-                if (dt != lastDt || tau != lastTau) fade = exp(-dt / tau)
-                lastDt = dt
-                lastTau = tau
+                // Even times differ by a rounding error.
+                if (tau != lastTau || !(abs(dt - lastDt) < SAME * dt)) {
+                    fade = exp(-dt / tau)
+                    lastDt = dt
+                    lastTau = tau
+                }
                 // The response to a cubic is a cubic; what is off it fades.
                 val early = if (held) input[i] else spline.follower(i - 1, 0.0, tau)
                 val late = if (held) input[i] else spline.follower(i - 1, dt, tau)
@@ -152,7 +155,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val tau = p[TIME_CONSTANT]
         for (i in 0 until n) {
             val age = series.times[i] - series.times[0]
-            out[i] = p[OFFSET] + p[GAIN] * out[i] + p[FIRST] * exp(-age / tau)
+            val first = if (age < FADED * tau) p[FIRST] * exp(-age / tau) else 0.0
+            out[i] = p[OFFSET] + p[GAIN] * out[i] + first
         }
         for (term in terms) {
             val at = layout.slots.getValue(term.key)
@@ -200,6 +204,10 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e11
         private const val HARMONICS = 4
+        private const val SAME = 1e-9
+
+        /** Time constants after which nothing is left of the first state. */
+        private const val FADED = 40.0
         private const val SLOWEST = 8
     }
 }
