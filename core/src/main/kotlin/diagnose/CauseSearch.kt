@@ -32,7 +32,7 @@ internal class CauseSearch(
     private val settings: DiagnosisSettings,
 ) {
     /** Longest correlation time that counts as noise, s: slower wandering is structure. */
-    val longest: Double = maxOf(series.duration / settings.noiseShare, 3 * series.period)
+    val longest: Double = longest(series, settings)
 
     /** The numbers that [term] sets free in [fit]'s place beyond those of [before]. */
     private fun freed(model: ResponseModel, before: ModelFit, term: Term): BooleanArray {
@@ -152,11 +152,16 @@ internal class CauseSearch(
         return Fitting.fit(model, start, free, used, longest, guess = fit.noise)
     }
 
-    private companion object {
-        const val PLACES = 60
-        const val MOST_JUMPS = 3
-        const val JUMP_WORTH = 25.0
-        val LAG_CHANGES = setOf(
+    companion object {
+        private const val PLACES = 60
+        private const val MOST_JUMPS = 3
+        private const val JUMP_WORTH = 25.0
+
+        /** Longest correlation time of noise in [series], s. */
+        fun longest(series: MeasuredSeries, settings: DiagnosisSettings): Double =
+            maxOf(series.duration / settings.noiseShare, 3 * series.period)
+
+        private val LAG_CHANGES = setOf(
             Cause.ASYMMETRIC_RESPONSE,
             Cause.FLOW_DEPENDENT_RESPONSE,
             Cause.TEMPERATURE_DEPENDENT_RESPONSE,

@@ -11,6 +11,9 @@ import kotlin.math.sqrt
  * position and of the reference make. r is Σ Δu Δt / Σ Δt²; its error is that of leaving out one of twenty groups of
  * crossings at a time, so that nothing is assumed of e but that groups are independent.
  *
+ * Where the track crosses itself seldom, places that it comes close to again stand in ([Meetings]), each with an error
+ * reckoned from jitter and slope; the error of r grows where the Δu spread more than that about r Δt.
+ *
  * The change is taken as even in time and the same everywhere. Cost: O(n) for a track that does not stay in one place.
  */
 internal class ChangingWater(private val series: MeasuredSeries, private val truth: DoubleArray) {
@@ -18,20 +21,24 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     private class Crossing(val first: Double, val later: Double, val higher: Double)
 
     private val crossings = crossings().sortedBy { it.first }
+    private val isCrossed = crossings.size >= FEWEST
+    private val meetings = if (isCrossed || !isMoving()) emptyList() else Meetings(series, truth, apart()).all()
+    private val isMet = meetings.size >= FEWEST_MEETINGS
 
     /** r, sensor units/s; NaN where the track does not cross itself often enough. */
-    val rate: Double = if (crossings.size < FEWEST) Double.NaN else rate { true }
+    val rate: Double = if (isCrossed) rate { true } else if (isMet) met() else Double.NaN
 
     /** Standard error of [rate]. */
-    val error: Double = if (rate.isNaN()) Double.NaN else error()
+    val error: Double = if (isCrossed) error() else if (isMet) metError() else Double.NaN
 
     /** Probability of such a rate in water that does not change. */
-    val pValue: Double = if (rate.isNaN()) 1.0 else Evidence.student(rate / maxOf(error, 1e-300), GROUPS - 1)
+    val pValue: Double =
+        if (rate.isNaN()) 1.0 else Evidence.student(rate / maxOf(error, 1e-300), if (isCrossed) GROUPS - 1 else KNOWN)
 
     /** The crossings, in the order of the first visits. */
     fun revisits() = Revisits(
-        DoubleArray(crossings.size) { crossings[it].later },
-        DoubleArray(crossings.size) { crossings[it].higher },
+        if (isMet) meetings.map { it.later }.toDoubleArray() else crossings.map { it.later }.toDoubleArray(),
+        if (isMet) meetings.map { it.higher }.toDoubleArray() else crossings.map { it.higher }.toDoubleArray(),
         rate,
     )
 
@@ -53,16 +60,31 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
         return sqrt(without.sumOf { (it - mean) * (it - mean) } * (GROUPS - 1) / GROUPS)
     }
 
+    /** r from the meetings, each weighed by its error. */
+    private fun met(): Double = meetings.sumOf { it.higher * it.later / (it.error * it.error) } /
+        meetings.sumOf { it.later * it.later / (it.error * it.error) }
+
+    private fun metError(): Double {
+        val r = met()
+        val spread = meetings.sumOf { ((it.higher - r * it.later) / it.error).let { z -> z * z } } / (meetings.size - 1)
+        return sqrt(maxOf(spread, 1.0) / meetings.sumOf { it.later * it.later / (it.error * it.error) })
+    }
+
+    private fun isMoving() = series.size >= FEWEST && median(series.speed) >= SLOWEST
+
+    /** How much later a place must be passed again, s. */
+    private fun apart() = maxOf(LEAST_APART * series.duration, LEAST_ROWS * series.period)
+
     private fun crossings(): List<Crossing> {
         val n = series.size
         val steps = DoubleArray(maxOf(n - 1, 0)) { i ->
             abs(series.x[i + 1] - series.x[i]) + abs(series.y[i + 1] - series.y[i])
         }
         val size = 2 * median(steps)
-        if (n < FEWEST || !(size > 0) || median(series.speed) < SLOWEST) return emptyList()
+        if (!(size > 0) || !isMoving()) return emptyList()
         val cells = HashMap<Pair<Long, Long>, ArrayList<Int>>()
         fun cell(i: Int) = floor(series.x[i] / size).toLong() to floor(series.y[i] / size).toLong()
-        val apart = maxOf(LEAST_APART * series.duration, LEAST_ROWS * series.period)
+        val apart = apart()
         val found = ArrayList<Crossing>()
         var looks = 0
         for (j in 0 until n - 1) {
@@ -103,6 +125,10 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     private companion object {
         const val GROUPS = 20
         const val FEWEST = 2 * GROUPS
+        const val FEWEST_MEETINGS = 6
+
+        /** Degrees of freedom where errors are reckoned, not seen: the jitter and the slope are not wholly known. */
+        const val KNOWN = 30
         const val SLOWEST = 0.02
         const val LEAST_APART = 0.02
         const val LEAST_ROWS = 30

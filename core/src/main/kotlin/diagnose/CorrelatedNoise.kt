@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
@@ -13,6 +14,8 @@ import kotlin.math.sqrt
  *
  * Source: Jones 1981, Fitting a continuous time autoregression to discrete data, in Applied Time Series Analysis II.
  *
+ * [shocks] add what is not known of the sensor's state after a gap: a second process, filtered with the first.
+ *
  * @property share φ, dimensionless, within 0..1. @property time τ, s, above 0.
  */
 internal class CorrelatedNoise(
@@ -20,10 +23,12 @@ internal class CorrelatedNoise(
     val share: Double,
     val time: Double,
     private val used: BooleanArray,
+    private val shocks: UnknownTruth.Shocks? = null,
 ) {
     private val keep = DoubleArray(times.size)
     private val gain = DoubleArray(times.size)
     private val scale = DoubleArray(times.size)
+    private val second = if (shocks == null) gain else DoubleArray(times.size)
 
     /** Number of rows in use. */
     val rows: Int = used.count { it }
@@ -33,20 +38,35 @@ internal class CorrelatedNoise(
 
     init {
         var variance = share
+        var both = 0.0
+        var shaken = 0.0
         var sum = 0.0
         var step = Double.NaN
         var factor = 1.0
         for (i in times.indices) {
             val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
-            if (dt != step) factor = exp(-dt / time)
-            step = dt
+            // Even times differ by a rounding error.
+            if (!(abs(dt - step) < SAME * dt)) {
+                factor = exp(-dt / time)
+                step = dt
+            }
             variance = factor * factor * variance + share * (1 - factor * factor)
             keep[i] = factor
+            if (shocks != null) {
+                both *= factor * shocks.keep[i]
+                shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]
+            }
             if (!used[i]) continue
-            val innovation = variance + 1 - share + SMALLEST
-            gain[i] = variance / innovation
+            val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
+            val first = variance + both
+            gain[i] = first / innovation
             scale[i] = 1 / sqrt(innovation)
-            variance *= 1 - gain[i]
+            variance -= gain[i] * first
+            if (shocks != null) {
+                second[i] = (both + shaken) / innovation
+                both -= gain[i] * (both + shaken)
+                shaken -= second[i] * (second[i] * innovation)
+            }
             sum += ln(innovation)
         }
         logDeterminant = sum
@@ -54,6 +74,7 @@ internal class CorrelatedNoise(
 
     /** Whitens [column] into [out], which may be the same, both of length n; rows not in use become 0. */
     fun whiten(column: DoubleArray, out: DoubleArray) {
+        if (shocks != null) return whiten(column, out, shocks.keep)
         var state = 0.0
         for (i in column.indices) {
             state *= keep[i]
@@ -67,6 +88,26 @@ internal class CorrelatedNoise(
         }
     }
 
+    private fun whiten(column: DoubleArray, out: DoubleArray, fade: DoubleArray) {
+        var state = 0.0
+        var shaken = 0.0
+        for (i in column.indices) {
+            state *= keep[i]
+            shaken *= fade[i]
+            if (used[i]) {
+                val innovation = column[i] - state - shaken
+                out[i] = innovation * scale[i]
+                state += gain[i] * innovation
+                shaken += second[i] * innovation
+            } else {
+                out[i] = 0.0
+            }
+        }
+    }
+
+    /** The same noise where [rows] alone are in use. */
+    fun over(times: DoubleArray, rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks)
+
     /**
      * Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled.
      */
@@ -75,23 +116,26 @@ internal class CorrelatedNoise(
 
     companion object {
         private const val SMALLEST = 1e-9
+        private const val SAME = 1e-9
         private const val TINY = 1e-290
         private val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95, 0.99)
         private val STEPS = doubleArrayOf(1.5, 4.0, 10.0, 25.0, 60.0, 150.0)
         private const val REFINEMENTS = 4
 
         /** White noise. */
-        fun white(series: MeasuredSeries, used: BooleanArray) = CorrelatedNoise(series.times, 0.0, 1.0, used)
+        fun white(scales: Scales, used: BooleanArray) =
+            CorrelatedNoise(scales.series.times, 0.0, 1.0, used, scales.shocks)
 
         /** The noise under which [residuals] are likeliest; correlation times reach [longest] s. Not modified. */
-        fun of(series: MeasuredSeries, residuals: DoubleArray, used: BooleanArray, longest: Double): CorrelatedNoise {
+        fun of(scales: Scales, residuals: DoubleArray, used: BooleanArray, longest: Double): CorrelatedNoise {
+            val series = scales.series
             val z = DoubleArray(residuals.size)
             fun score(noise: CorrelatedNoise): Double {
                 noise.whiten(residuals, z)
                 return noise.twiceLogLikelihood(squares(z))
             }
 
-            fun noise(share: Double, time: Double) = CorrelatedNoise(series.times, share, time, used)
+            fun noise(share: Double, time: Double) = CorrelatedNoise(series.times, share, time, used, scales.shocks)
             var best = noise(0.0, series.period)
             var bestScore = score(best)
             fun offer(share: Double, time: Double) {

@@ -20,14 +20,34 @@ public class Diagnosis(
     private val settings: DiagnosisSettings = DiagnosisSettings(),
     private val progress: (Double) -> Unit = {},
 ) {
-    private val scales = Scales(series)
+    private val unknown = UnknownTruth.of(series)
     private val used = BooleanArray(series.size) { true }
-    private val search = CauseSearch(series, scales, used, settings)
+    private val longest = CauseSearch.longest(series, settings)
     private var trials = 0
 
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
-        if (series.reference == null) return BlindDiagnosis(series, settings).run().also { progress(1.0) }
+        val reference = series.reference
+            ?: return BlindDiagnosis(series, settings).run().also { progress(1.0) }
+        val quieter = quieter(reference)
+        return if (quieter == null) weighed() else Diagnosis(quieter, settings, progress).weighed()
+    }
+
+    /**
+     * This log with a reference of less noise, where its own noise shows in the readings; null where it does not. A
+     * model that takes noise for truth is wrong in its response, whatever the sensor's.
+     */
+    private fun quieter(reference: DoubleArray): MeasuredSeries? {
+        // Water that changes faster than a sparse reference shows looks like noise.
+        if (series.size < FEWEST || series.isSparse) return null
+        val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
+        val rough = base(null, null)
+        val shown = noise.spread * abs(rough.numbers[ResponseModel.GAIN])
+        if (!(shown > NOISY * Spikes.spread(rough.whitened))) return null
+        return series.withQuieter(noise.smoothed())
+    }
+
+    private fun weighed(): DiagnosisResult {
         val first = weighing(null)
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
         // with each beginning of it, because what came after may make up for the wrong way.
@@ -46,17 +66,43 @@ public class Diagnosis(
 
     /** [fit] with steps held if they are not, and the other way round. */
     private fun turned(fit: ModelFit): ModelFit {
+        val scales = scales(fit, !fit.model.held)
         val other = ResponseModel(series, fit.model.terms, !fit.model.held, scales)
-        return Fitting.fit(other, fit.numbers, fit.free, used, search.longest, guess = fit.noise)
+        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, scales.shocks)
+        return Fitting.fit(other, fit.numbers, fit.free, used, longest, guess = guess)
     }
 
     private fun weighing(held: Boolean?): Weighing {
         used.fill(true)
-        val rough = base(held)
+        val rough = settled(held)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
-        val spikes = Spikes.of(rough.whitened).filter { abs(rough.residuals[it]) > scales.resolution }
+        val spikes = Spikes.of(rough.whitened).filter {
+            abs(rough.residuals[it]) > rough.model.scales.resolution && !unknown.isInDoubt(it)
+        }
         spikes.forEach { used[it] = false }
-        return Weighing(search, if (spikes.isEmpty()) rough else base(held), used, spikes, settings, ::tell)
+        val base = if (spikes.isEmpty()) rough else base(held, rough)
+        return Weighing(CauseSearch(series, base.model.scales, used, settings), base, used, spikes, settings, ::tell)
+    }
+
+    /**
+     * The base model. How much a gap or a sharp front shakes the reading is told by the lag, and that by what is left
+     * of the log: each in turn.
+     */
+    private fun settled(held: Boolean?): ModelFit {
+        var last = base(held, null)
+        repeat(SETTLING) {
+            if (scales(last, last.model.held).shocks == null) return last
+            last = base(held, last)
+        }
+        return last
+    }
+
+    /** What models share where the readings have lag and noise like those of [fit]. */
+    private fun scales(fit: ModelFit?, held: Boolean): Scales {
+        if (fit == null) return Scales(series, unknown)
+        val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
+        val spread = Spikes.spread(fit.whitened)
+        return Scales(series, unknown, unknown.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, held))
     }
 
     /** One more trial is done; a search of [terms] terms takes one round of them or several. */
@@ -65,21 +111,24 @@ public class Diagnosis(
         progress(trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))
     }
 
-    /** The base model; steps are held where [held], as the log says where that is null. */
-    private fun base(held: Boolean?): ModelFit {
-        val given = settings.base?.let { GivenSensor(it, scales) }
-        val fits = listOf(false, true).filter { held == null || it == held }.map { way ->
-            val model = ResponseModel(series, given?.terms.orEmpty(), way, scales)
-            val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
-            val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
-            starts.map { Fitting.fit(model, it, free, used, search.longest) }.maxBy { it.score }
-        }
+    /** The base model; steps are held where [held], as the log says where that is null. Lag and noise are as [rough]. */
+    private fun base(held: Boolean?, rough: ModelFit?): ModelFit {
+        val fits = listOf(false, true).filter { held == null || it == held }.map { base(it, scales(rough, it)) }
         // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given
         // sensor's numbers may be wrong, so that this is told with them free.
         val best = if (fits.last().score > fits[0].score + HELD) fits.last() else fits[0]
-        if (given == null) return best
+        if (settings.base == null) return best
         val free = BooleanArray(best.free.size) { it == ResponseModel.FIRST }
-        return Fitting.fit(best.model, given.numbers(best.model), free, used, search.longest)
+        val numbers = GivenSensor(settings.base, best.model.scales).numbers(best.model)
+        return Fitting.fit(best.model, numbers, free, used, longest)
+    }
+
+    private fun base(held: Boolean, scales: Scales): ModelFit {
+        val given = settings.base?.let { GivenSensor(it, scales) }
+        val model = ResponseModel(series, given?.terms.orEmpty(), held, scales)
+        val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
+        val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
+        return starts.map { Fitting.fit(model, it, free, used, longest) }.maxBy { it.score }
     }
 
     private fun starts(model: ResponseModel): List<DoubleArray> =
@@ -93,5 +142,10 @@ public class Diagnosis(
     private companion object {
         /** Twice the log-likelihood by which steps must look held. */
         const val HELD = 6.0
+        const val SETTLING = 2
+        const val FEWEST = 30
+
+        /** Noise of the reference, in that of the readings, above which it is taken off. */
+        const val NOISY = 0.2
     }
 }

@@ -72,9 +72,16 @@ internal class ForwardSearch(
     private fun pruned(chosen: List<Trial>): List<Trial> {
         if (chosen.size < 2) return chosen
         val full = chosen.last().fit
-        val needless = chosen.dropLast(1).filter { trial ->
+        val isCoarse = chosen.any { it.term.cause == Cause.QUANTISATION }
+        val needless = chosen.filter { trial ->
+            if (trial === chosen.last() && !isCoarse) return@filter false
             val without = search.without(full, trial.term, base)
-            Evidence.pValue(full.score - without.score, trial.degrees) * terms.size > settings.level
+            val gain = if (isCoarse && trial.term.cause != Cause.QUANTISATION) {
+                RoundingNull(without, search.longest).gain(full, trial.term) - (trial.cost - 2 * trial.degrees)
+            } else {
+                full.score - without.score
+            }
+            Evidence.pValue(gain, trial.degrees) * terms.size > settings.level
         }
         if (needless.isEmpty()) return chosen
         val kept = chosen.filter { it !in needless }

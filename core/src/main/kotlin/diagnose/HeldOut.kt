@@ -29,9 +29,9 @@ internal object HeldOut {
             val held = BooleanArray(n) { used[it] && (it * STRETCHES / n) % FOLDS == fold }
             val trained = BooleanArray(n) { used[it] && !held[it] }
             val times = fit.model.series.times
-            val train = CorrelatedNoise(times, fit.noise.share, fit.noise.time, trained)
+            val train = fit.noise.over(times, trained)
             val refit = Fitting.fit(fit.model, fit.numbers, free, trained, fit.noise.time, noise = train)
-            val test = CorrelatedNoise(times, fit.noise.share, fit.noise.time, held)
+            val test = fit.noise.over(times, held)
             val z = DoubleArray(n)
             test.whiten(refit.residuals, z)
             for (i in 0 until n) if (held[i]) squareSum += refit.residuals[i] * refit.residuals[i]

@@ -8,8 +8,14 @@ import kotlin.math.abs
  * A jump is a column of 0 and then 1; whitened, and made orthogonal to all that was fitted, its square share of the
  * residuals is what it would gain. Looked at are [count] even places twice over, and the rows that surprise most: under
  * noise that wanders a jump shows at its own row alone.
+ *
+ * @param whitened residuals to explain, those of [fit] unless others are simulated.
  */
-internal class JumpPlaces(private val fit: ModelFit, private val count: Int) {
+internal class JumpPlaces(
+    private val fit: ModelFit,
+    private val count: Int,
+    private val whitened: DoubleArray = fit.whitened,
+) {
     private val series = fit.model.series
     private val n = series.size
     private val basis = Evidence.orthonormal(fit.jacobian.toList())
@@ -18,7 +24,7 @@ internal class JumpPlaces(private val fit: ModelFit, private val count: Int) {
     private val taken = fit.model.terms.flatMap { it.times }
     private val rows: List<Int> = run {
         val inner = edge until n - edge
-        val striking = inner.sortedByDescending { abs(fit.whitened[it]) }.take(STRIKING)
+        val striking = inner.sortedByDescending { abs(whitened[it]) }.take(STRIKING)
         ((inner step stride) + striking).distinct().sorted().filter { row ->
             taken.all { abs(it - (series.times[row] - series.times[0])) > series.duration / count }
         }
@@ -27,10 +33,13 @@ internal class JumpPlaces(private val fit: ModelFit, private val count: Int) {
     /** The best place for one jump, or null where there is no room. */
     fun single(): Double? = rows.maxByOrNull(::gain)?.let { timeBefore(refined(it)) }
 
+    /** What the best place for one jump gains. */
+    fun most(): Double = rows.maxOfOrNull(::gain) ?: 0.0
+
     /** The best places for two jumps, or null where there is no room. */
     fun pair(): List<Double>? {
         val columns = rows.map(::column)
-        val shares = DoubleArray(rows.size) { dot(columns[it], fit.whitened) }
+        val shares = DoubleArray(rows.size) { dot(columns[it], whitened) }
         val lengths = DoubleArray(rows.size) { squares(columns[it]) }
         var best: Pair<Int, Int>? = null
         var most = 0.0
@@ -63,7 +72,7 @@ internal class JumpPlaces(private val fit: ModelFit, private val count: Int) {
     private fun gain(row: Int): Double {
         val rest = column(row)
         val length = squares(rest)
-        val share = dot(rest, fit.whitened)
+        val share = dot(rest, whitened)
         return if (length > LEAST) share * share / length else 0.0
     }
 

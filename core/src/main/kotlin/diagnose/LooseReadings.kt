@@ -8,7 +8,8 @@ internal class LooseReadings(private val fit: ModelFit) {
     private val series = fit.model.series
     private val z = DoubleArray(series.size).also { out ->
         val all = BooleanArray(series.size) { true }
-        CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, all).whiten(fit.residuals, out)
+        fit.noise.over(series.times, all).whiten(fit.residuals, out)
+        fit.model.scales.unknown?.let { unknown -> for (i in out.indices) if (unknown.isInDoubt(i)) out[i] = 0.0 }
     }
     private val spread = sqrt(fit.variance)
 

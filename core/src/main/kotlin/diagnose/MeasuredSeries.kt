@@ -82,6 +82,10 @@ public class MeasuredSeries(
         return DoubleArray(column.size) { if (column[it].isFinite()) column[it] else middle }
     }
 
+    /** This log with the same [reference] but for its noise. */
+    internal fun withQuieter(reference: DoubleArray) =
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse)
+
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
 

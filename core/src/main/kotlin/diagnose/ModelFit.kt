@@ -52,11 +52,11 @@ internal object Fitting {
         noise: CorrelatedNoise? = null,
         guess: CorrelatedNoise? = null,
     ): ModelFit {
-        var current = noise ?: guess ?: CorrelatedNoise.white(model.series, used)
+        var current = noise ?: guess ?: CorrelatedNoise.white(model.scales, used)
         var fit = descend(model, start, free, current)
         if (noise != null) return fit
         repeat(2) {
-            current = CorrelatedNoise.of(model.series, fit.residuals, used, longest)
+            current = CorrelatedNoise.of(model.scales, fit.residuals, used, longest)
             fit = descend(model, fit.numbers, free, current)
         }
         return fit

@@ -60,7 +60,10 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
             Cause.OFFSET_STEPS ->
                 term.times.indices.map { Parameter("jump_${it + 1}", "sensor units", false, -1e12, 1e12, 0.0) }
             Cause.HYSTERESIS -> listOf(Parameter("width", "sensor units", true, 1e-9 * range, 2 * range))
-            Cause.QUANTISATION -> listOf(Parameter("spread", "sensor units", true, 1e-3 * range, 1e3 * range))
+            Cause.QUANTISATION -> {
+                val step = if (scales.resolution > 0) scales.resolution else range
+                listOf(Parameter("spread", "sensor units", true, 1e-2 * step, 1e3 * step))
+            }
             Cause.SATURATION -> listOf(
                 Parameter("lower", "sensor units", false, -1e12, 1e12),
                 Parameter("upper", "sensor units", false, -1e12, 1e12),

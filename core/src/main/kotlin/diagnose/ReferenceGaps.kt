@@ -30,15 +30,29 @@ internal object ReferenceGaps {
 
     /** Root mean square of the error of foretelling each row from those [apart] and twice [apart] rows beside it. */
     private fun foretelling(times: DoubleArray, truth: DoubleArray, apart: Int): Double {
-        val rows = 2 * apart until times.size - 2 * apart
-        if (rows.isEmpty()) return Double.NaN
-        return sqrt(
-            rows.sumOf { i ->
-                val from = intArrayOf(i - 2 * apart, i - apart, i + apart, i + 2 * apart)
-                val error = truth[i] - from.sumOf { k -> truth[k] * weight(times, from, k, times[i]) }
-                error * error
-            } / rows.count(),
-        )
+        val rows = times.size - 4 * apart
+        if (rows <= 0) return Double.NaN
+        return sqrt(squares(errors(times, truth, apart)) / rows)
+    }
+
+    /**
+     * Size of the error of foretelling each row of [truth] at [times], s, from those [apart] and twice [apart] rows
+     * beside it; 0 at the ends and where a step between them [isGap].
+     */
+    fun errors(times: DoubleArray, truth: DoubleArray, apart: Int, isGap: BooleanArray? = null): DoubleArray {
+        val errors = DoubleArray(times.size)
+        val from = IntArray(4)
+        for (i in 2 * apart until times.size - 2 * apart) {
+            if (isGap != null && (i - 2 * apart + 1..i + 2 * apart).any { isGap[it] }) continue
+            from[0] = i - 2 * apart
+            from[1] = i - apart
+            from[2] = i + apart
+            from[3] = i + 2 * apart
+            var foretold = 0.0
+            for (k in from) foretold += truth[k] * weight(times, from, k, times[i])
+            errors[i] = abs(truth[i] - foretold)
+        }
+        return errors
     }
 
     /** Lagrange's weight of row [k] among [from] at [time]. */
@@ -49,5 +63,5 @@ internal object ReferenceGaps {
     }
 
     /** Seven times smaller an error in a gap half as long: what a cubic's is for smooth water. */
-    private const val FASTEST = 7.0
+    const val FASTEST = 7.0
 }

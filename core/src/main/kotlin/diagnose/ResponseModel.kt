@@ -28,7 +28,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private val work = DoubleArray(n)
     private val second = DoubleArray(n)
     private val taus = DoubleArray(n)
-    private val spline = Spline(series.times)
+    private val isGap = scales.unknown?.isGap
+    private val spline = Spline(series.times, scales.unknown?.isBroken)
 
     /** Index of the first parameter of [term]. */
     fun slot(term: Term): Int = layout.slots.getValue(term.key)
@@ -41,8 +42,11 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
 
     private fun slot(cause: Cause) = layout.slots.getValue(cause.label)
 
-    /** Writes the reading without noise for [p], in the order of [parameters], into [out], length n. */
-    fun predict(p: DoubleArray, out: DoubleArray) {
+    /**
+     * Writes the reading without noise for [p], in the order of [parameters], into [out], length n; before its rounding
+     * unless [isRounded].
+     */
+    fun predict(p: DoubleArray, out: DoubleArray, isRounded: Boolean = true) {
         delay(p)
         timeConstants(p)
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
@@ -63,7 +67,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         if (Cause.HYSTERESIS in causes) play(out, p[slot(Cause.HYSTERESIS)] / abs(p[GAIN]))
         calibrate(p, out)
         if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
-        if (Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
+        if (isRounded && Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
     }
 
     /** The most by which a slow path's time constant is longer than [timeConstant], s: slower than that is a drift. */
@@ -115,12 +119,15 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             val dt = series.times[i] - series.times[i - 1]
             val before = if (held) input[i] else input[i - 1]
             val tau = taus[i] * if ((before + input[i]) / 2 > state) up else down
-            if (dt > series.gap) {
+            if (isGap(i, dt)) {
                 state = input[i]
             } else {
-                if (dt != lastDt || tau != lastTau) fade = exp(-dt / tau)
-                lastDt = dt
-                lastTau = tau
+                // Even times differ by a rounding error.
+                if (tau != lastTau || !(abs(dt - lastDt) < SAME * dt)) {
+                    fade = exp(-dt / tau)
+                    lastDt = dt
+                    lastTau = tau
+                }
                 // The response to a cubic is a cubic; what is off it fades.
                 val early = if (held) input[i] else spline.follower(i - 1, 0.0, tau)
                 val late = if (held) input[i] else spline.follower(i - 1, dt, tau)
@@ -130,10 +137,13 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         }
     }
 
+    /** Whether nothing is known of the step of [dt] s before row [i]: the sensor is taken to have settled. */
+    private fun isGap(i: Int, dt: Double) = isGap?.get(i) ?: (dt > series.gap)
+
     private fun slew(out: DoubleArray, rate: Double) {
         for (i in 1 until n) {
             val dt = series.times[i] - series.times[i - 1]
-            if (dt <= series.gap) out[i] = out[i].coerceIn(out[i - 1] - rate * dt, out[i - 1] + rate * dt)
+            if (!isGap(i, dt)) out[i] = out[i].coerceIn(out[i - 1] - rate * dt, out[i - 1] + rate * dt)
         }
     }
 
@@ -145,7 +155,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val tau = p[TIME_CONSTANT]
         for (i in 0 until n) {
             val age = series.times[i] - series.times[0]
-            out[i] = p[OFFSET] + p[GAIN] * out[i] + p[FIRST] * exp(-age / tau)
+            val first = if (age < FADED * tau) p[FIRST] * exp(-age / tau) else 0.0
+            out[i] = p[OFFSET] + p[GAIN] * out[i] + first
         }
         for (term in terms) {
             val at = layout.slots.getValue(term.key)
@@ -193,12 +204,25 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e11
         private const val HARMONICS = 4
+        private const val SAME = 1e-9
+
+        /** Time constants after which nothing is left of the first state. */
+        private const val FADED = 40.0
         private const val SLOWEST = 8
     }
 }
 
-/** Quantities of a log that several models share. */
-internal class Scales(val series: MeasuredSeries) {
+/**
+ * Quantities of a log that several models share.
+ *
+ * @property unknown what its reference leaves open; null where there is none. @property shocks what that does to the
+ * reading; null for none.
+ */
+internal class Scales(
+    val series: MeasuredSeries,
+    val unknown: UnknownTruth? = null,
+    val shocks: UnknownTruth.Shocks? = null,
+) {
     private val n = series.size
 
     /** Speed that counts as ordinary, m/s. */

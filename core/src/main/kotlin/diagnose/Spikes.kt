@@ -29,6 +29,12 @@ internal object Spikes {
         }
     }
 
+    /** Standard deviation of [residuals], of which single ones may be wild. */
+    fun spread(residuals: DoubleArray): Double {
+        val robust = NORMAL * median(DoubleArray(residuals.size) { abs(residuals[it]) })
+        return if (robust > 0) robust else sqrt(squares(residuals) / maxOf(residuals.size, 1)).coerceAtLeast(1e-300)
+    }
+
     private fun off(residuals: DoubleArray) = DoubleArray(residuals.size) { i ->
         val from = (i - HALF_WINDOW).coerceIn(0, residuals.size - 1 - 2 * HALF_WINDOW)
         residuals[i] - median(residuals.copyOfRange(from, from + 2 * HALF_WINDOW + 1))

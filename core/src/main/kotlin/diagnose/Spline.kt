@@ -5,9 +5,10 @@ package stillwater.diagnose
  *
  * Source: Press et al. 2007, Numerical Recipes, section 3.3. Confined to one thread; fitting is O(n), no allocation.
  *
- * @param times knots, s, ascending, length n. Retained, not modified.
+ * @param times knots, s, ascending, length n. Retained, not modified. @param isBroken whether the curve is straight in
+ * the step before a row and bends anew on both sides of it, length n; null where it is nowhere. Retained, not modified.
  */
-internal class Spline(private val times: DoubleArray) {
+internal class Spline(private val times: DoubleArray, private val isBroken: BooleanArray? = null) {
     private val n = times.size
     private val bend = DoubleArray(n)
     private val work = DoubleArray(n)
@@ -19,6 +20,11 @@ internal class Spline(private val times: DoubleArray) {
         bend[0] = 0.0
         work[0] = 0.0
         for (i in 1 until n - 1) {
+            if (isBroken != null && (isBroken[i] || isBroken[i + 1])) {
+                bend[i] = 0.0
+                work[i] = 0.0
+                continue
+            }
             val left = times[i] - times[i - 1]
             val right = times[i + 1] - times[i]
             val share = left / (left + right)

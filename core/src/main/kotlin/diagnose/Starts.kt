@@ -18,8 +18,10 @@ internal class Starts(
     private val spread = sqrt(squares(fit.residuals) / maxOf(series.size, 1))
 
     /** The places, as full sets of numbers; a time constant that is not fitted stays as it is. */
-    fun all(): List<DoubleArray> =
-        places().onEach { if (!fit.free[ResponseModel.TIME_CONSTANT]) it[ResponseModel.TIME_CONSTANT] = tau }
+    fun all(): List<DoubleArray> = places().onEach { numbers ->
+        if (!fit.free[ResponseModel.TIME_CONSTANT]) numbers[ResponseModel.TIME_CONSTANT] = tau
+        for (i in numbers.indices) numbers[i] = numbers[i].coerceIn(model.parameters[i].lower, model.parameters[i].upper)
+    }
 
     private fun places(): List<DoubleArray> = when {
         small && term.cause in IN_PROPORTION -> listOf(with(STEPS.getValue(term.cause)))

@@ -70,7 +70,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
             val step = SymmetricSystem.of(whitened, z).solve(0.0)
             val rest = fit.residuals.copyOf()
             for (k in all.indices) for (i in 0 until n) rest[i] -= step[k] * all[k][i]
-            noise = CorrelatedNoise.of(series, rest, used, longest)
+            noise = CorrelatedNoise.of(scales, rest, used, longest)
             noise.whiten(rest, z)
             best = maxOf(best, noise.twiceLogLikelihood(squares(z)))
         }

@@ -131,6 +131,9 @@ internal class Weighing(
         val least = chosen.minOfOrNull { it.ratio } ?: 0.0
         val isTiming = structured || sets.flatten().any { it in TIMING }
         return when {
+            isTiming && base.model.scales.unknown?.isMostly == true -> Verdict.InsufficientData(
+                "the truth often moves within a row or two, and how it went in between might explain what is left",
+            )
             isTiming && series.isSparse && ReferenceGaps.reach(base) > MOST_UNKNOWN -> Verdict.InsufficientData(
                 "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
                     "went in between might explain what is left",

@@ -40,7 +40,7 @@ class CorrelatedNoiseTest {
     @Test
     fun theLikeliestNoiseIsNearTheTrueOne() {
         val series = MeasuredSeries(times, times, times, times, null)
-        val found = CorrelatedNoise.of(series, noise(0.7, 8.0), used, 200.0)
+        val found = CorrelatedNoise.of(Scales(series), noise(0.7, 8.0), used, 200.0)
         // About four standard errors at this length, from repeated draws.
         assertEquals(0.7, found.share, 0.1)
         assertEquals(8.0, found.time, 3.0)

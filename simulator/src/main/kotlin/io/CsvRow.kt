@@ -8,8 +8,9 @@ import de.siegmar.fastcsv.reader.AbstractBaseCsvCallbackHandler
  * @param slots where to keep the number of each column, or [CsvColumns.NONE] for columns nobody reads. Retained.
  * @param size number of slots.
  * @param separator what stands between fields.
+ * @param timeSlot slot of the time, which may also be a date and time of day.
  */
-internal class CsvRow(private val slots: IntArray, size: Int, private val separator: Char) :
+internal class CsvRow(private val slots: IntArray, size: Int, private val separator: Char, private val timeSlot: Int) :
     AbstractBaseCsvCallbackHandler<CsvRow>() {
     /** Numbers of the row by slot; NaN where the field is missing or no number. */
     val numbers = DoubleArray(size)
@@ -60,7 +61,8 @@ internal class CsvRow(private val slots: IntArray, size: Int, private val separa
         }
         val slot = if (fieldIdx < slots.size) slots[fieldIdx] else CsvColumns.NONE
         if (slot == CsvColumns.NONE) return
-        val number = DecimalText.parse(buf, offset, len)
+        var number = DecimalText.parse(buf, offset, len)
+        if (slot == timeSlot && number.isNaN()) number = IsoTime.seconds(String(buf, offset, len))
         numbers[slot] = number
         if (!number.isFinite()) unreadable[fieldIdx] = String(buf, offset, len)
     }

@@ -50,7 +50,7 @@ internal class CsvSurvey private constructor(
             .allowExtraFields(true)
             .allowMissingFields(true)
             .maxBufferSize(LONGEST_FIELD)
-            .build(CsvRow(slots, SLOTS + conditionNames.size, separator), EndMark(content.reader(progress)))
+            .build(CsvRow(slots, SLOTS + conditionNames.size, separator, TIME), EndMark(content.reader(progress)))
         reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
         return pass.end()
     }
@@ -165,7 +165,8 @@ internal class CsvSurvey private constructor(
             val text = row.textOf(column)
             val reason = if (text.isBlank()) "rows with an empty field" else "rows with text where a number belongs"
             val hint = if (row.numbers[slot].isInfinite()) " (too large)" else commaHint(text)
-            return problem(row.line, column, "a finite number", quoted(text) + hint, reason)
+            val expected = if (slot == TIME) "seconds or a time as 2025-06-01T12:00:00Z" else "a finite number"
+            return problem(row.line, column, expected, quoted(text) + hint, reason)
         }
 
         private fun commaHint(text: String) =

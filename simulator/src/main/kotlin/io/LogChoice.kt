@@ -6,7 +6,7 @@ package stillwater.io
  * Names of columns are the log's own; null stands for the recognised ones (`time_s`, `unix_time_s`, `lat_deg`,
  * `lon_deg`, `x_m`, `y_m`).
  *
- * @property time column with the time, s.
+ * @property time column with the time, s or ISO 8601.
  * @property latitude column with the latitude, degrees north.
  * @property longitude column with the longitude, degrees east.
  * @property x column with the distance east or along a transect, m.

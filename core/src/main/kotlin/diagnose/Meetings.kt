@@ -1,0 +1,112 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.floor
+import kotlin.math.hypot
+import kotlin.math.sqrt
+
+/**
+ * Where a track comes close to a place where it has been before, once for each time it does, whether it crosses its old
+ * way or not.
+ *
+ * How far the truth at two places may differ is told by how steep it is along the track: times the fixes' jitter and
+ * what lies between the two across the way. Jitter is the fixes' own roughness (second differences, of which it makes
+ * the root of six times), a tenth of a step at least because the way between rows is not straight.
+ */
+internal class Meetings(private val series: MeasuredSeries, private val truth: DoubleArray, private val apart: Double) {
+    /**
+     * A place passed twice: [later] s apart, [higher] the second time, sensor units, with an error of [error] in water
+     * that stays the same.
+     */
+    class Meeting(val first: Double, val later: Double, val higher: Double, val error: Double)
+
+    private val n = series.size
+    private val step = median(DoubleArray(maxOf(n - 1, 0)) { way(it, it + 1) })
+    private val steepness: Double
+    private val jitter: Double
+    private val noise: Double
+
+    init {
+        // Jitter makes steps longer as well as shorter: the middle step stands for the way made.
+        val steps = DoubleArray(maxOf(n - 1, 0)) { abs(truth[it + 1] - truth[it]) }
+        steepness = sqrt(squares(steps) / maxOf(steps.size, 1)) / maxOf(step, 1e-9)
+        val rough = DoubleArray(maxOf(2 * (n - 2), 0)) { k ->
+            val i = k / 2 + 1
+            val column = if (k % 2 == 0) series.x else series.y
+            abs(column[i - 1] - 2 * column[i] + column[i + 1])
+        }
+        jitter = maxOf(median(rough) / NORMAL / sqrt(SECOND), LEAST_JITTER * step)
+        val unlike = ReferenceGaps.errors(series.times, truth, 1)
+        noise = median(unlike)
+    }
+
+    private fun way(i: Int, j: Int) = hypot(series.x[j] - series.x[i], series.y[j] - series.y[i])
+
+    /** All meetings, the earliest first visit first. */
+    fun all(): List<Meeting> {
+        if (!(step > 0)) return emptyList()
+        val nearest = IntArray(n) { -1 }
+        val cells = HashMap<Pair<Long, Long>, ArrayList<Int>>()
+        var looks = 0
+        for (j in 0 until n) {
+            val column = floor(series.x[j] / step).toLong()
+            val row = floor(series.y[j] / step).toLong()
+            var least = step
+            for (dx in -1L..1L) {
+                for (dy in -1L..1L) {
+                    for (i in cells[column + dx to row + dy].orEmpty()) {
+                        if (series.times[j] - series.times[i] < apart || looks++ > MOST_LOOKS) continue
+                        if (way(i, j) < least) {
+                            least = way(i, j)
+                            nearest[j] = i
+                        }
+                    }
+                }
+            }
+            cells.getOrPut(column to row) { ArrayList() } += j
+        }
+        fun distance(j: Int) = if (j !in 0 until n || nearest[j] < 0) Double.MAX_VALUE else way(nearest[j], j)
+        // Going along the old way is one meeting after the other, each with jitter of its own: those apart by some rows.
+        val found = ArrayList<Meeting>()
+        var last = -ROWS_APART
+        for (j in 0 until n) {
+            if (nearest[j] < 0 || j - last < ROWS_APART) continue
+            if (distance(j) > distance(j - 1) || distance(j) > distance(j + 1)) continue
+            found += meeting(nearest[j], j)
+            last = j
+        }
+        return found.sortedBy { it.first }
+    }
+
+    private fun meeting(i: Int, j: Int): Meeting {
+        val from = maxOf(i - 1, 0)
+        val to = minOf(i + 1, n - 1)
+        val length = way(from, to)
+        val dx = series.x[j] - series.x[i]
+        val dy = series.y[j] - series.y[i]
+        var along = 0.0
+        if (length > 0) {
+            along = (dx * (series.x[to] - series.x[from]) + dy * (series.y[to] - series.y[from])) / length
+            along = along.coerceIn(-step, step)
+        }
+        val across = sqrt(maxOf(dx * dx + dy * dy - along * along, 0.0))
+        val there = truth[i] + if (length > 0) along * (truth[to] - truth[from]) / length else 0.0
+        val place = steepness * steepness * (2 * jitter * jitter + across * across)
+        return Meeting(
+            series.times[i],
+            series.times[j] - series.times[i],
+            truth[j] - there,
+            sqrt(place + 2 * noise * noise),
+        )
+    }
+
+    private companion object {
+        const val NORMAL = 0.6745
+
+        /** Variance of a second difference of independent numbers. */
+        const val SECOND = 6.0
+        const val LEAST_JITTER = 0.1
+        const val ROWS_APART = 3
+        const val MOST_LOOKS = 4_000_000
+    }
+}

@@ -1,0 +1,113 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.exp
+
+/**
+ * What a reference does not say of the truth between its rows: gaps in the log, and moves of a probe or sharp fronts
+ * that are over within a row or two.
+ *
+ * What the sensor has seen there leaves it in a state that the model cannot know; that fades with the lag. To the noise
+ * it is a second process, at rest but for a shock of known size before each such row.
+ *
+ * @property isGap whether the step before a row is too long for the truth to be guessed, length n.
+ * @property isBroken whether no smooth curve goes through the step before a row, length n; gaps included.
+ */
+internal class UnknownTruth private constructor(
+    val isGap: BooleanArray,
+    val isBroken: BooleanArray,
+    private val doubts: DoubleArray,
+    private val times: DoubleArray,
+) {
+    /** Whether so many steps are in doubt that the log says little of how the reading follows the truth. */
+    val isMostly: Boolean get() = isBroken.count { it } > OFTEN * isBroken.size
+
+    /** Whether the truth beside row [i] is in doubt, so that a reading there may be far off without being wrong. */
+    fun isInDoubt(i: Int): Boolean = (maxOf(i - 1, 0)..minOf(i + 1, doubts.size - 1)).any { doubts[it] > 0 }
+
+    /** Shocks before rows in [variance] of the noise, length n, of which [keep] stays until the row after. */
+    class Shocks(val variance: DoubleArray, val keep: DoubleArray)
+
+    /**
+     * Shocks to the reading of a sensor with a lag of [timeConstant] s and [gain] under noise of [spread], sensor
+     * units; those of gaps alone if the truth [isHeld] over each step. Null where nothing is in doubt.
+     */
+    fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? {
+        val keep = DoubleArray(times.size) { i ->
+            if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstant)
+        }
+        val variance = DoubleArray(times.size) { i ->
+            val seen = if (isGap[i]) 1.0 else if (isHeld) 0.0 else 1 - keep[i]
+            val shock = gain * doubts[i] * seen / spread
+            if (abs(shock) > LEAST) shock * shock else 0.0
+        }
+        return if (variance.any { it > 0 }) Shocks(variance, keep) else null
+    }
+
+    companion object {
+        /** Nothing is in doubt in [series]. */
+        fun none(series: MeasuredSeries) =
+            UnknownTruth(BooleanArray(series.size), BooleanArray(series.size), DoubleArray(series.size), series.times)
+
+        /** What the reference of [series] leaves open. */
+        fun of(series: MeasuredSeries): UnknownTruth {
+            val truth = series.reference ?: return none(series)
+            val n = series.size
+            val times = series.times
+            val isGap = BooleanArray(n) { it > 0 && times[it] - times[it - 1] > GAP * series.period }
+            val within = within(times, truth, isGap)
+            val usual = median(within)
+            val spread = sqrtOfMeanSquare(truth)
+            val steps = DoubleArray(n) { if (it == 0 || isGap[it]) 0.0 else abs(truth[it] - truth[it - 1]) }
+            val far = SUDDEN * median(steps)
+            val isBroken = BooleanArray(n) { i ->
+                val beside = maxOf(steps.getOrElse(i - 2) { 0.0 }, steps.getOrElse(i + 2) { 0.0 })
+                isGap[i] || (steps[i] > far && steps[i] > STEEPER * beside)
+            }
+            val doubts = DoubleArray(n) { i ->
+                val doubt = if (i == 0) 0.0 else maxOf(within[i - 1], within[i])
+                when {
+                    isGap[i] -> spread
+                    doubt > UNUSUAL * usual -> doubt
+                    else -> 0.0
+                }
+            }
+            return UnknownTruth(isGap, isBroken, doubts, times)
+        }
+
+        /**
+         * How far the truth may be off a cubic within the steps beside each row: the error of foretelling rows near by
+         * from those beside them, over how much faster than twice as far it is.
+         */
+        private fun within(times: DoubleArray, truth: DoubleArray, isGap: BooleanArray): DoubleArray {
+            val near = ReferenceGaps.errors(times, truth, 1, isGap)
+            val far = ReferenceGaps.errors(times, truth, 2, isGap)
+            return DoubleArray(times.size) { i ->
+                val one = most(near, i, 1)
+                if (one > 0) one / (most(far, i, 2) / one).coerceIn(1.0, ReferenceGaps.FASTEST) else 0.0
+            }
+        }
+
+        private fun most(errors: DoubleArray, i: Int, reach: Int): Double {
+            var most = 0.0
+            for (k in maxOf(i - reach, 0)..minOf(i + reach, errors.size - 1)) most = maxOf(most, errors[k])
+            return most
+        }
+
+        private fun sqrtOfMeanSquare(truth: DoubleArray): Double {
+            val mean = truth.average()
+            return kotlin.math.sqrt(truth.sumOf { (it - mean) * (it - mean) } / truth.size)
+        }
+
+        /** A step longer than so many usual ones is a gap. */
+        private const val GAP = 4.0
+        private const val UNUSUAL = 4.0
+        private const val SUDDEN = 12.0
+        private const val STEEPER = 3.0
+
+        private const val OFTEN = 0.08
+
+        /** Shocks below this, in standard deviations of the noise, are left out. */
+        private const val LEAST = 0.1
+    }
+}
