@@ -146,6 +146,43 @@ class TrackCorrectionTest {
     }
 
     @Test
+    fun aSlowPathBesideAFastOneIsLearnedWithItsShare() {
+        val log = LawnmowerLog(seed = 16, listOf(SensorStage.TwoPath(5.0, 60.0, 0.3)), legs = 8)
+        val reference = ReferenceLearner(log.series, log.truth)
+        val found = ResponseChoice.of(ResponseKind.entries.mapNotNull(reference::candidate), Random(1))
+        assertEquals(ResponseKind.TWO_PATH, found.first.kind)
+        // A tenth: the reference is known each second only, the slow path is a belief's factor away from its usual.
+        val (fast, slow, share) = found.first.parameters
+        assertEquals(5.0, fast, 0.5)
+        assertEquals(60.0, slow, 6.0)
+        assertEquals(0.3, share, 0.03)
+    }
+
+    @Test
+    fun phaseOfTwoPathsIsThatOfTheirSum() {
+        val omega = 0.05
+        val response = Response(2.0, listOf(ResponseLag(8.0), ResponseLag(70.0)), slowShare = 0.2)
+        val re = 0.8 / (1 + 0.4 * 0.4) + 0.2 / (1 + 3.5 * 3.5)
+        val im = 0.8 * 0.4 / (1 + 0.4 * 0.4) + 0.2 * 3.5 / (1 + 3.5 * 3.5)
+        val phase = omega * 2 + kotlin.math.atan2(im, re)
+        val times = DoubleArray(4000) { it.toDouble() }
+        val series = TrackSeries(times, times, DoubleArray(4000), DoubleArray(4000) { sin(omega * it - phase) })
+        val corrected = DoubleArray(4000).also { PhaseCorrection(series).correct(response, it) }
+        for (i in 1500 until 2500) assertEquals(sin(omega * i), corrected[i], 0.05)
+    }
+
+    @Test
+    fun directionsOfACovarianceAreItsOwn() {
+        val matrix = arrayOf(doubleArrayOf(4.0, 1.0, 0.5), doubleArrayOf(1.0, 3.0, -0.2), doubleArrayOf(0.5, -0.2, 1.0))
+        val eigen = SymmetricEigen(matrix)
+        for (i in 0..2) for (j in 0..2) {
+            val again = (0..2).sumOf { eigen.values[it] * eigen.vectors[it][i] * eigen.vectors[it][j] }
+            assertEquals(matrix[i][j], again, 1e-12)
+        }
+        assertTrue(eigen.values.toList() == eigen.values.sortedDescending())
+    }
+
+    @Test
     fun badSeriesAreRefusedWithTheRule() {
         val two = doubleArrayOf(0.0, 1.0)
         assertFailsWith<IllegalArgumentException> { TrackSeries(doubleArrayOf(1.0, 1.0), two, two, two) }
