@@ -95,6 +95,45 @@ class TrackCorrectionTest {
     }
 
     @Test
+    fun rateLimitIsFoundUnderNoiseAndItsIntervalsHoldTheWaterThatOutranIt() {
+        for ((seed, rate) in listOf(31 to 0.04, 32 to 0.08)) {
+            val log = LawnmowerLog(seed, listOf(SensorStage.Slew(rate)), noise = 0.02)
+            val found = log.series.rateLimit()
+            assertEquals(rate, found, 0.05 * rate)
+            val track = TrackCorrector(log.series, 0.01).correct(
+                listOf(LikelyResponse(listOf(Response(slewRate = found)), 1.0)),
+            )
+            // Runs of some 20 s are one piece of evidence each, some 100 of them: two standard errors are 5 %.
+            assertEquals(0.93, covered(log, track), 0.06, "$rate")
+            val (silent, heard) = log.truth.indices.partition { track.silent[it] }
+            fun halfWidth(rows: List<Int>) = rows.sumOf { track.upper[it] - track.lower[it] } / 2 / rows.size
+            assertTrue(halfWidth(silent) > 5 * halfWidth(heard), "a bound is no reading")
+        }
+    }
+
+    @Test
+    fun noLagAndNoTrendIsTakenForARateLimit() {
+        for ((seed, stages) in listOf(33 to lag, 34 to emptyList(), 35 to listOf(SensorStage.Delay(8.0)))) {
+            assertTrue(LawnmowerLog(seed, stages, noise = 0.02).series.rateLimit().isNaN(), "$stages")
+        }
+        val times = DoubleArray(500) { it.toDouble() }
+        assertTrue(TrackSeries(times, times, times, DoubleArray(500) { 0.1 * it }).rateLimit().isNaN())
+    }
+
+    @Test
+    fun whatIsToldToLieAboveABoundIsCutThere() {
+        val told = OneSided()
+        // Half of a standard normal distribution: mean sqrt(2/π), variance 1 − 2/π.
+        told.tell(0.0, 1.0, 0.0, isAbove = true, looseness = 1e-6)
+        assertEquals(0.797885, told.mean, 1e-5)
+        assertEquals(0.363380, told.variance, 1e-5)
+        assertEquals(-0.693147, told.logProbability, 1e-5)
+        told.tell(0.0, 1.0, -50.0, isAbove = false, looseness = 1e-6)
+        assertEquals(-50.02, told.mean, 0.001)
+        assertTrue(told.variance > 0 && told.logProbability < -1000)
+    }
+
+    @Test
     fun constantReadingsStayAsTheyAre() {
         val times = DoubleArray(200) { it.toDouble() }
         val series = TrackSeries(times, times, DoubleArray(200), DoubleArray(200) { 7.0 })
