@@ -2,6 +2,7 @@ package stillwater.estimate
 
 import kotlin.math.PI
 import kotlin.math.atan
+import kotlin.math.atan2
 import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.math.sqrt
@@ -138,8 +139,22 @@ internal class PhaseCorrection(private val series: TrackSeries) {
 
     private fun phase(response: Response, omega: Double): Double {
         var phase = omega * response.deadTime
+        if (response.slowShare > 0) return phase + besidePhase(response, omega)
         for (lag in response.lags) phase += atan(omega * (lag.rising + lag.falling) / 2)
         return phase
+    }
+
+    /** −arg((1 − w) / (1 + i ω τ₁) + w / (1 + i ω τ₂)). */
+    private fun besidePhase(response: Response, omega: Double): Double {
+        var re = 0.0
+        var im = 0.0
+        for ((k, lag) in response.lags.withIndex()) {
+            val share = if (k == 0) 1 - response.slowShare else response.slowShare
+            val turn = omega * (lag.rising + lag.falling) / 2
+            re += share / (1 + turn * turn)
+            im += share * turn / (1 + turn * turn)
+        }
+        return atan2(im, re)
     }
 
     /** Transform of the slope with the sign of rising or falling: what a difference of time constants acts on. */

@@ -107,20 +107,12 @@ public class ReferenceLearner(
     /** What a sensor with [response] shows of the reference, into [shown]; settled at each gap. */
     private fun respond(response: Response) {
         delay(response.deadTime)
-        for (stage in response.lags) {
-            var before = shown[0]
-            for (i in 1 until shown.size) {
-                val dt = series.times[i] - series.times[i - 1]
-                val input = shown[i]
-                if (dt > series.gapLimit) {
-                    before = input
-                    continue
-                }
-                lag.set(if (input > shown[i - 1]) stage.rising else stage.falling, dt)
-                if (held) before = input
-                shown[i] = lag.keep * shown[i - 1] + lag.before * before + lag.now * input
-                before = input
-            }
+        if (response.slowShare > 0) {
+            val fast = shown.copyOf().also { follow(response.lags[0], it) }
+            follow(response.lags[1], shown)
+            for (i in shown.indices) shown[i] = (1 - response.slowShare) * fast[i] + response.slowShare * shown[i]
+        } else {
+            for (stage in response.lags) follow(stage, shown)
         }
         if (response.slewRate.isInfinite()) return
         for (i in 1 until shown.size) {
@@ -128,6 +120,23 @@ public class ReferenceLearner(
             if (dt > series.gapLimit) continue
             val most = response.slewRate * dt
             shown[i] = shown[i].coerceIn(shown[i - 1] - most, shown[i - 1] + most)
+        }
+    }
+
+    /** What a lag of [stage] makes of [inputs], in their place. Modified. */
+    private fun follow(stage: ResponseLag, inputs: DoubleArray) {
+        var before = inputs[0]
+        for (i in 1 until inputs.size) {
+            val dt = series.times[i] - series.times[i - 1]
+            val input = inputs[i]
+            if (dt > series.gapLimit) {
+                before = input
+                continue
+            }
+            lag.set(if (input > inputs[i - 1]) stage.rising else stage.falling, dt)
+            if (held) before = input
+            inputs[i] = lag.keep * inputs[i - 1] + lag.before * before + lag.now * input
+            before = input
         }
     }
 

@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import stillwater.sensor.SensorStage
+import kotlin.math.ln
 
 /**
  * One exponential lag of a [Response].
@@ -106,11 +107,23 @@ public enum class ResponseKind(public val label: String, public val parameters: 
     /** A lag with one time constant up and another down. */
     ASYMMETRIC("asymmetric-lag", listOf("rising_time_constant_s", "falling_time_constant_s")),
 
+    /** Two lags beside each other: most follows soon, and a share only slowly. */
+    TWO_PATH("two-path-lag", listOf("fast_time_constant_s", "slow_time_constant_s", "slow_share")),
+
+    /** A delay, then two lags beside each other. */
+    DEAD_TIME_AND_TWO_PATH(
+        "dead-time-and-two-path-lag",
+        listOf("dead_time_s", "fast_time_constant_s", "slow_time_constant_s", "slow_share"),
+    ),
+
     /** Follows at once, but no faster than a rate. */
     SLEW("slew-limit", listOf("rate_per_s")),
     ;
 
-    /** The response with [parameters], all above 0, in the order of the property of that name. Not modified. */
+    /**
+     * The response with [parameters], all above 0, in the order of the property of that name; a share above
+     * [LARGEST_SHARE] is taken as that. Not modified.
+     */
     public fun response(vararg parameters: Double): Response {
         require(parameters.size == this.parameters.size) {
             "$label has ${this.parameters.size} parameters, found ${parameters.size}"
@@ -122,15 +135,61 @@ public enum class ResponseKind(public val label: String, public val parameters: 
             SECOND_ORDER -> Response(lags = List(2) { ResponseLag(parameters[0]) })
             DEAD_TIME_AND_LAG -> Response(parameters[0], listOf(ResponseLag(parameters[1])))
             ASYMMETRIC -> Response(lags = listOf(ResponseLag(parameters[0], parameters[1])))
+            TWO_PATH -> beside(0.0, parameters)
+            DEAD_TIME_AND_TWO_PATH -> beside(parameters[0], parameters.copyOfRange(1, parameters.size))
             SLEW -> Response(slewRate = parameters[0])
         }
     }
+
+    private fun beside(deadTime: Double, parameters: DoubleArray) = Response(
+        deadTime,
+        listOf(ResponseLag(parameters[0]), ResponseLag(parameters[1])),
+        slowShare = minOf(parameters[2], LARGEST_SHARE),
+    )
 
     /** Whether [other] is this one with a parameter at its limit, so that this one can do no worse on the same data. */
     public fun contains(other: ResponseKind): Boolean = when (this) {
         NONE -> false
         DEAD_TIME_AND_LAG -> other == FIRST_ORDER || other == DEAD_TIME || other == NONE
-        ASYMMETRIC -> other == FIRST_ORDER || other == NONE
+        DEAD_TIME_AND_TWO_PATH -> other == TWO_PATH || DEAD_TIME_AND_LAG.contains(other) || other == DEAD_TIME_AND_LAG
+        ASYMMETRIC, TWO_PATH -> other == FIRST_ORDER || other == NONE
         else -> other == NONE
+    }
+
+    /** Whether parameter [index] is a time, s. */
+    internal fun isTime(index: Int): Boolean = parameters[index].endsWith("_s") && this != SLEW
+
+    /**
+     * Whether [parameters], in the order of [response], are this kind's and not another one's: two paths need a slow
+     * one that is slower and not nearly all.
+     */
+    internal fun isOwn(parameters: DoubleArray): Boolean {
+        if (this != TWO_PATH && this != DEAD_TIME_AND_TWO_PATH) return true
+        val (fast, slow, share) = parameters.takeLast(TWO_PATH.parameters.size)
+        return slow > fast && share < LARGEST_SHARE
+    }
+
+    /**
+     * What is thought likely before any reading, as the logarithm of a density of the parameters' logarithms [logs]. A
+     * slow path of a small share is told apart only together with that share, so both get a wide normal one: slower by
+     * [USUAL_RATIO], a share of [USUAL_SHARE], either a factor of e off. All else is left to the readings.
+     */
+    internal fun belief(logs: DoubleArray): Double {
+        if (this != TWO_PATH && this != DEAD_TIME_AND_TWO_PATH) return 0.0
+        val (fast, slow, share) = logs.takeLast(TWO_PATH.parameters.size)
+        val ratio = slow - fast - ln(USUAL_RATIO)
+        val part = share - ln(USUAL_SHARE)
+        return -(ratio * ratio + part * part) / 2
+    }
+
+    /** Whether parameter [index] is the time of a slow path, whose length is limited by [belief] alone. */
+    internal fun isSlow(index: Int): Boolean = parameters[index] == TWO_PATH.parameters[1]
+
+    public companion object {
+        /** Largest share of a slow path, dimensionless: beyond it the fast one is not seen. */
+        public const val LARGEST_SHARE: Double = 0.9
+
+        private const val USUAL_RATIO = 8.0
+        private const val USUAL_SHARE = 0.1
     }
 }

@@ -24,10 +24,9 @@ public class CandidateStanding internal constructor(
 /**
  * Which responses a log leaves open, by scores on data that they were not fitted to.
  *
- * A candidate is ruled out if it is behind the best by more than [RULED_OUT] standard errors and by more than
- * [SMALLEST_LOSS]. An asymmetric lag gives way to a symmetric one that is still open: two time constants fit noise
- * better
- * than one, and nothing is lost.
+ * A candidate is ruled out if it is behind any other by more than [RULED_OUT] standard errors and by more than
+ * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open: two time constants
+ * fit noise better than one, and nothing is lost.
  *
  * @property standings all candidates, the most likely first.
  */
@@ -54,6 +53,9 @@ public class ResponseChoice private constructor(public val standings: List<Candi
 
         private const val DRAWS = 2000
 
+        /** Kinds that give way to an open one that they contain. */
+        private val RICH = setOf(ResponseKind.ASYMMETRIC, ResponseKind.TWO_PATH, ResponseKind.DEAD_TIME_AND_TWO_PATH)
+
         /**
          * The choice among [candidates], at least one, of the same log.
          *
@@ -65,12 +67,10 @@ public class ResponseChoice private constructor(public val standings: List<Candi
             val best = candidates.maxBy { it.heldOutScore }
             val behind = candidates.map { best.heldOutScore - it.heldOutScore }
             val errors = candidates.map { error(best, it) }
-            val notRuledOut = candidates.indices.filter {
-                behind[it] <= RULED_OUT * errors[it] || behind[it] <= SMALLEST_LOSS
-            }
+            val notRuledOut = candidates.indices.filterNot { i -> candidates.any { rulesOut(it, candidates[i]) } }
             val open = notRuledOut.filterNot { rich ->
-                candidates[rich].kind == ResponseKind.ASYMMETRIC &&
-                    notRuledOut.any { candidates[it].kind == ResponseKind.FIRST_ORDER }
+                val kind = candidates[rich].kind
+                kind in RICH && notRuledOut.any { kind.contains(candidates[it].kind) }
             }
             val weights = weights(open.map { candidates[it] }, random)
             val standings = candidates.indices.map { i ->
@@ -90,6 +90,12 @@ public class ResponseChoice private constructor(public val standings: List<Candi
                 )
             }
             return ResponseChoice(standings.sortedWith(compareBy({ -it.weight }, { it.behind })))
+        }
+
+        /** Not the best alone: how far it is behind that may be told less well than how far behind another. */
+        private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean {
+            val behind = better.heldOutScore - other.heldOutScore
+            return behind > SMALLEST_LOSS && behind > RULED_OUT * error(better, other)
         }
 
         private fun error(best: CandidateResponse, other: CandidateResponse): Double {

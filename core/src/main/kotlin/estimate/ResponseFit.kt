@@ -31,14 +31,16 @@ internal class ResponseFit(
     /** The best parameters, searched from those that have the mean delay [delay], s. */
     fun best(delay: Double): CandidateResponse {
         val logs = starts(delay).map { start ->
-            Search.simplex(start, DoubleArray(size) { STEP }, EVALUATIONS * size, CLOSE, total)
-        }.maxBy { if (size == 0) 0.0 else total(it) }
+            Search.simplex(start, DoubleArray(size) { STEP }, EVALUATIONS * size, CLOSE, ::believed)
+        }.maxBy { if (size == 0) 0.0 else believed(it) }
         return judged(logs)
     }
 
+    private fun believed(logs: DoubleArray) = total(logs) + kind.belief(logs)
+
     /** The best parameters near [logs]. */
     fun near(logs: DoubleArray): CandidateResponse =
-        judged(Search.simplex(logs, DoubleArray(size) { STEP }, EVALUATIONS * maxOf(1, size), CLOSE, total))
+        judged(Search.simplex(logs, DoubleArray(size) { STEP }, EVALUATIONS * maxOf(1, size), CLOSE, ::believed))
 
     private fun starts(delay: Double): List<DoubleArray> {
         fun logs(vararg times: Double) = DoubleArray(times.size) { ln(times[it]) }
@@ -47,6 +49,10 @@ internal class ResponseFit(
             ResponseKind.FIRST_ORDER, ResponseKind.DEAD_TIME -> listOf(logs(delay))
             ResponseKind.SECOND_ORDER -> listOf(logs(delay / 2))
             ResponseKind.DEAD_TIME_AND_LAG -> listOf(logs(delay / 3, delay * 2 / 3), logs(delay * 2 / 3, delay / 3))
+            ResponseKind.TWO_PATH -> listOf(logs(delay * FAST, delay * 4, 0.1), logs(delay * FAST, delay * 10, 0.05))
+            ResponseKind.DEAD_TIME_AND_TWO_PATH -> listOf(0.2, 0.6).map { early ->
+                logs(delay * early, delay * (FAST - early).coerceAtLeast(0.1), delay * 6, 0.07)
+            }
             ResponseKind.ASYMMETRIC -> listOf(logs(delay * MORE, delay / MORE), logs(delay / MORE, delay * MORE))
         }
     }
@@ -55,7 +61,7 @@ internal class ResponseFit(
         val at = scores(logs)
         fun moved(move: DoubleArray) = scores(DoubleArray(size) { logs[it] + move[it] })
         val curvature = ScoreCurvature(size, groupOf, groups)
-        if (size > 0) curvature.take(CURVATURE_STEP, ::moved)
+        if (size > 0) curvature.take(CURVATURE_STEP, { kind.belief(DoubleArray(size) { i -> logs[i] + it[i] }) }, ::moved)
         val heldOut = DoubleArray(groups) { group ->
             val each = if (size == 0) at else moved(curvature.without(group))
             groupOf.indices.sumOf { if (groupOf[it] == group) each[it] else 0.0 }
@@ -76,6 +82,7 @@ internal class ResponseFit(
         const val EVALUATIONS = 40
         const val CLOSE = 0.005
         const val MORE = 1.2
+        const val FAST = 0.8
         const val CURVATURE_STEP = 0.15
     }
 }

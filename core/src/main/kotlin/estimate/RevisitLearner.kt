@@ -119,9 +119,11 @@ public class RevisitLearner private constructor(
     }
 
     private fun total(kind: ResponseKind, logs: DoubleArray): Double {
-        if (logs.any { it > ln(MOST_STEPS * even.step * thinning) || it < ln(LEAST_STEPS * even.step) }) {
-            return Double.NEGATIVE_INFINITY
-        }
+        val parameters = DoubleArray(logs.size) { exp(logs[it]) }
+        val times = LEAST_STEPS * even.step..MOST_STEPS * even.step * thinning
+        val isPossible = kind.isOwn(parameters) &&
+            parameters.indices.all { !kind.isTime(it) || kind.isSlow(it) || parameters[it] in times }
+        if (!isPossible) return Double.NEGATIVE_INFINITY
         return scores(kind, logs).sum()
     }
 

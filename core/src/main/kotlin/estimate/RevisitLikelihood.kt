@@ -79,7 +79,7 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
 
     private fun covariance(out: DoubleArray, size: Int, scale: FieldScale) {
         val perLength = 2 * scale.smoothness.nu / (scale.length * scale.length)
-        val perTime = 2 * scale.smoothness.nu / (scale.ownTime * scale.ownTime)
+        val perTime = 2 * Smoothness.ROUGH.nu / (scale.ownTime * scale.ownTime)
         for (i in 0 until size) {
             val a = places[i]
             for (j in 0 until i) {
@@ -88,7 +88,7 @@ internal class RevisitLikelihood(private val nodes: TrackNodes, private val bloc
                 val dy = nodes.ys[a] - nodes.ys[b]
                 val dt = nodes.times[a] - nodes.times[b]
                 val shared = scale.smoothness.covariance((dx * dx + dy * dy) * perLength)
-                val own = scale.smoothness.covariance(dt * dt * perTime)
+                val own = Smoothness.ROUGH.covariance(dt * dt * perTime)
                 out[i * size + j] = LEVEL + shared + scale.own * own
             }
             out[i * size + i] = 1 + LEVEL + scale.own + scale.noise + JITTER

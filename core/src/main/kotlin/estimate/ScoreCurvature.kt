@@ -1,22 +1,37 @@
 package stillwater.estimate
 
-import kotlin.math.abs
 import kotlin.math.sqrt
 
 /**
- * What the blocks' scores say about one or two parameters at their maximum: gradients by block, curvature, and from
- * both
- * the parameters' covariance (White 1982, doi:10.2307/1912526: H⁻¹ V H⁻¹, V from groups of blocks).
+ * What the blocks' scores say about a few parameters at their maximum: gradients by block, curvature, and from
+ * both the parameters' covariance (White 1982, doi:10.2307/1912526: H⁻¹ V H⁻¹, V from groups of blocks).
  *
- * @param dimensions number of parameters, 1 or 2. @param groups group of each block, 0 to [groupCount] − 1.
+ * @param dimensions number of parameters, 1 or more. @param groups group of each block, 0 to [groupCount] − 1.
  */
 internal class ScoreCurvature(private val dimensions: Int, private val groups: IntArray, private val groupCount: Int) {
     /** Sum of the gradients of each group, `groupCount × dimensions`. */
     private val gradients = DoubleArray(groupCount * dimensions)
     private val hessians = DoubleArray(groupCount * dimensions * dimensions)
 
-    /** Takes the scores about the maximum: [scores] gives those of all blocks, moved by so many [step]s. */
-    fun take(step: Double, scores: (DoubleArray) -> DoubleArray) {
+    private val beliefGradient = DoubleArray(dimensions)
+    private val beliefHessian = DoubleArray(dimensions * dimensions)
+
+    /**
+     * Takes the scores about the maximum of their sum and the [belief]: [scores] gives those of all blocks, moved by so
+     * many [step]s.
+     */
+    fun take(step: Double, belief: (DoubleArray) -> Double, scores: (DoubleArray) -> DoubleArray) {
+        differences(step, groups, gradients, hessians, scores)
+        differences(step, intArrayOf(0), beliefGradient, beliefHessian) { doubleArrayOf(belief(it)) }
+    }
+
+    private fun differences(
+        step: Double,
+        groups: IntArray,
+        gradients: DoubleArray,
+        hessians: DoubleArray,
+        scores: (DoubleArray) -> DoubleArray,
+    ) {
         val centre = scores(DoubleArray(dimensions))
         val up = Array(dimensions) { i -> scores(DoubleArray(dimensions).also { it[i] = step }) }
         val down = Array(dimensions) { i -> scores(DoubleArray(dimensions).also { it[i] = -step }) }
@@ -25,25 +40,30 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
                 gradients[groups[b] * dimensions + i] += (up[i][b] - down[i][b]) / (2 * step)
                 hessians[at(groups[b], i, i)] += (up[i][b] - 2 * centre[b] + down[i][b]) / (step * step)
             }
+            for (j in 0 until i) {
+                val both = scores(diagonal(i, j, step))
+                val neither = scores(diagonal(i, j, -step))
+                for (b in groups.indices) {
+                    val mixed = both[b] + neither[b] + 2 * centre[b] - up[i][b] - down[i][b] - up[j][b] - down[j][b]
+                    hessians[at(groups[b], i, j)] += mixed / (2 * step * step)
+                    hessians[at(groups[b], j, i)] += mixed / (2 * step * step)
+                }
+            }
         }
-        if (dimensions < 2) return
-        val both = scores(doubleArrayOf(step, step))
-        val neither = scores(doubleArrayOf(-step, -step))
-        for (b in groups.indices) {
-            val mixed = (both[b] + neither[b] + 2 * centre[b] - up[0][b] - down[0][b] - up[1][b] - down[1][b]) /
-                (2 * step * step)
-            hessians[at(groups[b], 0, 1)] += mixed
-            hessians[at(groups[b], 1, 0)] += mixed
-        }
+    }
+
+    private fun diagonal(i: Int, j: Int, by: Double) = DoubleArray(dimensions).also {
+        it[i] = by
+        it[j] = by
     }
 
     private fun at(group: Int, i: Int, j: Int) = (group * dimensions + i) * dimensions + j
 
     /** Where the maximum would be without [group], as moves of the parameters: one Newton step. */
     fun without(group: Int): DoubleArray {
-        val g = DoubleArray(dimensions) { i -> total(i) - gradients[group * dimensions + i] }
+        val g = DoubleArray(dimensions) { i -> total(i) + beliefGradient[i] - gradients[group * dimensions + i] }
         val h = Array(dimensions) { i ->
-            DoubleArray(dimensions) { j -> total(i, j) - hessians[at(group, i, j)] }
+            DoubleArray(dimensions) { j -> believed(i, j) - hessians[at(group, i, j)] }
         }
         val inverse = inverse(h)
         return DoubleArray(dimensions) { i ->
@@ -55,9 +75,11 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
 
     private fun total(i: Int, j: Int) = (0 until groupCount).sumOf { hessians[at(it, i, j)] }
 
+    private fun believed(i: Int, j: Int) = total(i, j) + beliefHessian[at(0, i, j)]
+
     /** Covariance of the parameters, `dimensions × dimensions`. */
     fun covariance(): Array<DoubleArray> {
-        val inverse = inverse(Array(dimensions) { i -> DoubleArray(dimensions) { j -> total(i, j) } })
+        val inverse = inverse(Array(dimensions) { i -> DoubleArray(dimensions) { j -> believed(i, j) } })
         val influence = Array(groupCount) { group ->
             DoubleArray(dimensions) { i ->
                 (0 until dimensions).sumOf {
@@ -67,61 +89,39 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
             }
         }
         val small = groupCount / (groupCount - 1.0)
-        return Array(dimensions) { i -> DoubleArray(dimensions) { j -> small * influence.sumOf { it[i] * it[j] } } }
+        return Array(dimensions) { i ->
+            DoubleArray(dimensions) { j ->
+                // The belief's own spread, where it holds up what the scores do not.
+                val held = (0 until dimensions).sumOf { a ->
+                    (0 until dimensions).sumOf { b -> inverse[i][a] * -beliefHessian[at(0, a, b)] * inverse[b][j] }
+                }
+                small * influence.sumOf { it[i] * it[j] } + held
+            }
+        }
     }
 
     /** Of minus the curvature, held away from zero: a flat direction gets a long but finite error. */
     private fun inverse(hessian: Array<DoubleArray>): Array<DoubleArray> {
-        if (dimensions == 1) return arrayOf(doubleArrayOf(1 / maxOf(-hessian[0][0], FLAT)))
-        val (values, angle) = eigen(-hessian[0][0], -hessian[0][1], -hessian[1][1])
-        val a = 1 / maxOf(values[0], FLAT)
-        val b = 1 / maxOf(values[1], FLAT)
-        val (c, s) = angle
-        return arrayOf(
-            doubleArrayOf(a * c * c + b * s * s, (a - b) * c * s),
-            doubleArrayOf((a - b) * c * s, a * s * s + b * c * c),
-        )
+        val eigen = SymmetricEigen(Array(dimensions) { i -> DoubleArray(dimensions) { j -> -hessian[i][j] } })
+        return Array(dimensions) { i ->
+            DoubleArray(dimensions) { j ->
+                (0 until dimensions).sumOf {
+                    eigen.vectors[it][i] * eigen.vectors[it][j] / maxOf(eigen.values[it], FLAT)
+                }
+            }
+        }
     }
 
     companion object {
         private const val FLAT = 0.3
         private const val MOST_STEP = 0.7
 
-        /** Eigenvalues of [a, b; b, c], and cosine and sine of the first one's direction. */
-        private fun eigen(a: Double, b: Double, c: Double): Pair<DoubleArray, DoubleArray> {
-            val middle = (a + c) / 2
-            val half = (a - c) / 2
-            val root = sqrt(half * half + b * b)
-            val values = doubleArrayOf(middle + root, middle - root)
-            val x = if (abs(b) > 0) {
-                b
-            } else if (a >= c) {
-                1.0
-            } else {
-                0.0
-            }
-            val y = if (abs(b) > 0) {
-                values[0] - a
-            } else if (a >= c) {
-                0.0
-            } else {
-                1.0
-            }
-            val length = sqrt(x * x + y * y)
-            return values to doubleArrayOf(x / length, y / length)
-        }
-
-        /** Directions of one standard error of a covariance of one or two parameters. */
+        /** Directions of one standard error of a parameters' [covariance]. */
         fun axes(covariance: Array<DoubleArray>): List<List<Double>> {
-            if (covariance.isEmpty()) return emptyList()
-            if (covariance.size == 1) return listOf(listOf(sqrt(covariance[0][0])))
-            val (values, angle) = eigen(covariance[0][0], covariance[0][1], covariance[1][1])
-            val first = sqrt(maxOf(values[0], 0.0))
-            val second = sqrt(maxOf(values[1], 0.0))
-            return listOf(
-                listOf(first * angle[0], first * angle[1]),
-                listOf(-second * angle[1], second * angle[0]),
-            )
+            val eigen = SymmetricEigen(covariance)
+            return eigen.values.indices.map { k ->
+                eigen.vectors[k].map { it * sqrt(maxOf(eigen.values[k], 0.0)) }
+            }
         }
     }
 }

@@ -7,10 +7,13 @@ import kotlin.math.sqrt
  * At which readings the sensor rises, and at which it runs at its rate limit.
  *
  * @property rising length n. @property silent length n; never without a limit.
+ * @property looseness how far the sensor may have gone between a silent reading and the run that it touches, sensor
+ * units, length n; 0 in a run.
  */
 internal class SensorSides(series: TrackSeries, response: Response, resolution: Double) {
     val rising: BooleanArray
     val silent: BooleanArray
+    val looseness: DoubleArray
 
     init {
         val reach = reach(series, response.slewRate, resolution)
@@ -21,6 +24,8 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         silent = BooleanArray(series.size) { i ->
             (maxOf(0, i - reach)..minOf(series.size - 1, i + reach)).any { running[it] }
         }
+        val touched = if (response.slewRate.isFinite()) reach * series.medianStep * response.slewRate else 0.0
+        looseness = DoubleArray(series.size) { if (running[it]) 0.0 else touched }
     }
 
     companion object {
@@ -29,14 +34,14 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private const val MOST = 8
         private const val NOISE_SHARE = 0.1
         private const val TOP = 0.995
-        private const val NEAR = 0.1
-        private const val BELOW = 0.3
-        private const val FEWEST_SHARE = 0.04
-        private const val TIMES_BELOW = 2.0
-        private const val ABOVE_SHARE = 0.1
+        private const val AT = 0.8
+        private const val BELOW = 0.4
+        private const val FEWEST_SHARE = 0.08
+        private const val TIMES_BELOW = 0.35
+        private const val FEWER_SHARE = 0.2
         private const val FEWEST_ROWS = 100
-        private const val CLEAR = 0.05
-        private val REACHES = listOf(2, 4, 8, 16)
+        private const val CLEAR = 0.04
+        private val REACHES = listOf(1, 2, 3, 4, 6, 8, 12)
 
         /** Slopes over so many rows either way that noise hardly bears on them. */
         private fun reach(series: TrackSeries, rate: Double, resolution: Double): Int {
@@ -64,21 +69,41 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         fun rateLimit(series: TrackSeries): Double {
             if (series.size < FEWEST_ROWS) return Double.NaN
             for (reach in REACHES) {
-                val slopes = slopes(series, reach).map { abs(it) }.sorted()
-                val top = slopes[(slopes.size * TOP).toInt().coerceAtMost(slopes.size - 1)]
-                val noise = roughness(series) / (reach * series.medianStep)
-                if (top > 0 && (noise < CLEAR * top || reach == REACHES.last())) return plateau(slopes, top)
+                val slopes = lineSlopes(series, reach)
+                val sizes = slopes.map { abs(it) }.sorted()
+                val top = sizes[(sizes.size * TOP).toInt().coerceAtMost(sizes.size - 1)]
+                val rows = 2.0 * reach + 1
+                val noise = roughness(series) * sqrt(12 / (rows * (rows * rows - 1))) / series.medianStep
+                if (top > 0 && (noise < CLEAR * top || reach == REACHES.last())) return plateau(slopes, sizes, top)
             }
             return Double.NaN
         }
 
-        private fun plateau(slopes: List<Double>, top: Double): Double {
-            val at = slopes.filter { it in (1 - NEAR) * top..(1 + NEAR) * top }
-            val below = slopes.count { it >= (1 - BELOW) * top && it < (1 - NEAR) * top }
-            val above = slopes.count { it > (1 + NEAR) * top }
-            val isPlateau = at.size >= FEWEST_SHARE * slopes.size && at.size >= TIMES_BELOW * below &&
-                above <= ABOVE_SHARE * at.size
-            return if (isPlateau) at[at.size / 2] else Double.NaN
+        /** Slopes of the straight lines through so many readings either way: noise bears less on them than on ends. */
+        private fun lineSlopes(series: TrackSeries, reach: Int): List<Double> =
+            (reach until series.size - reach).filter {
+                series.times[it + reach] - series.times[it - reach] <= 3 * reach * series.medianStep
+            }.map { i ->
+                val rows = i - reach..i + reach
+                val time = rows.sumOf { series.times[it] } / rows.count()
+                val value = rows.sumOf { series.values[it] } / rows.count()
+                rows.sumOf { (series.times[it] - time) * (series.values[it] - value) } /
+                    rows.sumOf { (series.times[it] - time) * (series.times[it] - time) }
+            }
+
+        /** Where [slopes], of which [sizes] are the absolute values, pile up below [top]; NaN if they thin out. */
+        private fun plateau(slopes: List<Double>, sizes: List<Double>, top: Double): Double {
+            val at = sizes.filter { it >= AT * top }
+            val below = sizes.count { it >= BELOW * top && it < AT * top }
+            // A trend runs one way only.
+            val fewer = minOf(slopes.count { it >= AT * top }, slopes.count { it <= -AT * top })
+            val isPlateau = at.size >= FEWEST_SHARE * sizes.size && at.size >= TIMES_BELOW * below &&
+                fewer >= FEWER_SHARE * at.size
+            if (!isPlateau) return Double.NaN
+            // The narrowest range that holds half of them: noise and the ends of runs lie beside it.
+            val half = (at.size + 1) / 2
+            val from = (0..at.size - half).minBy { at[it + half - 1] - at[it] }
+            return at[from + half / 2]
         }
     }
 }

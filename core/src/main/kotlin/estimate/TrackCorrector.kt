@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import kotlin.math.exp
+import kotlin.math.hypot
 import kotlin.math.ln
 import kotlin.math.sqrt
 
@@ -74,6 +75,7 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         DoubleArray(rows.last - rows.first + 1) { series.values[rows.first + it] - level },
         sides.silent.copyOfRange(rows.first, rows.last + 1),
         sides.rising.copyOfRange(rows.first, rows.last + 1),
+        sides.looseness.copyOfRange(rows.first, rows.last + 1),
     )
 
     private fun run(part: Part, rows: IntRange, from: Int, to: Int, mixture: NormalMixture) {
@@ -91,7 +93,8 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             } else {
                 -1
             }
-            mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, series.values[row])
+            val limit = series.values[row] - side * BEYOND * hypot(part.along.noise, stretch.looseness[i])
+            mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, limit)
         }
     }
 
@@ -103,18 +106,17 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         repeat(ADAPTATIONS) {
             val smoother = TrackSmoother(stretch, response, along, factor, series.medianStep)
             smoother.logLikelihood()
-            val surprise = DoubleArray(stretch.size) { i ->
-                val v = smoother.innovations[i]
-                // A single wild reading is not lively water.
-                if (v.isNaN()) 1.0 else minOf(v * v / smoother.variances[i], LARGEST_SURPRISE)
-            }
+            // A single wild reading is not lively water.
+            val surprise = DoubleArray(stretch.size) { minOf(smoother.surprises[it], LARGEST_SURPRISE) }
             val sums = DoubleArray(stretch.size + 1)
             for (i in surprise.indices) sums[i + 1] = sums[i] + surprise[i]
             for (i in factor.indices) {
                 val from = maxOf(0, i - WINDOW)
                 val to = minOf(stretch.size, i + WINDOW + 1)
                 val ratio = (PRIOR + sums[to] - sums[from]) / (PRIOR + to - from)
-                factor[i] = (factor[i] * ratio * ratio).coerceIn(CALMEST, LIVELIEST)
+                // Water that outran the sensor is not calmer than usual, however calm the readings about it are.
+                val least = if (stretch.silent[i]) 1.0 else CALMEST
+                factor[i] = (factor[i] * ratio * ratio).coerceIn(least, LIVELIEST)
             }
         }
         return factor
@@ -177,6 +179,9 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         const val ADAPTATIONS = 2
         const val WINDOW = 30
         const val PRIOR = 60.0
+
+        /** The field is not farther beyond a reading at the sensor's limit than so many deviations of its noise. */
+        const val BEYOND = 2.0
         const val LARGEST_SURPRISE = 25.0
         const val CALMEST = 0.02
         const val LIVELIEST = 50.0

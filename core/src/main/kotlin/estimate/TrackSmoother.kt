@@ -1,20 +1,23 @@
 package stillwater.estimate
 
 import kotlin.math.PI
+import kotlin.math.hypot
 import kotlin.math.ln
 
 /**
  * One stretch of readings without gaps, for [TrackSmoother].
  *
  * @property times s, growing, length n. @property values readings about their level, sensor units, length n.
- * @property silent readings that say nothing about the field (the sensor is at its limit), length n.
- * @property rising whether the sensor rises, length n.
+ * @property silent readings that show the field from one side only (the sensor is at its limit), length n.
+ * @property rising whether the sensor rises, length n. @property looseness how far a silent reading may be beyond the
+ * field besides its noise, sensor units, length n.
  */
 internal class Stretch(
     val times: DoubleArray,
     val values: DoubleArray,
     val silent: BooleanArray,
     val rising: BooleanArray,
+    val looseness: DoubleArray,
 ) {
     val size: Int get() = times.size
 }
@@ -43,9 +46,14 @@ internal class TrackSmoother(
     private var p = motion.start()
     private var work = DoubleArray(size * size)
 
-    /** Innovation of each reading and its variance; NaN where it says nothing. */
-    val innovations: DoubleArray = DoubleArray(stretch.size)
-    val variances: DoubleArray = DoubleArray(stretch.size)
+    /** Innovation of each reading and its variance; of a silent one, those of a reading that would say as much. */
+    private val innovations: DoubleArray = DoubleArray(stretch.size)
+    private val variances: DoubleArray = DoubleArray(stretch.size)
+    private val logDensities = DoubleArray(stretch.size)
+    private val oneSided = OneSided()
+
+    /** Squared surprise of each reading, about 1 where the water is as lively as is thought. */
+    val surprises: DoubleArray = DoubleArray(stretch.size)
 
     private fun eventTime(event: Int) = stretch.times[event / 2] - if (event % 2 == 0) response.deadTime else 0.0
 
@@ -64,12 +72,7 @@ internal class TrackSmoother(
     /** Logarithm of the density of the readings. */
     fun logLikelihood(): Double {
         forward(null)
-        var sum = 0.0
-        for (k in 0 until stretch.size) {
-            if (innovations[k].isNaN()) continue
-            sum -= (ln(2 * PI * variances[k]) + innovations[k] * innovations[k] / variances[k]) / 2
-        }
-        return sum
+        return logDensities.sum()
     }
 
     /** What the backward pass needs of each event. */
@@ -125,15 +128,29 @@ internal class TrackSmoother(
     private val shown = if (response.lags.isEmpty()) 0 else size - 1
 
     private fun see(reading: Int, tape: Tape?, event: Int) {
+        val spread = p[shown * size + shown]
+        val bound = stretch.values[reading]
         if (stretch.silent[reading]) {
-            innovations[reading] = Double.NaN
-            variances[reading] = Double.NaN
-            return
+            // What is on the right side already is not told again: neighbours say the same thing, and each would be
+            // taken for more evidence.
+            if (stretch.rising[reading] == x[shown] > bound) return pass(reading)
+            val looseness = hypot(along.noise, stretch.looseness[reading])
+            oneSided.tell(x[shown], spread, bound, stretch.rising[reading], looseness)
+            logDensities[reading] = oneSided.logProbability
+            val moved = oneSided.mean - x[shown]
+            surprises[reading] = (oneSided.variance + moved * moved) / spread
+            // A reading of variance v²/(v − v̂) − v would leave the same mean and variance.
+            val share = 1 - oneSided.variance / spread
+            innovations[reading] = moved / share
+            variances[reading] = spread / share
+        } else {
+            innovations[reading] = bound - x[shown]
+            variances[reading] = spread + along.noise * along.noise
+            surprises[reading] = innovations[reading] * innovations[reading] / variances[reading]
+            logDensities[reading] = -(ln(2 * PI * variances[reading]) + surprises[reading]) / 2
         }
-        val innovation = stretch.values[reading] - x[shown]
-        val variance = p[shown * size + shown] + along.noise * along.noise
-        innovations[reading] = innovation
-        variances[reading] = variance
+        val innovation = innovations[reading]
+        val variance = variances[reading]
         for (i in 0 until size) {
             val gain = p[i * size + shown] / variance
             x[i] += gain * innovation
@@ -146,6 +163,13 @@ internal class TrackSmoother(
                 p[j * size + i] = p[i * size + j]
             }
         }
+    }
+
+    private fun pass(reading: Int) {
+        innovations[reading] = Double.NaN
+        variances[reading] = Double.NaN
+        logDensities[reading] = 0.0
+        surprises[reading] = 1.0
     }
 
     private fun note(tape: Tape?, event: Int) {

@@ -95,6 +95,45 @@ class TrackCorrectionTest {
     }
 
     @Test
+    fun rateLimitIsFoundUnderNoiseAndItsIntervalsHoldTheWaterThatOutranIt() {
+        for ((seed, rate) in listOf(31 to 0.04, 32 to 0.08)) {
+            val log = LawnmowerLog(seed, listOf(SensorStage.Slew(rate)), noise = 0.02)
+            val found = log.series.rateLimit()
+            assertEquals(rate, found, 0.05 * rate)
+            val track = TrackCorrector(log.series, 0.01).correct(
+                listOf(LikelyResponse(listOf(Response(slewRate = found)), 1.0)),
+            )
+            // Runs of some 20 s are one piece of evidence each, some 100 of them: two standard errors are 5 %.
+            assertEquals(0.93, covered(log, track), 0.06, "$rate")
+            val (silent, heard) = log.truth.indices.partition { track.silent[it] }
+            fun halfWidth(rows: List<Int>) = rows.sumOf { track.upper[it] - track.lower[it] } / 2 / rows.size
+            assertTrue(halfWidth(silent) > 5 * halfWidth(heard), "a bound is no reading")
+        }
+    }
+
+    @Test
+    fun noLagAndNoTrendIsTakenForARateLimit() {
+        for ((seed, stages) in listOf(33 to lag, 34 to emptyList(), 35 to listOf(SensorStage.Delay(8.0)))) {
+            assertTrue(LawnmowerLog(seed, stages, noise = 0.02).series.rateLimit().isNaN(), "$stages")
+        }
+        val times = DoubleArray(500) { it.toDouble() }
+        assertTrue(TrackSeries(times, times, times, DoubleArray(500) { 0.1 * it }).rateLimit().isNaN())
+    }
+
+    @Test
+    fun whatIsToldToLieAboveABoundIsCutThere() {
+        val told = OneSided()
+        // Half of a standard normal distribution: mean sqrt(2/π), variance 1 − 2/π.
+        told.tell(0.0, 1.0, 0.0, isAbove = true, looseness = 1e-6)
+        assertEquals(0.797885, told.mean, 1e-5)
+        assertEquals(0.363380, told.variance, 1e-5)
+        assertEquals(-0.693147, told.logProbability, 1e-5)
+        told.tell(0.0, 1.0, -50.0, isAbove = false, looseness = 1e-6)
+        assertEquals(-50.02, told.mean, 0.001)
+        assertTrue(told.variance > 0 && told.logProbability < -1000)
+    }
+
+    @Test
     fun constantReadingsStayAsTheyAre() {
         val times = DoubleArray(200) { it.toDouble() }
         val series = TrackSeries(times, times, DoubleArray(200), DoubleArray(200) { 7.0 })
@@ -143,6 +182,43 @@ class TrackCorrectionTest {
         val (gain, offset) = learner.calibration(candidate.response)
         assertEquals(2.0, gain, 0.02)
         assertEquals(-30.0, offset, 2.0)
+    }
+
+    @Test
+    fun aSlowPathBesideAFastOneIsLearnedWithItsShare() {
+        val log = LawnmowerLog(seed = 16, listOf(SensorStage.TwoPath(5.0, 60.0, 0.3)), legs = 8)
+        val reference = ReferenceLearner(log.series, log.truth)
+        val found = ResponseChoice.of(ResponseKind.entries.mapNotNull(reference::candidate), Random(1))
+        assertEquals(ResponseKind.TWO_PATH, found.first.kind)
+        // A tenth: the reference is known each second only, the slow path is a belief's factor away from its usual.
+        val (fast, slow, share) = found.first.parameters
+        assertEquals(5.0, fast, 0.5)
+        assertEquals(60.0, slow, 6.0)
+        assertEquals(0.3, share, 0.03)
+    }
+
+    @Test
+    fun phaseOfTwoPathsIsThatOfTheirSum() {
+        val omega = 0.05
+        val response = Response(2.0, listOf(ResponseLag(8.0), ResponseLag(70.0)), slowShare = 0.2)
+        val re = 0.8 / (1 + 0.4 * 0.4) + 0.2 / (1 + 3.5 * 3.5)
+        val im = 0.8 * 0.4 / (1 + 0.4 * 0.4) + 0.2 * 3.5 / (1 + 3.5 * 3.5)
+        val phase = omega * 2 + kotlin.math.atan2(im, re)
+        val times = DoubleArray(4000) { it.toDouble() }
+        val series = TrackSeries(times, times, DoubleArray(4000), DoubleArray(4000) { sin(omega * it - phase) })
+        val corrected = DoubleArray(4000).also { PhaseCorrection(series).correct(response, it) }
+        for (i in 1500 until 2500) assertEquals(sin(omega * i), corrected[i], 0.05)
+    }
+
+    @Test
+    fun directionsOfACovarianceAreItsOwn() {
+        val matrix = arrayOf(doubleArrayOf(4.0, 1.0, 0.5), doubleArrayOf(1.0, 3.0, -0.2), doubleArrayOf(0.5, -0.2, 1.0))
+        val eigen = SymmetricEigen(matrix)
+        for (i in 0..2) for (j in 0..2) {
+            val again = (0..2).sumOf { eigen.values[it] * eigen.vectors[it][i] * eigen.vectors[it][j] }
+            assertEquals(matrix[i][j], again, 1e-12)
+        }
+        assertTrue(eigen.values.toList() == eigen.values.sortedDescending())
     }
 
     @Test

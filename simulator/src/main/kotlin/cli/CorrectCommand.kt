@@ -45,6 +45,17 @@ class CorrectCommand : WorkCommand("correct") {
         "--held-out",
         help = "also learn on some legs and score the correction on the others; takes five times as long",
     ).flag()
+    private val between by option(
+        "--between",
+        metavar = "FROM:TO",
+        help = "with --held-out on a transect (--x alone): compare successive passes between these places only",
+    ).convert { text ->
+        val ends = text.split(':').map { it.trim().toDoubleOrNull() ?: Double.NaN }
+        if (ends.size != 2 || !ends.all { it.isFinite() } || !(ends[0] < ends[1])) {
+            throw BadFlag(name, "two growing numbers such as 20:180", "'$text'")
+        }
+        ends[0]..ends[1]
+    }
     private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
     private val json by option("--json", help = "print the summary as JSON").flag()
 
@@ -78,6 +89,9 @@ class CorrectCommand : WorkCommand("correct") {
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
+        if (between != null && !(heldOut && opened.oneDimensional)) {
+            throw failure("--between: expected --held-out and a transect (--x without --y), found none")
+        }
         CorrectFiles.requireNewColumns(opened)
         OutputDirectory(Path.of(out)).use { directory ->
             val bytes = Files.size(file)
@@ -90,7 +104,7 @@ class CorrectCommand : WorkCommand("correct") {
                     throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
                 }
             }
-            val files = CorrectFiles(result, unit, commandLine(), if (heldOut) result.heldOut() else null)
+            val files = CorrectFiles(result, unit, commandLine(), if (heldOut) result.heldOut(between) else null)
             val drawing = files.write(directory)
             val written = directory.commit()
             when {
@@ -114,6 +128,7 @@ class CorrectCommand : WorkCommand("correct") {
                 "--sensor" to sensor,
                 "--unit" to unit,
                 "--held-out" to heldOut,
+                "--between" to between?.let { "${it.start}:${it.endInclusive}" },
             ),
     )
 

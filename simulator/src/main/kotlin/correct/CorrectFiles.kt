@@ -119,6 +119,11 @@ class CorrectFiles(
                         put("legs", score.legs)
                         put("opposite_legs_before", score.before)
                         put("opposite_legs_after", score.after)
+                        score.passes?.let {
+                            put("pairs_of_passes", it.pairs)
+                            put("passes_rms_before", it.before)
+                            put("passes_rms_after", it.after)
+                        }
                     }
                 }
             }

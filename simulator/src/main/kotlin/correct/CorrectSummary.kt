@@ -86,6 +86,7 @@ internal class CorrectSummary(
             add("rows" to rows())
             add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average")
             heldOut?.let { add("held out" to heldOut(it)) }
+            heldOut?.let(::passes)?.let { add("passes not learned on" to it) }
             add("format" to result.log.format)
             add("duration" to duration(result.statistics.duration))
             val resolution = result.statistics.resolution
@@ -123,11 +124,17 @@ internal class CorrectSummary(
     private fun heldOut(scores: List<HeldOutScore>): String {
         if (scores.isEmpty()) return "fewer than ${HeldOutLegs.FEWEST} legs, or no sensor learned from them"
         val each = scores.joinToString { "${percent(it.gain)} learned on ${it.learnedOn}" }
-        return "legs not learned on differ by ${percent(
-            scores.sumOf {
-                it.gain
-            } / scores.size,
-        )} less on average ($each)"
+        val mean = percent(scores.sumOf { it.gain } / scores.size)
+        return "legs not learned on differ by $mean less on average ($each)"
+    }
+
+    /** Root mean square differences of successive passes; null where the legs are no passes of one transect. */
+    private fun passes(scores: List<HeldOutScore>): String? {
+        val found = scores.mapNotNull { score -> score.passes?.let { score.learnedOn to it } }
+        if (found.isEmpty()) return null
+        fun mean(of: (HeldOutPasses) -> Double) = digits(found.sumOf { of(it.second) } / found.size, 3)
+        val each = found.joinToString { (words, score) -> "${digits(score.after, 3)} learned on $words" }
+        return "rms ${mean { it.before }}$unitAfter as measured, ${mean { it.after }}$unitAfter corrected on average ($each)"
     }
 
     private fun rows(): String {

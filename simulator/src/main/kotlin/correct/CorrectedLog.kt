@@ -75,19 +75,20 @@ class CorrectedLog internal constructor(
     /**
      * How well a sensor that is learned on some legs corrects the others; empty where the sensor was not learned from
      * revisits or there are too few legs. Takes four times as long as the correction itself.
+     *
+     * @param between of a transect: places between which successive passes are compared, or null for all.
      */
-    fun heldOut(): List<HeldOutScore> {
+    fun heldOut(between: ClosedFloatingPointRange<Double>? = null): List<HeldOutScore> {
         // A thinned track's points are not the rows.
         if (origin != SensorOrigin.REVISITS || before == null || series.size > MOST_LEARNED) return emptyList()
-        return HeldOutLegs(before) { rows ->
+        val range = between ?: series.xs.min()..series.xs.max()
+        val passes = PassDifference(series.xs, before.legs.legs, range.start, range.endInclusive)
+            .takeIf { log.oneDimensional }
+        return HeldOutLegs(CorrectedLegs(before, series.values), passes) { rows ->
             val learned = byRevisits(series.at(rows))
-            if (learned.choice ==
-                null
-            ) {
-                null
-            } else {
-                legs(series, corrected(series, learned, learned.stages, resolution(statistics)).values)
-            }
+            if (learned.choice == null) return@HeldOutLegs null
+            val values = corrected(series, learned, learned.stages, resolution(statistics)).values
+            legs(series, values)?.let { CorrectedLegs(it, values) }
         }.scores()
     }
 

@@ -3,24 +3,46 @@ package stillwater.correct
 import stillwater.survey.LegMismatch
 
 /**
+ * How far successive passes of a transect differ that the sensor was not learned on, root mean square.
+ *
+ * @property pairs pairs of passes compared. @property before as measured, sensor units. @property after as corrected.
+ */
+data class HeldOutPasses(val pairs: Int, val before: Double, val after: Double)
+
+/**
  * How far opposite legs differ that the sensor was not learned on.
  *
  * @property learnedOn legs it was learned on, in words. @property legs number of legs scored.
  * @property before mean mismatch of these legs as measured, sensor units. @property after as corrected, sensor units.
+ * @property passes the same legs, each against the next one; null where they are not passes of one transect.
  */
-data class HeldOutScore(val learnedOn: String, val legs: Int, val before: Double, val after: Double) {
+data class HeldOutScore(
+    val learnedOn: String,
+    val legs: Int,
+    val before: Double,
+    val after: Double,
+    val passes: HeldOutPasses? = null,
+) {
     /** What of the mismatch went, a share of [before]; negative where it grew. */
     val gain: Double get() = 1 - after / before
 }
+
+/** The [legs] with the [values] that a correction gives, one a reading. */
+internal class CorrectedLegs(val legs: LegMismatch, val values: DoubleArray)
 
 /**
  * Learns the sensor on some legs of a log and scores the correction on the others: on halves, whose scored legs and
  * neighbours are all unseen, and on every other pair of legs, whose scored legs have neighbours that were seen.
  *
- * @param measured the legs as measured. @param correct what the legs become when the sensor is learned on these rows
- * alone; null where they teach nothing.
+ * @param original the legs as measured. @param passes the difference of successive legs of a transect, or null.
+ * @param correct what the legs become when the sensor is learned on these rows alone; null where they teach nothing.
  */
-internal class HeldOutLegs(private val measured: LegMismatch, private val correct: (List<Int>) -> LegMismatch?) {
+internal class HeldOutLegs(
+    private val original: CorrectedLegs,
+    private val passes: PassDifference? = null,
+    private val correct: (List<Int>) -> CorrectedLegs?,
+) {
+    private val measured = original.legs
     private val count = measured.legs.legs.size
 
     /** The scores of the splits that have legs to score; empty for fewer than [FEWEST] legs. */
@@ -37,7 +59,7 @@ internal class HeldOutLegs(private val measured: LegMismatch, private val correc
 
     private fun score(words: String, learned: (Int) -> Boolean, scored: (Int) -> Boolean): HeldOutScore? {
         val corrected = correct(rows(learned)) ?: return null
-        val after = corrected.scores.associate { it.number to it.opposite }
+        val after = corrected.legs.scores.associate { it.number to it.opposite }
         val both = measured.scores.filter { scored(it.number - 1) && it.number in after }
         if (both.isEmpty()) return null
         return HeldOutScore(
@@ -45,8 +67,16 @@ internal class HeldOutLegs(private val measured: LegMismatch, private val correc
             both.size,
             both.sumOf { it.opposite } / both.size,
             both.sumOf { after.getValue(it.number) } / both.size,
+            passes?.let { passes(it, (0 until count - 1).filter { i -> !learned(i) && !learned(i + 1) }, corrected) },
         )
     }
+
+    /** Of the pairs of legs in which neither was learned on. */
+    private fun passes(difference: PassDifference, firsts: List<Int>, corrected: CorrectedLegs) = HeldOutPasses(
+        firsts.size,
+        difference.of(original.values, firsts),
+        difference.of(corrected.values, firsts),
+    ).takeIf { it.before.isFinite() && it.after.isFinite() }
 
     /** Rows of the legs that [isIn] takes, and of the turns between two of them. */
     private fun rows(isIn: (Int) -> Boolean): List<Int> {

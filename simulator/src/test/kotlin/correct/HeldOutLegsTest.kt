@@ -3,6 +3,7 @@ package stillwater.correct
 import org.junit.jupiter.api.Test
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
+import stillwater.survey.Leg
 import stillwater.survey.LegComparison
 import stillwater.survey.LegFinder
 import stillwater.survey.LegMismatch
@@ -38,9 +39,9 @@ class HeldOutLegsTest {
         val measured = survey(legs = 12, lag = 8.0)
         val legs = measured.legs.legs
         val learnedOn = ArrayList<Set<Int>>()
-        val scores = HeldOutLegs(measured) { rows ->
+        val scores = HeldOutLegs(CorrectedLegs(measured, DoubleArray(0))) { rows ->
             learnedOn += rows.toSet()
-            survey(legs = 12, lag = 0.0)
+            CorrectedLegs(survey(legs = 12, lag = 0.0), DoubleArray(0))
         }.scores()
         assertEquals(
             listOf("the first half", "the second half", "odd pairs", "even pairs"),
@@ -59,14 +60,27 @@ class HeldOutLegsTest {
 
     @Test
     fun whatTeachesNothingHasNoScore() {
-        assertEquals(emptyList(), HeldOutLegs(survey(legs = 12, lag = 8.0)) { null }.scores())
+        assertEquals(emptyList(), HeldOutLegs(CorrectedLegs(survey(legs = 12, lag = 8.0), DoubleArray(0))) { null }.scores())
     }
 
     @Test
     fun fewLegsAreNotSplit() {
-        val few = survey(legs = 7, lag = 8.0)
+        val few = CorrectedLegs(survey(legs = 7, lag = 8.0), DoubleArray(0))
         assertEquals(emptyList(), HeldOutLegs(few) { few }.scores())
     }
+
+    @Test
+    fun successivePassesAreComparedBetweenReadingsAndOnlyWhereBothHaveThem() {
+        // Down to 10 with readings of the place, up to 4 with readings two higher.
+        val places = DoubleArray(18) { if (it < 11) it.toDouble() else 21.0 - it }
+        val legs = listOf(leg(0, 10), leg(11, 17))
+        val values = DoubleArray(18) { places[it] + if (it < 11) 0.0 else 2.0 }
+        assertEquals(2.0, PassDifference(places, legs, 0.0, 10.0).of(values, listOf(0)), 1e-12)
+        assertTrue(PassDifference(places, legs, 0.0, 3.0).of(values, listOf(0)).isNaN())
+    }
+
+    private fun leg(first: Int, last: Int) =
+        Leg(first, last, forward = true, start = 0.0, end = 10.0, across = 0.0, seconds = 10.0)
 
     private companion object {
         const val ROWS = 110
