@@ -143,9 +143,9 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
 
     private fun calibrate(p: DoubleArray, out: DoubleArray) {
         val tau = p[TIME_CONSTANT]
-        for (i in 0 until n) {
-            val age = series.times[i] - series.times[0]
-            out[i] = p[OFFSET] + p[GAIN] * out[i] + p[FIRST] * exp(-age / tau)
+        for (i in 0 until n) out[i] = p[OFFSET] + p[GAIN] * out[i]
+        if (p[FIRST] != 0.0) {
+            for (i in 0 until n) out[i] += p[FIRST] * exp(-(series.times[i] - series.times[0]) / tau)
         }
         for (term in terms) {
             val at = layout.slots.getValue(term.key)
