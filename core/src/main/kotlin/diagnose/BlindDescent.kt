@@ -30,11 +30,16 @@ internal class BlindDescent(private val state: BlindState) {
         var damping = 1e-3
         val indices = free.indices.filter { free[it] }
         repeat(steps) {
-            val columns = indices.map { state.fit.unlike(derivative(model, best.numbers, it)) }
-            val z = state.fit.residual(best.residuals)
-            val whitened = indices.map { state.fit.whitened(derivative(model, best.numbers, it)) }
-            val matrix = Array(columns.size) { i -> DoubleArray(columns.size) { j -> dot(columns[i], whitened[j]) } }
-            val system = SymmetricSystem(matrix, DoubleArray(columns.size) { dot(whitened[it], z) })
+            // With H = L Lᵀ what is unlike the water of a and b is Wa·Wb − L⁻¹RᵀWa · L⁻¹RᵀWb.
+            val white = indices.map { state.fit.whitened(derivative(model, best.numbers, it)) }
+            val halves = white.map { state.fit.imitated(it) }
+            val own = state.fit.whitened(best.residuals)
+            val taken = state.fit.taken(best.residuals)
+            val matrix = Array(white.size) { i ->
+                DoubleArray(white.size) { j -> dot(white[i], white[j]) - dot(halves[i], halves[j]) }
+            }
+            val pull = DoubleArray(white.size) { dot(white[it], own) - dot(halves[it], taken) }
+            val system = SymmetricSystem(matrix, pull)
             val before = best.left
             var tries = 0
             while (tries++ < TRIES) {

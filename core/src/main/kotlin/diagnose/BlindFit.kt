@@ -31,58 +31,100 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
     /** Number of columns. */
     val size: Int = shown.size
     private val n = shown[0].size
-    private val rows = DoubleArray(n * size)
+    private val columns = Array(size) { k -> DoubleArray(n).also { noise.whiten(shown[k], it) } }
 
     /** RᵀR, row-major, the lower half. */
     val gram = DoubleArray(size * size)
 
     init {
-        val z = DoubleArray(n)
-        for (k in 0 until size) {
-            noise.whiten(shown[k], z)
-            for (i in 0 until n) rows[i * size + k] = z[i]
-        }
-        var i = 0
-        while (i + 3 < n) {
-            addFour(i)
-            i += 4
-        }
-        while (i < n) {
-            for (a in 0 until size) {
-                val w = rows[i * size + a]
-                for (b in 0..a) gram[a * size + b] += w * rows[i * size + b]
+        // Stretches of rows that stay in the nearest cache, and products of three columns with four at a time.
+        for (from in 0 until n step STRETCH) {
+            for (a in 0 until size step 3) {
+                for (b in 0..a + 2 step 4) products(a, b, from, minOf(from + STRETCH, n))
             }
-            i++
         }
     }
 
-    private fun addFour(i: Int) {
-        val p = i * size
-        val q = p + size
-        val r = q + size
-        val s = r + size
-        for (a in 0 until size) {
-            val wp = rows[p + a]
-            val wq = rows[q + a]
-            val wr = rows[r + a]
-            val ws = rows[s + a]
-            val at = a * size
-            for (b in 0..a) {
-                gram[at + b] += wp * rows[p + b] + wq * rows[q + b] + wr * rows[r + b] + ws * rows[s + b]
-            }
+    /** Adds rows [from] until [to] to the products of the columns from [a] with those from [b]. */
+    private fun products(a: Int, b: Int, from: Int, to: Int) {
+        val last = size - 1
+        val x0 = columns[a]
+        val x1 = columns[minOf(a + 1, last)]
+        val x2 = columns[minOf(a + 2, last)]
+        val y0 = columns[minOf(b, last)]
+        val y1 = columns[minOf(b + 1, last)]
+        val y2 = columns[minOf(b + 2, last)]
+        val y3 = columns[minOf(b + 3, last)]
+        var s00 = 0.0
+        var s01 = 0.0
+        var s02 = 0.0
+        var s03 = 0.0
+        var s10 = 0.0
+        var s11 = 0.0
+        var s12 = 0.0
+        var s13 = 0.0
+        var s20 = 0.0
+        var s21 = 0.0
+        var s22 = 0.0
+        var s23 = 0.0
+        for (i in from until to) {
+            val y = y0[i]
+            val z = y1[i]
+            val v = y2[i]
+            val w = y3[i]
+            s00 += x0[i] * y
+            s01 += x0[i] * z
+            s02 += x0[i] * v
+            s03 += x0[i] * w
+            s10 += x1[i] * y
+            s11 += x1[i] * z
+            s12 += x1[i] * v
+            s13 += x1[i] * w
+            s20 += x2[i] * y
+            s21 += x2[i] * z
+            s22 += x2[i] * v
+            s23 += x2[i] * w
         }
+        add(a, b, s00, s01, s02, s03)
+        add(a + 1, b, s10, s11, s12, s13)
+        add(a + 2, b, s20, s21, s22, s23)
+    }
+
+    private fun add(a: Int, b: Int, first: Double, second: Double, third: Double, fourth: Double) {
+        if (a >= size) return
+        val at = a * size
+        if (b <= a) gram[at + b] += first
+        if (b + 1 <= a) gram[at + b + 1] += second
+        if (b + 2 <= a) gram[at + b + 2] += third
+        if (b + 3 <= a) gram[at + b + 3] += fourth
     }
 
     /** Row [i] of R, length [size]; new. */
-    fun row(i: Int): DoubleArray = rows.copyOfRange(i * size, (i + 1) * size)
+    fun row(i: Int): DoubleArray = DoubleArray(size) { columns[it][i] }
 
     /** Rᵀ [z], length [size]. */
     fun transposed(z: DoubleArray): DoubleArray {
         val out = DoubleArray(size)
-        for (i in 0 until n) {
-            val w = z[i]
-            val at = i * size
-            if (w != 0.0) for (k in 0 until size) out[k] += w * rows[at + k]
+        for (k in 0 until size step 4) {
+            val a = columns[k]
+            val b = columns[minOf(k + 1, size - 1)]
+            val c = columns[minOf(k + 2, size - 1)]
+            val d = columns[minOf(k + 3, size - 1)]
+            var p = 0.0
+            var q = 0.0
+            var r = 0.0
+            var s = 0.0
+            for (i in 0 until n) {
+                val w = z[i]
+                p += a[i] * w
+                q += b[i] * w
+                r += c[i] * w
+                s += d[i] * w
+            }
+            out[k] = p
+            if (k + 1 < size) out[k + 1] = q
+            if (k + 2 < size) out[k + 2] = r
+            if (k + 3 < size) out[k + 3] = s
         }
         return out
     }
@@ -90,20 +132,23 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
     /** R [beta], length n. */
     fun times(beta: DoubleArray): DoubleArray {
         val out = DoubleArray(n)
-        for (i in 0 until n) {
-            var a = 0.0
-            var b = 0.0
-            val at = i * size
-            var k = 0
-            while (k + 1 < size) {
-                a += rows[at + k] * beta[k]
-                b += rows[at + k + 1] * beta[k + 1]
-                k += 2
-            }
-            if (k < size) a += rows[at + k] * beta[k]
-            out[i] = a + b
+        for (k in 0 until size step 4) {
+            val last = size - 1
+            val a = columns[k]
+            val b = columns[minOf(k + 1, last)]
+            val c = columns[minOf(k + 2, last)]
+            val d = columns[minOf(k + 3, last)]
+            val p = beta[k]
+            val q = if (k + 1 <= last) beta[k + 1] else 0.0
+            val r = if (k + 2 <= last) beta[k + 2] else 0.0
+            val s = if (k + 3 <= last) beta[k + 3] else 0.0
+            for (i in 0 until n) out[i] += p * a[i] + q * b[i] + r * c[i] + s * d[i]
         }
         return out
+    }
+
+    private companion object {
+        const val STRETCH = 512
     }
 }
 
@@ -140,14 +185,21 @@ internal class FlatCholesky(private val matrix: DoubleArray, private val n: Int)
             val at = i * n
             var a = 0.0
             var b = 0.0
+            var c = 0.0
+            var d = 0.0
             var k = 0
-            while (k + 1 < i) {
+            while (k + 3 < i) {
                 a += matrix[at + k] * out[k]
                 b += matrix[at + k + 1] * out[k + 1]
-                k += 2
+                c += matrix[at + k + 2] * out[k + 2]
+                d += matrix[at + k + 3] * out[k + 3]
+                k += 4
             }
-            if (k < i) a += matrix[at + k] * out[k]
-            out[i] = (out[i] - a - b) / matrix[at + i]
+            while (k < i) {
+                a += matrix[at + k] * out[k]
+                k++
+            }
+            out[i] = (out[i] - (a + b) - (c + d)) / matrix[at + i]
         }
         return out
     }
@@ -197,22 +249,29 @@ internal class FlatCholesky(private val matrix: DoubleArray, private val n: Int)
  *
  * @property design the derivatives. @property precisions Λ's diagonal. @property heights β̂.
  */
-internal class BlindFit(val design: BlindDesign, val precisions: DoubleArray, val heights: DoubleArray) {
+internal class BlindFit private constructor(
+    val design: BlindDesign,
+    val precisions: DoubleArray,
+    val heights: DoubleArray,
+    private val factor: FlatCholesky,
+) {
+    constructor(design: BlindDesign, precisions: DoubleArray, heights: DoubleArray) :
+        this(design, precisions, heights, factored(design, precisions))
+
     private val n = design.noise.spread.size
     private val size = design.size
 
     /** Rows in use. */
     val rows: Int get() = design.noise.noise.rows
-    private val factor: FlatCholesky = FlatCholesky(
-        design.gram.copyOf().also { h -> for (k in 0 until size) h[k * size + k] += precisions[k] },
-        size,
-    )
     private val z = DoubleArray(n)
     private val prior = heights.indices.sumOf { precisions[it] * heights[it] * heights[it] }
 
     /** ln det of the posterior's precision less that of the prior's, and the noise's ln det. */
     val logDeterminant: Double =
         factor.logDeterminant - precisions.sumOf { ln(it) } + design.noise.logDeterminant
+
+    /** The same at other [heights]. */
+    fun at(heights: DoubleArray) = BlindFit(design, precisions, heights, factor)
 
     /** Diagonal of the posterior's covariance over the noise's variance. */
     fun spreads(): DoubleArray = factor.inverseDiagonal()
@@ -229,6 +288,12 @@ internal class BlindFit(val design: BlindDesign, val precisions: DoubleArray, va
         val half = factor.half(pull(r))
         return maxOf(squares(z) + prior - squares(half), TINY)
     }
+
+    /** L⁻¹ of the pull of [r], whose square sum is what the water takes of it; see [left]. */
+    fun taken(r: DoubleArray): DoubleArray = factor.half(pull(r))
+
+    /** What a whitened column [white] moves the water, as [taken] measures it. */
+    fun imitated(white: DoubleArray): DoubleArray = factor.half(design.transposed(white))
 
     /** By how much the water changes to take what it can of [r]. */
     fun change(r: DoubleArray): DoubleArray = factor.back(factor.half(pull(r)))
@@ -260,5 +325,12 @@ internal class BlindFit(val design: BlindDesign, val precisions: DoubleArray, va
 
     private companion object {
         const val TINY = 1e-290
+
+        fun factored(design: BlindDesign, precisions: DoubleArray): FlatCholesky {
+            val size = design.size
+            val matrix = design.gram.copyOf()
+            for (k in 0 until size) matrix[k * size + k] += precisions[k]
+            return FlatCholesky(matrix, size)
+        }
     }
 }

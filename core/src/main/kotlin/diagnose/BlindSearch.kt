@@ -20,6 +20,7 @@ internal class BlindState(
     val variances: DoubleArray,
     val residuals: DoubleArray,
     val left: Double,
+    val modes: WaterModes,
 ) {
     /** Twice the log-likelihood, less a constant. */
     val score: Double = fit.score(left)
@@ -67,12 +68,12 @@ internal class BlindSearch(private val series: MeasuredSeries) {
             settled(emptyList(), base(steps * series.period), guess, variances, modes = rough)
                 .also { variances = it.variances }
         }
-        val first = coarse.maxBy { it.score }
-        var state = settled(emptyList(), first.numbers, guess, DoubleArray(0), FIRST_ROUNDS)
-        // The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
-        state = stepped(improved(improved(state)))
-        state = improved(quieted(state))
-        state = improved(evened(state))
+        // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
+        val first = quieted(stepped(improved(improved(coarse.maxBy { it.score }))))
+        val found = improved(first)
+        var state = settled(emptyList(), found.numbers, found.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, modes)
+        // More waves may explain what looked like noise that wanders.
+        state = improved(requieted(evened(state)))
         return improved(state).also { lastVariance = it.variance }
     }
 
@@ -112,6 +113,29 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         return best
     }
 
+    /** [state] with noise that wanders less or more as long as that suits it better. */
+    private fun requieted(state: BlindState): BlindState {
+        val now = state.fit.design.noise.noise
+        val from = NOISES.indices.minBy { k ->
+            val (share, steps) = NOISES[k]
+            abs(share - now.share) + abs(ln(steps * series.period / now.time))
+        }
+        val spread = spread(state)
+        for (way in listOf(-1, 1)) {
+            var best = state
+            var k = from + way
+            while (k in NOISES.indices) {
+                val (share, steps) = NOISES[k]
+                val next = again(state, noise(share, steps, spread))
+                if (next.score <= best.score) break
+                best = next
+                k += way
+            }
+            if (best !== state) return best
+        }
+        return state
+    }
+
     /** [state] with each row's spread of noise as its residuals say. */
     fun evened(state: BlindState): BlindState =
         again(state, BlindNoise(state.fit.design.noise.noise.with(series, used), spread(state)))
@@ -124,7 +148,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
 
     /** Relative spread of each row's noise: fixes that are off do more harm where the water is steep. */
     private fun spread(state: BlindState): DoubleArray {
-        val steep = modes.steepness(state.fit.heights)
+        val steep = state.modes.steepness(state.fit.heights)
         val tau = maxOf(state.timeConstant, series.period)
         var felt = 0.0
         for (i in 0 until n) {
@@ -148,7 +172,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
 
     /** [state] with water that does not change in time. */
     fun still(state: BlindState): BlindState {
-        val variances = DoubleArray(modes.bands) { if (it in modes.moving) LEAST else state.variances[it] }
+        val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) LEAST else state.variances[it] }
         return settled(state.model.terms, state.numbers, state.fit.design.noise, variances, before = state)
     }
 
@@ -168,11 +192,21 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         noise: BlindNoise,
         variances: DoubleArray,
         rounds: Int = ROUNDS,
-        modes: WaterModes = this.modes,
+        modes: WaterModes? = null,
         before: BlindState? = null,
+    ): BlindState = settled(terms, numbers, noise, variances, rounds, modes ?: before?.modes ?: this.modes, before?.fit)
+
+    private fun settled(
+        terms: List<Term>,
+        numbers: DoubleArray,
+        noise: BlindNoise,
+        variances: DoubleArray,
+        rounds: Int,
+        modes: WaterModes,
+        before: BlindFit?,
     ): BlindState {
-        val design = BlindDesign(shown(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes), noise)
-        var heights = before?.fit?.heights ?: DoubleArray(design.size)
+        val design = designed(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes, noise)
+        var heights = before?.heights?.takeIf { it.size == design.size } ?: DoubleArray(design.size)
         var bands =
             variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / design.size }
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
@@ -183,14 +217,14 @@ internal class BlindSearch(private val series: MeasuredSeries) {
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
             model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-            fit = BlindFit(design, fit.precisions, heights)
+            fit = fit.at(heights)
             if (round < rounds) {
                 bands = variances(fit, residuals(model, at), modes)
                 fit = BlindFit(design, precisions(bands, modes), heights)
             }
         }
         val residuals = residuals(model, at)
-        return BlindState(model, at, fit, bands, residuals, fit.left(residuals))
+        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), modes)
     }
 
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
@@ -213,6 +247,25 @@ internal class BlindSearch(private val series: MeasuredSeries) {
 
     private var shownLast: Array<DoubleArray>? = null
     private var shownAs: Triple<List<Term>, List<Double>, WaterModes>? = null
+
+    /** The design of these, which is kept for the next that asks for the same. */
+    private fun designed(
+        terms: List<Term>,
+        numbers: DoubleArray,
+        modes: WaterModes,
+        noise: BlindNoise,
+    ): BlindDesign {
+        val last = designLast
+        val columns = shown(terms, numbers, modes)
+        if (last != null && designOf === columns && last.noise === noise) return last
+        return BlindDesign(columns, noise).also {
+            designLast = it
+            designOf = columns
+        }
+    }
+
+    private var designLast: BlindDesign? = null
+    private var designOf: Array<DoubleArray>? = null
 
     private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
         val whole = ResponseModel(series.withReference(modes.columns[0]), terms, held, scales)

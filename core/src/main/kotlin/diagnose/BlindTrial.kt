@@ -65,15 +65,21 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val free = search.free(model)
         val starts = Starts(asFit, model, term, small = true).all()
         val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
-        val rough = places.map { descent.from(model, it, free, FIRST_STEPS) }
-            .minBy { it.left }
-        val best = descent.from(model, rough.numbers, free, STEPS)
+        val looked = places.map { descent.from(model, it, free, 1) }.minBy { it.left }
+        // What gains next to nothing at the first step is no cause, however well it is fitted.
+        val isWorthIt = Evidence.ratio(base.left, looked.left, state.fit.rows) > LEAST_GAIN
+        val best = if (isWorthIt) better(model, places, free) else looked
         val slot = model.slot(term)
         val columns = (slot until slot + model.width(term)).map {
             state.fit.unlike(BlindDescent.derivative(model, best.numbers, it))
         }
         val change = DoubleArray(n) { base.residuals[it] - best.residuals[it] }
         return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
+    }
+
+    private fun better(model: ResponseModel, places: List<DoubleArray>, free: BooleanArray): BlindPoint {
+        val rough = places.map { descent.from(model, it, free, FIRST_STEPS) }.minBy { it.left }
+        return descent.from(model, rough.numbers, free, STEPS)
     }
 
     /** Places where the range may end: beyond ever fewer of the readings. */
@@ -186,6 +192,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val STEPS = 6
         const val STRETCHES = BlindEvidence.STRETCHES
         const val FAR = 1e12
+
+        /** Twice the gain in log-likelihood below which a cause is not fitted to the end: far below any level. */
+        const val LEAST_GAIN = 4.0
         val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
         const val PLACES = 48
         const val MOST_JUMPS = 3

@@ -155,7 +155,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val tau = p[TIME_CONSTANT]
         for (i in 0 until n) {
             val age = series.times[i] - series.times[0]
-            val first = if (age < FADED * tau) p[FIRST] * exp(-age / tau) else 0.0
+            val first = if (p[FIRST] != 0.0 && age < FADED * tau) p[FIRST] * exp(-age / tau) else 0.0
             out[i] = p[OFFSET] + p[GAIN] * out[i] + first
         }
         for (term in terms) {

@@ -14,10 +14,24 @@ internal class Spline(private val times: DoubleArray, private val isBroken: Bool
     private val work = DoubleArray(n)
     private var column = work
 
+    /** What of the elimination depends on the knots alone: share of the step before, pivot, and what is passed on. */
+    private val share = DoubleArray(n)
+    private val pivot = DoubleArray(n) { 1.0 }
+    private val passed = DoubleArray(n)
+
+    init {
+        for (i in 1 until n - 1) {
+            val left = times[i] - times[i - 1]
+            val right = times[i + 1] - times[i]
+            share[i] = left / (left + right)
+            pivot[i] = share[i] * passed[i - 1] + 2
+            passed[i] = (share[i] - 1) / pivot[i]
+        }
+    }
+
     /** Goes through [values], length n. Retained, not modified. */
     fun fit(values: DoubleArray) {
         column = values
-        bend[0] = 0.0
         work[0] = 0.0
         for (i in 1 until n - 1) {
             if (isBroken != null && (isBroken[i] || isBroken[i + 1])) {
@@ -27,14 +41,11 @@ internal class Spline(private val times: DoubleArray, private val isBroken: Bool
             }
             val left = times[i] - times[i - 1]
             val right = times[i + 1] - times[i]
-            val share = left / (left + right)
-            val pivot = share * bend[i - 1] + 2
-            bend[i] = (share - 1) / pivot
             val change = (values[i + 1] - values[i]) / right - (values[i] - values[i - 1]) / left
-            work[i] = (6 * change / (left + right) - share * work[i - 1]) / pivot
+            work[i] = (6 * change / (left + right) - share[i] * work[i - 1]) / pivot[i]
         }
         if (n > 0) bend[n - 1] = 0.0
-        for (i in n - 2 downTo 1) bend[i] = bend[i] * bend[i + 1] + work[i]
+        for (i in n - 2 downTo 1) bend[i] = passed[i] * bend[i + 1] + work[i]
         if (n > 0) bend[0] = 0.0
     }
 
