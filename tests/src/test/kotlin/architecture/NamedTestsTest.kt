@@ -1,8 +1,8 @@
 package stillwater.architecture
 
+import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
-import org.junit.jupiter.api.Test
 
 /** A document that names a test names one that is there: a table of evidence does not outlive what it points at. */
 class NamedTestsTest {

@@ -1,9 +1,9 @@
 package stillwater.architecture
 
+import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
-import org.junit.jupiter.api.Test
 
 /** Rules for every source of every module: small files, and a package that says where the file is. */
 class SourceLayoutTest {

@@ -1,10 +1,10 @@
 package stillwater.app.link
 
 import android.util.Log
-import java.io.IOException
-import java.util.concurrent.ArrayBlockingQueue
 import stillwater.app.mayWait
 import stillwater.wire.ByteLink
+import java.io.IOException
+import java.util.concurrent.ArrayBlockingQueue
 
 /** Lets a thread wait; a test's does not. */
 internal fun interface Pause {

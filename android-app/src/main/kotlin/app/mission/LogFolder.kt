@@ -1,16 +1,16 @@
 package stillwater.app.mission
 
-import java.io.File
-import java.io.IOException
-import java.time.Instant
-import java.time.ZoneOffset
-import java.time.format.DateTimeFormatter
 import stillwater.app.mayWait
 import stillwater.field.FieldMap
 import stillwater.mission.MissionRecovery
 import stillwater.mission.RecoveryListener
 import stillwater.model.Position
 import stillwater.model.Reading
+import java.io.File
+import java.io.IOException
+import java.time.Instant
+import java.time.ZoneOffset
+import java.time.format.DateTimeFormatter
 
 /**
  * The folder of the missions' logs. Touches the disk: for the disk's thread.

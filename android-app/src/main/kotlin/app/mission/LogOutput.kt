@@ -1,9 +1,9 @@
 package stillwater.app.mission
 
+import stillwater.app.mayWait
 import java.io.File
 import java.io.IOException
 import java.io.RandomAccessFile
-import stillwater.app.mayWait
 
 /** Where a log's bytes go. A seam, for a test has no full disk. May wait: for the disk's thread. */
 internal interface LogOutput {

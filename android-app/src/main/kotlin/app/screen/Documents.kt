@@ -5,11 +5,6 @@ import android.content.Intent
 import android.net.Uri
 import android.os.Bundle
 import android.provider.DocumentsContract
-import java.io.ByteArrayOutputStream
-import java.io.File
-import java.io.IOException
-import java.io.InputStream
-import java.io.OutputStream
 import stillwater.app.R
 import stillwater.app.mayWait
 import stillwater.app.service.BoatService
@@ -18,6 +13,11 @@ import stillwater.mission.CellsText
 import stillwater.mission.MissionDraft
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionSpec
+import java.io.ByteArrayOutputStream
+import java.io.File
+import java.io.IOException
+import java.io.InputStream
+import java.io.OutputStream
 
 /**
  * Reads and writes the documents that a person chose, aside from the main thread, and tells what came of it.

@@ -6,13 +6,13 @@ import android.graphics.DashPathEffect
 import android.graphics.Paint
 import android.graphics.Path
 import android.view.View
+import stillwater.app.R
 import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.floor
 import kotlin.math.log10
 import kotlin.math.pow
-import stillwater.app.R
 
 /**
  * The last minutes: readings, and what is believed of the water with its bounds; below, the gradient of the readings.

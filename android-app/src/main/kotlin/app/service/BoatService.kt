@@ -14,7 +14,6 @@ import android.os.IBinder
 import android.os.Looper
 import android.os.PowerManager
 import android.util.Log
-import java.io.File
 import stillwater.app.AboveMinSdk
 import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkMaker
@@ -26,6 +25,7 @@ import stillwater.app.mission.LogFolder
 import stillwater.app.mission.LogOpener
 import stillwater.app.mission.MissionControl
 import stillwater.mission.Wish
+import java.io.File
 
 /**
  * Keeps boat and mission going while the app is out of sight: in the foreground, with the processor awake.

@@ -3,7 +3,6 @@ package stillwater.app.setup
 import android.content.Context
 import android.graphics.Canvas
 import android.graphics.Paint
-import kotlin.math.floor
 import stillwater.app.R
 import stillwater.app.screen.LineStyle
 import stillwater.app.screen.MapProjection
@@ -12,6 +11,7 @@ import stillwater.mission.GridSpec
 import stillwater.mission.MissionDraft
 import stillwater.mission.PlaceSpec
 import stillwater.model.Position
+import kotlin.math.floor
 
 /**
  * The water as it is being drawn: a metric grid, the shore, keep-outs, home and where the phone is. There is no map
@@ -121,7 +121,12 @@ internal class AreaView(
             val (x, y) = projection.x(place.position) to projection.y(place.position)
             val isSelected = pen.selected == Corner(ring, index)
             fill.color = context.getColor(if (isSelected) R.color.plan else R.color.fence)
-            val size = if (isSelected) SELECTED_DP else if (ring < 0) CORNER_DP else SMALL_CORNER_DP
+            val size =
+                when {
+                    isSelected -> SELECTED_DP
+                    ring < 0 -> CORNER_DP
+                    else -> SMALL_CORNER_DP
+                }
             canvas.drawCircle(x, y, size * density, fill)
             // A keep-out is small, and its numbers would hide it.
             if (ring >= 0) return@forEachIndexed

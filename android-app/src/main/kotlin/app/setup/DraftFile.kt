@@ -1,11 +1,11 @@
 package stillwater.app.setup
 
 import android.content.Context
-import java.io.File
-import java.io.IOException
 import stillwater.app.mayWait
 import stillwater.app.screen.Background
 import stillwater.mission.MissionDraft
+import java.io.File
+import java.io.IOException
 
 /** Keeps the draft over the app's end: half a shore that was walked is not to be walked again. */
 internal class DraftFile(context: Context) {

@@ -63,6 +63,8 @@ class PhonePoseTest {
     fun theReceiverIsAskedForAllItHas() {
         val listener = locations.getLocationUpdateListeners(LocationManager.GPS_PROVIDER)
         assertEquals(1, listener.size)
+        val asked = locations.getLegacyLocationRequests(LocationManager.GPS_PROVIDER).single()
+        assertEquals(0L to 0f, asked.intervalMillis to asked.minUpdateDistanceMeters, "as often as it can")
         pose.stop()
         assertTrue(locations.getLocationUpdateListeners(LocationManager.GPS_PROVIDER).isEmpty())
         assertTrue(sensors.listeners.isEmpty())

@@ -9,10 +9,6 @@ import android.os.Looper
 import android.os.StrictMode
 import android.view.View
 import android.widget.TextView
-import java.io.File
-import java.time.Duration
-import kotlin.test.assertEquals
-import kotlin.test.assertTrue
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -33,6 +29,10 @@ import stillwater.model.BoatTime
 import stillwater.model.Drive
 import stillwater.model.Reading
 import stillwater.wire.Message
+import java.io.File
+import java.time.Duration
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
 
 /**
  * From nothing to the live map, after the process died in the middle of a mission: the service, the window, the log of

@@ -1,13 +1,13 @@
 package stillwater.app.screen
 
 import android.graphics.Color
-import kotlin.test.assertTrue
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.annotation.Config
 import stillwater.app.R
+import kotlin.test.assertTrue
 
 /** Text, and lines on the map, that are read in the sun: 7 to 1, the "enhanced" contrast of WCAG 2.1, section 1.4.6. */
 @RunWith(RobolectricTestRunner::class)

@@ -8,8 +8,6 @@ import android.os.PowerManager
 import android.os.StrictMode
 import android.view.View
 import android.widget.TextView
-import java.time.Duration
-import kotlin.test.assertTrue
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -25,6 +23,8 @@ import stillwater.app.service.Preflight
 import stillwater.app.service.ServiceDesk
 import stillwater.mission.MissionDraft
 import stillwater.mission.MissionSpec
+import java.time.Duration
+import kotlin.test.assertTrue
 
 /** Someone without a boat tries the app: from the first look to the end of a mission, with the service that it has. */
 @RunWith(RobolectricTestRunner::class)

@@ -2,8 +2,6 @@ package stillwater.app.screen
 
 import android.view.View
 import android.widget.TextView
-import kotlin.test.assertEquals
-import kotlin.test.assertTrue
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
@@ -13,6 +11,8 @@ import stillwater.app.link.LinkChoice
 import stillwater.app.service.BoatService
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.Gaps
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
 class LinkScreenTest {

@@ -7,10 +7,6 @@ import android.os.Parcelable
 import android.util.SparseArray
 import android.view.MotionEvent
 import android.view.View
-import kotlin.test.assertEquals
-import kotlin.test.assertNotNull
-import kotlin.test.assertNull
-import kotlin.test.assertTrue
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
@@ -20,6 +16,10 @@ import stillwater.field.FieldMap
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Position
+import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
 @Config(sdk = [35])

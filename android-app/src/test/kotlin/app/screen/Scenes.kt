@@ -1,7 +1,5 @@
 package stillwater.app.screen
 
-import kotlin.math.exp
-import kotlin.math.hypot
 import stillwater.app.link.BoardReport
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
@@ -37,6 +35,8 @@ import stillwater.model.LatLon
 import stillwater.model.Position
 import stillwater.sensor.FirstOrderLag
 import stillwater.wire.BoardState
+import kotlin.math.exp
+import kotlin.math.hypot
 
 /** What the screens' tests and pictures show: a pond of 100 m by 60 m, half surveyed by a boat with a slow probe. */
 internal object Scenes {

@@ -6,9 +6,6 @@ import android.graphics.Canvas
 import android.graphics.Color
 import android.view.View
 import android.widget.Button
-import java.io.File
-import java.util.TimeZone
-import kotlin.math.abs
 import org.junit.Assert.assertTrue
 import org.junit.Before
 import org.junit.Test
@@ -19,6 +16,9 @@ import org.robolectric.annotation.GraphicsMode
 import stillwater.app.R
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.MissionDraft
+import java.io.File
+import java.util.TimeZone
+import kotlin.math.abs
 
 /**
  * The pictures in docs/screenshots are what the app draws. A difference fails and leaves the new picture in

@@ -2,8 +2,6 @@ package stillwater.app.screen
 
 import android.app.Application
 import android.os.StrictMode
-import java.io.File
-import kotlin.test.assertEquals
 import org.junit.After
 import org.junit.Test
 import org.junit.runner.RunWith
@@ -13,6 +11,8 @@ import org.robolectric.annotation.Config
 import stillwater.app.mission.FileOutput
 import stillwater.app.mission.LogFolder
 import stillwater.app.service.BoatService
+import java.io.File
+import kotlin.test.assertEquals
 
 /** What StrictMode sees in a test: what [DemoTest] and [ColdStartTest] would fall over. */
 @RunWith(RobolectricTestRunner::class)

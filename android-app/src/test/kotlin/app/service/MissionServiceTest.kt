@@ -3,14 +3,6 @@ package stillwater.app.service
 import android.app.Application
 import android.app.NotificationManager
 import android.os.Looper
-import java.io.File
-import java.io.IOException
-import java.time.Duration
-import kotlin.test.assertEquals
-import kotlin.test.assertFalse
-import kotlin.test.assertNotNull
-import kotlin.test.assertNull
-import kotlin.test.assertTrue
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -36,6 +28,14 @@ import stillwater.mission.MissionState
 import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.model.LatLon
+import java.io.File
+import java.io.IOException
+import java.time.Duration
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
 
 /** What a person and bad luck do to a mission; the phone's side of it. */
 @RunWith(RobolectricTestRunner::class)
