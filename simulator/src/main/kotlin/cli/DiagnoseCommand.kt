@@ -20,6 +20,7 @@ import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
+import stillwater.report.counted
 import stillwater.sensor.SensorSpec
 import java.nio.file.Path
 
@@ -100,7 +101,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                     diagnosed.lines().forEach { echo(it) }
                     for (warning in diagnosed.warnings + drawing) echo("warning: $warning", err = true)
                     echo(
-                        "wrote ${written.size} files into $out, see ${Path.of(
+                        "wrote ${counted(written.size, "file")} into $out, see ${Path.of(
                             out,
                         ).resolve(if (numbersOnly) "diagnosis.json" else "report.html")}",
                         err = true,

@@ -14,6 +14,7 @@ import stillwater.drive.BoardPhone
 import stillwater.drive.DriveRun
 import stillwater.drive.DriveStatus
 import stillwater.drive.LogOnDisk
+import stillwater.drive.MapCautions
 import stillwater.drive.MissionMapFiles
 import stillwater.drive.Phone
 import stillwater.drive.PhoneChannel
@@ -30,6 +31,7 @@ import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
+import stillwater.report.counted
 import java.nio.file.Path
 import java.time.ZonedDateTime
 import java.time.format.DateTimeFormatter
@@ -135,8 +137,8 @@ class DriveCommand : WorkCommand("drive") {
         }
         val found = resumed.mission
         tell(
-            "recovered ${found.readings} readings, ${found.unreadable} lines unreadable, " +
-                "${resumed.tornBytes} bytes of a cut line taken off; the mission was ${found.lastState}",
+            "recovered ${counted(found.readings, "reading")}, ${counted(found.unreadable, "line")} unreadable, " +
+                "${counted(resumed.tornBytes, "byte")} of a cut line taken off; the mission was ${found.lastState}",
         )
         return resumed
     }
@@ -157,24 +159,25 @@ class DriveCommand : WorkCommand("drive") {
         val warnings = OutputDirectory(directory).use {
             val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)
             it.commit()
-            missing
+            MapCautions.of(mission) + missing
         }
         val log = file.complete()
         for (warning in warnings) echo("warning: $warning", err = true)
         val why = reason?.name?.lowercase() ?: "stopped before it began"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
-        tell("$why; ${mission.readings.passed} readings$borders, ${mission.readings.leftOut} left out; log $log")
+        val readings = counted(mission.readings.passed, "reading") + borders
+        tell("$why; $readings, ${mission.readings.leftOut} left out; log $log")
         if (reason != StopReason.COMPLETED) throw ProgramResult(1)
     }
 
     /** Readings that the mission took for earlier or later than they were make its map worse. */
     private fun sayWhereTimeWasLost(phone: Phone, prompt: PromptWire) {
         if (phone.timesAlone > 0) {
-            val said = "the phone's channel was silent or lost ${phone.timesAlone} times"
+            val said = "the phone's channel was silent or lost ${counted(phone.timesAlone, "time")}"
             echo("warning: $said; the mission's time went on by itself, and the map may be wrong there", err = true)
         }
         if (prompt.timesLate > 0) {
-            val said = "what the board sent came late or not at all ${prompt.timesLate} times"
+            val said = "what the board sent came late or not at all ${counted(prompt.timesLate, "time")}"
             echo("warning: $said; the map may be wrong there", err = true)
         }
     }

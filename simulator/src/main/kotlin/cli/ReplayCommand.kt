@@ -6,6 +6,7 @@ import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.drive.MapCautions
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
@@ -16,6 +17,7 @@ import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
 import stillwater.replay.Replayed
 import stillwater.report.OutputDirectory
+import stillwater.report.counted
 import java.nio.file.Path
 
 /** `stillwater replay`: a recorded log through the mission once more. */
@@ -70,14 +72,14 @@ class ReplayCommand : WorkCommand("replay") {
 
     private fun write(replayed: Replayed, directory: OutputDirectory) {
         val files = ReplayFiles(replayed)
-        val warnings = replayed.warnings + files.write(directory, !numbersOnly)
+        val warnings = replayed.warnings + MapCautions.of(replayed.mission) + files.write(directory, !numbersOnly)
         val written = directory.commit()
         when {
             json -> echo(files.json().trimEnd())
             !quiet -> {
                 files.lines().forEach { echo(it) }
                 for (warning in warnings) echo("warning: $warning", err = true)
-                echo("wrote ${written.size} files into $out", err = true)
+                echo("wrote ${counted(written.size, "file")} into $out", err = true)
             }
         }
     }

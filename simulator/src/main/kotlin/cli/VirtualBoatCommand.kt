@@ -20,6 +20,7 @@ import stillwater.mission.ProbeSpec
 import stillwater.mission.Quantity
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
+import stillwater.report.counted
 import stillwater.world.VirtualWorld
 import stillwater.world.WorldSite
 import java.nio.file.Path
@@ -90,10 +91,10 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         server.serve(duration, once)
         out?.let { write(it, world) }
         val bad = listOfNotNull(
-            "${wire.untaken} bytes that nobody took".takeIf { wire.untaken > 0 },
-            "${phone.unanswered} times without an answer from the phone's program".takeIf { phone.unanswered > 0 },
+            "${counted(wire.untaken, "byte")} that nobody took".takeIf { wire.untaken > 0 },
+            "${counted(phone.unanswered, "time")} without an answer from the phone's program".takeIf { phone.unanswered > 0 },
             "${phone.unreadable} of its lines unreadable".takeIf { phone.unreadable > 0 },
-            "fell behind the asked speed ${server.slips} times".takeIf { server.slips > 0 },
+            "fell behind the asked speed ${counted(server.slips, "time")}".takeIf { server.slips > 0 },
         )
         val seconds = (world.time.seconds * TENTHS).roundToLong() / TENTHS
         echo("$seconds s of the boat's time, openings: ${wire.openings}" + bad.joinToString("") { ", $it" })

@@ -6,6 +6,7 @@ import stillwater.mission.Mission
 import stillwater.mission.MissionState
 import stillwater.model.BoatTime
 import stillwater.report.SignificantDigits
+import stillwater.report.counted
 import stillwater.wire.Malformed
 
 /**
@@ -61,7 +62,7 @@ internal class DriveStatus(
         val parts = listOf(
             "%7.1f s  %s%s".format(time.seconds, state.word, why),
             mission.position?.let { "at %.1f, %.1f m".format(it.x, it.y) } ?: "place unknown",
-            "$known of ${map.grid.size} cells, ${mission.readings.passed} readings",
+            "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readings.passed, "reading")}",
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
             trouble(mission),
             phone.trouble(),
@@ -75,10 +76,10 @@ internal class DriveStatus(
             .joinToString(" ") { "${words(it.name)} ${board.malformed(it)}" }
         return listOf(
             if (wire.isOpen) "" else "wire lost",
-            if (wire.losses > 0) "lost ${wire.losses} times" else "",
+            if (wire.losses > 0) "lost ${counted(wire.losses, "time")}" else "",
             if (bad.isEmpty()) "" else "unreadable: $bad",
-            if (board.refusals > 0) "${board.refusals} commands refused" else "",
-            if (board.unsent > 0) "${board.unsent} writes not sent" else "",
+            if (board.refusals > 0) "${counted(board.refusals, "command")} refused" else "",
+            if (board.unsent > 0) "${counted(board.unsent, "write")} not sent" else "",
         ).filter { it.isNotEmpty() }.joinToString(", ")
     }
 

@@ -6,6 +6,7 @@ import stillwater.link.ReconnectingWire
 import stillwater.link.WireAddress
 import stillwater.model.BoatTime
 import stillwater.model.LatLon
+import stillwater.report.counted
 import stillwater.wire.LineFramer
 import java.util.concurrent.locks.LockSupport
 
@@ -61,7 +62,7 @@ internal class PhoneChannel(
 
     override fun trouble(): String = listOfNotNull(
         "phone's channel lost".takeIf { !wire.isOpen },
-        "$timesAlone times without the phone".takeIf { timesAlone > 0 },
+        "${counted(timesAlone, "time")} without the phone".takeIf { timesAlone > 0 },
         "$unreadable of the phone's lines unreadable".takeIf { unreadable > 0 },
     ).joinToString(", ")
 

@@ -15,6 +15,7 @@ import stillwater.mission.MissionSpec
 import stillwater.model.BoatTime
 import stillwater.model.LatLon
 import stillwater.model.Utm
+import stillwater.report.counted
 
 /**
  * Feeds a Platypus boat's log through a mission: its poses as fixes and compass, its sensors' readings as a board's
@@ -74,7 +75,7 @@ internal class PlatypusReplay(
             }
         }
         stepUntil(mission, now + STEP)
-        if (gaps > 0) warnings += "$gaps gaps of more than $LONGEST_GAP s passed over"
+        if (gaps > 0) warnings += "${counted(gaps, "gap")} of more than $LONGEST_GAP s passed over"
         val format = "Platypus log ${version.release}"
         return Replayed(spec, format, mission, decisions, log, lines, notUnderstood, null, warnings)
     }

@@ -10,6 +10,7 @@ import kotlinx.serialization.json.putJsonObject
 import stillwater.drive.MissionMapFiles
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
+import stillwater.report.counted
 import stillwater.wire.Malformed
 
 /**
@@ -82,24 +83,27 @@ internal class ReplayFiles(private val replayed: Replayed) {
             malformed().map { (name, count) -> "$count of the board ($name)" }
         val why = Decisions.why(replayed.mission.state)
         return listOfNotNull(
-            "${replayed.format}, ${decisions.steps} steps; at its end ${replayed.mission.state.word} $why".trimEnd(),
-            "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${it.key}" },
+            "${replayed.format}, ${counted(decisions.steps, "step")}; at its end ${replayed.mission.state.word} $why".trimEnd(),
+            "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${kind(it.key, it.value)}" },
             "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
             "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(it.key, it.value) } +
-                "; ${decisions.changes.size} changes, motors running in ${decisions.driven} steps",
+                "; ${counted(decisions.changes.size, "change")}, motors running in ${counted(decisions.driven, "step")}",
             "readings: ${gate.passed} taken, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
                 "${gate.stuck} stuck, ${gate.waiting} waiting, " +
-                "${gate.withoutValueOrPlace} without a place; ${replayed.mission.refusedFixes} fixes refused",
+                "${gate.withoutValueOrPlace} without a place; ${counted(replayed.mission.refusedFixes, "fix", "fixes")} refused",
             replayed.asRecorded?.let { same ->
                 val steps = if (same.differingSteps == 0L) {
                     "every step as recorded"
                 } else {
-                    "${same.differingSteps} steps otherwise than recorded, the first at ${same.firstDifference} s"
+                    "${counted(same.differingSteps, "step")} otherwise than recorded, the first at ${same.firstDifference} s"
                 }
                 "$steps; the map is ${if (same.isSameMap) "" else "not "}that of the recorded readings, bit for bit"
             },
         )
     }
+
+    /** The kinds are plurals, and keys in the JSON. */
+    private fun kind(words: String, count: Long) = if (count == 1L) SINGULAR[words] ?: words else words
 
     private fun malformed() = Malformed.entries.associate { kind ->
         kind.name.lowercase().replace('_', '-') to replayed.mission.board.malformed(kind)
@@ -109,5 +113,15 @@ internal class ReplayFiles(private val replayed: Replayed) {
 
     private companion object {
         val PRETTY = Json { prettyPrint = true }
+        val SINGULAR = mapOf(
+            "beginnings" to "beginning",
+            "steps" to "step",
+            "readings" to "reading",
+            "other sensors" to "other sensor",
+            "poses" to "pose",
+            "cells left without a reading" to "cell left without a reading",
+            "poses before the first fix" to "pose before the first fix",
+            "poses said again" to "pose said again",
+        )
     }
 }

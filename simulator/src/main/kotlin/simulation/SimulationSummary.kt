@@ -1,7 +1,8 @@
 package stillwater.simulation
 
-import stillwater.mission.EstimatorName
+import stillwater.drive.MapCautions
 import stillwater.report.SignificantDigits
+import stillwater.report.counted
 
 /**
  * A [SimulationResult] in words: facts, and what to beware of.
@@ -43,8 +44,9 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
             add("the mission was not over after ${clock(result.longest)}; --longest gives it more time")
         }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
-        if (result.belief?.isExplained == false) add(unexplained())
-        fewBounds()?.let { add(it) }
+        val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
+        MapCautions.unexplained(run.spec.estimator, result.belief, where)?.let { add(it) }
+        MapCautions.fewBounds(run.spec.estimator, result.map)?.let { add(it) }
         if (result.againstMeans.mean > result.averagesError.mean) {
             add(
                 "the map is no better than the mean of each cell's readings: off the cells' means by " +
@@ -55,29 +57,10 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         if (holding.cells > 0 && holding.holding < CREDIBLE) {
             add(
                 "the bounds hold the water at the cells' centres in only ${percent(holding.holding)} of " +
-                    "${holding.cells} cells",
+                    counted(holding.cells, "cell"),
             )
         }
         if (result.atCentres.cells == 0) add("no cell has a reading")
-    }
-
-    private fun unexplained(): String {
-        val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
-        val then = if (run.spec.estimator == EstimatorName.BAYESIAN) {
-            "the map has no bounds"
-        } else {
-            "bounds, and values where the nearest model's ran away, are those of bounded-extended"
-        }
-        return "no sensor model explains the readings$where: $then"
-    }
-
-    /** Where a filter that gives bounds gave few. */
-    private fun fewBounds(): String? {
-        val with = result.atCentres.cells
-        if (run.spec.estimator !in BOUNDING || 2 * result.boundsAtCentres.cells >= with) return null
-        return "only ${result.boundsAtCentres.cells} of $with cells with readings have bounds, after " +
-            "${number(result.readings.inCells.toDouble() / with)} readings a cell; larger cells, a slower boat or a " +
-            "faster probe give more"
     }
 
     private val space get() = if (unit.isEmpty()) "" else " "
@@ -94,7 +77,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         val ratio = own.mean / result.inProcessError.mean
         val times = if (ratio.isFinite()) ", ${number(ratio)} times as much" else ""
         return "${number(result.inProcessError.mean)}$space$unit with the same readings at the true places; the " +
-            "mission ${number(own.mean)} over the same ${own.cells} cells$times"
+            "mission ${number(own.mean)} over the same ${counted(own.cells, "cell")}$times"
     }
 
     private fun way() = "${number(run.track.distance)} m in ${clock(result.timeUnderWay)}; " +
@@ -114,21 +97,22 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     private fun bounds(): String? {
         val centres = result.boundsAtCentres
         if (centres.cells == 0) return null
-        return "${number(centres.meanWidth)}$space$unit wide in ${centres.cells} cells; they hold the water at the " +
+        return "${number(centres.meanWidth)}$space$unit wide in ${counted(centres.cells, "cell")}; they hold the water at the " +
             "centre in ${percent(centres.holding)}, the cell's mean in ${percent(result.boundsAroundMeans.holding)}"
     }
 
     private fun link(): String {
         val board = run.mission.board
         val kinds = result.unreadable.entries.joinToString { "${it.key} ${it.value}" }
-        val bad = "${board.unreadable} lines could not be read ($kinds)"
+        val bad = "${counted(board.unreadable, "line")} could not be read ($kinds)"
         val lines = if (kinds.isEmpty()) "all lines could be read" else bad
-        return "$lines; the board could not use ${board.refusals} commands"
+        return "$lines; the board could not use ${counted(board.refusals, "command")}"
     }
 
     private fun refused(): String {
         val mission = run.mission
-        return "${mission.refusedFixes} fixes, ${mission.refusedSteps} steps, ${mission.readings.leftOut} readings"
+        return "${counted(mission.refusedFixes, "fix", "fixes")}, ${counted(mission.refusedSteps, "step")}, " +
+            counted(mission.readings.leftOut, "reading")
     }
 
     private fun belief(): String? {
@@ -146,14 +130,6 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     companion object {
         private const val CREDIBLE = 0.95
         private const val PERCENT = 100
-
-        /** Estimators whose cells all get bounds once there are readings enough in them. */
-        private val BOUNDING = setOf(
-            EstimatorName.BOUNDED,
-            EstimatorName.BOUNDED_EXTENDED,
-            EstimatorName.INTERVAL,
-            EstimatorName.SELF_CALIBRATING,
-        )
 
         /** [seconds] as minutes and seconds. */
         fun clock(seconds: Double): String {

@@ -51,6 +51,11 @@ internal class Program(directory: File, vararg arguments: String) : AutoCloseabl
         process.toHandle().destroy()
     }
 
+    /** Tells it that its terminal was closed. */
+    fun hangUp() {
+        ProcessBuilder("kill", "-HUP", "${process.pid()}").start().waitFor()
+    }
+
     override fun close() = kill()
 
     override fun toString() = (said + errors.readText()).joinToString("\n")

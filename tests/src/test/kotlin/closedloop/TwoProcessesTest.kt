@@ -103,6 +103,23 @@ class TwoProcessesTest {
         sailsAsInOneProcess(listOf("--pty"))
     }
 
+    /** The library for serial ports has the system ignore the signal of a terminal that was closed. */
+    @Test
+    fun aTerminalThatIsClosedStopsABoatOnASerialPort() {
+        assumeTrue("linux" in System.getProperty("os.name").lowercase(), "pseudo-terminals are made on Linux only")
+        val (boat, ports) = boat("--pty", "--speed", "20", "--once")
+        boat.use {
+            drive(ports).use { drive ->
+                drive.await { "arming" in it }
+                drive.hangUp()
+                assertEquals(1, drive.end(), "$drive")
+                assertContains("$drive", "operator")
+                assertTrue(directory.resolve("out/mission.txt").exists())
+                assertEquals(0, boat.end(), "$boat")
+            }
+        }
+    }
+
     @Test
     fun aMissionWhoseProgramWasKilledGoesOnDisarmedAndLosesASecondAtMost() {
         val speed = 50
