@@ -253,8 +253,14 @@ public class Mission(
         else -> false
     }
 
-    /** Rest was said; what is said on to a board that is not heard can only be spoilt on the way and become a drive. */
-    private fun isDeaf() = state == MissionState.Holding(Danger.LINK_LOST) && port.silence(now) > RESTING
+    /**
+     * Rest was said, or the board is only being armed; what is said on to a board that is not heard can only be spoilt on
+     * the way and become a drive.
+     */
+    private fun isDeaf(): Boolean {
+        val isAtRest = state == MissionState.Arming || state == MissionState.Holding(Danger.LINK_LOST)
+        return isAtRest && port.silence(now) > RESTING
+    }
 
     private companion object {
         const val LONGEST_ARMING = 20.0
