@@ -20,6 +20,14 @@ public class AveragingFilter(grid: Grid, prior: Interval) : CellEstimator(grid, 
         sums[cell] += value
         map.setValue(cell, sums[cell] / map.readings(cell))
     }
+
+    override fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
+        var sum = sums[cell]
+        for (i in 0 until count) sum += values[i]
+        sums[cell] = sum
+        map.countReadings(cell, count)
+        map.setValue(cell, sum / map.readings(cell))
+    }
 }
 
 /**

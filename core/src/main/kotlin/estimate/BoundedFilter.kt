@@ -91,6 +91,11 @@ public class BoundedFilter(
         }
     }
 
+    override fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
+        map.countReadings(cell, count)
+        for (i in 0 until count) take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
+    }
+
     private fun raiseLower(cell: Int, value: Double) {
         if (value <= map.lower(cell)) return
         var upper = map.upper(cell)

@@ -42,13 +42,7 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
             return ReadingUse.OUT_OF_ORDER
         }
         lastSeconds = time.seconds
-        // A boat that stays, or a fix that is repeated: the same place is the same cell.
-        if (x != placeX || y != placeY) {
-            placeX = x
-            placeY = y
-            placeCell = grid.cellAt(x, y)
-        }
-        val cell = placeCell
+        val cell = cellAt(x, y)
         if (cell == Grid.OUTSIDE) {
             if (lastCell != Grid.OUTSIDE) leave()
             lastCell = Grid.OUTSIDE
@@ -65,6 +59,38 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
 
     /** How far the place of the reading that is being taken is from its cell's border, m. */
     protected fun distanceToBorder(): Double = grid.distanceToBorder(placeX, placeY)
+
+    final override fun updateAll(times: DoubleArray, x: Double, y: Double, values: DoubleArray, count: Int) {
+        val cell = if (x.isFinite() && y.isFinite()) cellAt(x, y) else Grid.OUTSIDE
+        if (cell == Grid.OUTSIDE || !canAllBeUsed(times, values, count)) {
+            return super.updateAll(times, x, y, values, count)
+        }
+        lastSeconds = times[count - 1]
+        val entered = cell != lastCell
+        lastCell = cell
+        if (entered) map.countVisit(cell)
+        takeAll(cell, entered, times, values, count)
+    }
+
+    /** Whether there is a reading, and all are finite and in order. */
+    private fun canAllBeUsed(times: DoubleArray, values: DoubleArray, count: Int): Boolean {
+        var last = lastSeconds
+        for (i in 0 until count) {
+            if (!(times[i] >= last && times[i].isFinite() && values[i].isFinite())) return false
+            last = times[i]
+        }
+        return count > 0
+    }
+
+    /** A boat that stays, or a fix that is repeated: the same place is the same cell. */
+    private fun cellAt(x: Double, y: Double): Int {
+        if (x != placeX || y != placeY) {
+            placeX = x
+            placeY = y
+            placeCell = grid.cellAt(x, y)
+        }
+        return placeCell
+    }
 
     /** Notices that the boat left the last cell from a reading that has no value but a time and a place. */
     private fun noticeMove(time: BoatTime, x: Double, y: Double) {
@@ -90,4 +116,20 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
      * @param conditions what else was measured.
      */
     protected abstract fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions)
+
+    /**
+     * Counts and takes readings of one cell that are finite, in order and in the grid: as that many calls of [take].
+     *
+     * @param cell index of the cell they lie in.
+     * @param entered whether the boat entered the cell with the first.
+     * @param times the readings' times on the boat's clock, s. Not modified.
+     * @param values what the sensor said, sensor units. Not modified.
+     * @param count how many readings there are, at least 1.
+     */
+    protected open fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
+        for (i in 0 until count) {
+            map.countReading(cell)
+            take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
+        }
+    }
 }

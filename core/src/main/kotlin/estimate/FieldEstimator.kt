@@ -46,6 +46,20 @@ public interface FieldEstimator {
         value: Double,
         conditions: Conditions = Conditions.NONE,
     ): ReadingUse
+
+    /**
+     * Takes readings of a boat that stays, one after the other: as that many calls of [update], with what it leaves in
+     * [map] when all are taken, bit for bit. Allocates nothing.
+     *
+     * @param times when the samples were taken, s on the boat's clock, length [count] at least. Not modified.
+     * @param x metres east in the local frame where all were taken.
+     * @param y metres north in the local frame where all were taken.
+     * @param values what the sensor said, sensor units, as [times]. Not modified.
+     * @param count how many readings there are.
+     */
+    public fun updateAll(times: DoubleArray, x: Double, y: Double, values: DoubleArray, count: Int) {
+        for (i in 0 until count) update(BoatTime(times[i]), x, y, values[i], Conditions.NONE)
+    }
 }
 
 /** Takes [reading]; see [FieldEstimator.update]. */

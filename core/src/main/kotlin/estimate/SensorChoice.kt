@@ -51,7 +51,8 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
     /** From now on the tape does not hold all. */
     fun follow() {
         lag.follow()
-        for (fit in responses) fit.follow()
+        // By index: this is called with every reading, and a list's iterator is an object.
+        for (k in responses.indices) responses[k].follow()
     }
 
     fun take(slot: Int, seconds: Double, value: Double) {

@@ -83,7 +83,10 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         return count
     }
 
-    private fun isOneStay(tape: ReadingTape, i: Int, span: Int) = (1..span).all { tape.slot(i - it) == tape.slot(i) }
+    private fun isOneStay(tape: ReadingTape, i: Int, span: Int): Boolean {
+        for (before in i - span until i) if (tape.slot(before) != tape.slot(i)) return false
+        return true
+    }
 
     /** Second differences are mostly noise: their median gives the noise's variance. */
     private fun firstNoise(tape: ReadingTape): Double {

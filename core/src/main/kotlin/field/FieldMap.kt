@@ -74,6 +74,11 @@ public class FieldMap(public val grid: Grid, public val prior: Interval) {
         readingCounts[cell]++
     }
 
+    /** Counts [count] more readings in [cell]. */
+    public fun countReadings(cell: Int, count: Int) {
+        readingCounts[cell] += count
+    }
+
     /** Counts one more contradiction in [cell]. */
     public fun countConflict(cell: Int) {
         conflictCounts[cell]++

@@ -58,7 +58,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     /** Empties the tree, for a boat in the cell [start] of [map] whose sensor shows [sensor], finite or not. */
     fun begin(map: FieldMap, start: Int, sensor: Double) {
         while (pathLength > 0) divisors[places[pathNodes[--pathLength]]] = 1.0
-        cells.read(map, start, settings.horizon)
+        // No path has more moves than nodes are polled.
+        cells.read(map, start, minOf(settings.horizon, settings.expansions))
         if (divisors.size < cells.places) divisors = DoubleArray(cells.places) { 1.0 }
         queue.clear()
         size = 0

@@ -125,7 +125,7 @@ class AllocationTest {
         return filters.map { (name, filter) ->
             dynamicTest(name) {
                 var seconds = 0.0
-                AllocationMeter.assertNone(name) {
+                val call = Call {
                     val cell = it / 20 % grid.size
                     seconds += 0.1
                     // In order and not, inside and outside, values and none, rising and falling.
@@ -134,9 +134,35 @@ class AllocationTest {
                     val value = if (it % 83 == 0) Double.NaN else 0.5 + 0.4 * kotlin.math.sin(it * 0.03)
                     filter.update(BoatTime(time), x, grid.centerY(cell), value, Conditions.NONE)
                 }
+                // A filter that keeps its first readings works otherwise when it has no room for more.
+                repeat(3000, call::run)
+                AllocationMeter.assertNone(name, call)
                 // The calls did something.
                 assertTrue((0 until grid.size).sumOf { filter.map.readings(it) } > AllocationMeter.CALLS)
                 assertTrue(filter.map.outside > 0 && filter.map.rejected > 0)
+            }
+        }
+    }
+
+    @TestFactory
+    fun filterUpdateAll(): List<DynamicTest> {
+        val filters = listOf<Pair<String, FieldEstimator>>(
+            "averaging" to AveragingFilter(grid, Interval.UNIT),
+            "bounded" to BoundedFilter(grid, Interval.UNIT, BoundedFilterSettings(epsilon = 1e-4)),
+        )
+        return filters.map { (name, filter) ->
+            dynamicTest(name) {
+                val times = DoubleArray(10)
+                val values = DoubleArray(10)
+                var seconds = 0.0
+                AllocationMeter.assertNone(name) {
+                    for (i in times.indices) {
+                        times[i] = seconds++
+                        values[i] = kotlin.math.sin(0.1 * i * it)
+                    }
+                    filter.updateAll(times, grid.centerX(it % grid.size), grid.centerY(it % grid.size), values, 10)
+                }
+                assertTrue(filter.map.readings(0) > 0 && filter.map.rejected == 0L)
             }
         }
     }

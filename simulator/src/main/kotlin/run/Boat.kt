@@ -35,6 +35,8 @@ class Boat(
     private var waypoint = 0
     private var samples = 0L
     private var reading = 0.0
+    private val times = DoubleArray(travel.samplesPerMove)
+    private val readings = DoubleArray(travel.samplesPerMove)
 
     /** Where it is, local frame, m. */
     var x: Double = start.x
@@ -62,14 +64,14 @@ class Boat(
         if (travel.speed == null) {
             if (!isFirst) step(map)
             if (isDone) return
-            repeat(travel.samplesPerMove) { sample(field) }
+            sample(field, travel.samplesPerMove)
             odometer.moves++
             return
         }
         repeat(travel.samplesPerMove) {
             if (!isFirst) sail(travel.speed * travel.period, map)
             if (isDone) return
-            sample(field)
+            sample(field, 1)
             odometer.moves = samples.toDouble() / travel.samplesPerMove
         }
     }
@@ -111,11 +113,16 @@ class Boat(
         isDone = outcome == PlanOutcome.BudgetSpent
     }
 
-    private fun sample(field: Field) {
-        val time = BoatTime(++samples * travel.period)
-        reading = sensor.step(field.truth(x, y, time), travel.period, Conditions.NONE)
-        for (estimator in estimators) estimator.update(time, x, y, reading, Conditions.NONE)
-        odometer.seconds = time.seconds
-        onSample(x, y)
+    /** Takes [count] samples where the boat is, then hands them to each estimator. */
+    private fun sample(field: Field, count: Int) {
+        for (i in 0 until count) {
+            val time = BoatTime(++samples * travel.period)
+            times[i] = time.seconds
+            readings[i] = sensor.step(field.truth(x, y, time), travel.period, Conditions.NONE)
+            onSample(x, y)
+        }
+        reading = readings[count - 1]
+        odometer.seconds = times[count - 1]
+        for (estimator in estimators) estimator.updateAll(times, x, y, readings, count)
     }
 }
