@@ -96,7 +96,7 @@ class TrackCorrectionTest {
 
     @Test
     fun rateLimitIsFoundUnderNoiseAndItsIntervalsHoldTheWaterThatOutranIt() {
-        for ((seed, rate) in listOf(31 to 0.04, 32 to 0.08)) {
+        for ((seed, rate) in listOf(31 to 0.04, 32 to 0.02)) {
             val log = LawnmowerLog(seed, listOf(SensorStage.Slew(rate)), noise = 0.02)
             val found = log.series.rateLimit()
             assertEquals(rate, found, 0.05 * rate)
@@ -112,12 +112,16 @@ class TrackCorrectionTest {
     }
 
     @Test
-    fun noLagAndNoTrendIsTakenForARateLimit() {
+    fun noLagNoTrendAndNoWaveIsTakenForARateLimit() {
         for ((seed, stages) in listOf(33 to lag, 34 to emptyList(), 35 to listOf(SensorStage.Delay(8.0)))) {
             assertTrue(LawnmowerLog(seed, stages, noise = 0.02).series.rateLimit().isNaN(), "$stages")
         }
         val times = DoubleArray(500) { it.toDouble() }
         assertTrue(TrackSeries(times, times, times, DoubleArray(500) { 0.1 * it }).rateLimit().isNaN())
+        for (length in listOf(9.0, 30.0)) {
+            val wave = DoubleArray(500) { Math.rint(100 * sin(it / length)) / 100 }
+            assertTrue(TrackSeries(times, times, times, wave).rateLimit().isNaN(), "$length")
+        }
     }
 
     @Test
