@@ -138,6 +138,26 @@ class TrackCorrectionTest {
     }
 
     @Test
+    fun aWildReadingIsLeftOutAndAFrontIsNot() {
+        val log = LawnmowerLog(seed = 17, lag, legs = 4)
+        val series = log.series
+        val row = series.size / 2
+        val spiked = series.values.copyOf().also { it[row] += 3.0 }
+        val given = listOf(LikelyResponse(listOf(Response(lags = listOf(ResponseLag(10.0)))), 1.0))
+        val track = TrackCorrector(TrackSeries(series.times, series.xs, series.ys, spiked), 0.01).correct(given)
+        assertEquals(listOf(row), track.outlying.indices.filter { track.outlying[it] })
+        // The lag undone would make 30 of 3; a tenth is what the water moves by between readings.
+        assertEquals(log.truth[row], track.values[row], 0.2)
+        assertTrue(spiked[row] <= track.upper[row] && log.truth[row] >= track.lower[row])
+        // A front of 3, as a lag of 10 s shows it.
+        val stepped = DoubleArray(series.size) {
+            series.values[it] + if (it >= row) 3 * (1 - kotlin.math.exp((row - it) / 10.0)) else 0.0
+        }
+        val front = TrackCorrector(TrackSeries(series.times, series.xs, series.ys, stepped), 0.01).correct(given)
+        assertFalse(front.outlying.any { it })
+    }
+
+    @Test
     fun constantReadingsStayAsTheyAre() {
         val times = DoubleArray(200) { it.toDouble() }
         val series = TrackSeries(times, times, DoubleArray(200), DoubleArray(200) { 7.0 })
