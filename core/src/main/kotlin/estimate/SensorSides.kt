@@ -37,11 +37,12 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private const val AT = 0.8
         private const val BELOW = 0.4
         private const val FEWEST_SHARE = 0.08
-        private const val TIMES_BELOW = 0.35
+        private const val TIMES_BELOW = 0.45
         private const val FEWER_SHARE = 0.2
-        private const val FEWEST_ROWS = 100
-        private const val CLEAR = 0.04
-        private val REACHES = listOf(1, 2, 3, 4, 6, 8, 12)
+        private const val FEWEST_ROWS = 200
+        private const val CLEAR = 0.02
+        private const val NARROW = 0.043
+        private val REACHES = listOf(1, 2, 3, 4, 6, 8, 10, 12, 16)
 
         /** Slopes over so many rows either way that noise hardly bears on them. */
         private fun reach(series: TrackSeries, rate: Double, resolution: Double): Int {
@@ -69,14 +70,24 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         fun rateLimit(series: TrackSeries): Double {
             if (series.size < FEWEST_ROWS) return Double.NaN
             for (reach in REACHES) {
+                if (series.size < 4 * reach) break
                 val slopes = lineSlopes(series, reach)
+                if (slopes.isEmpty()) continue
                 val sizes = slopes.map { abs(it) }.sorted()
                 val top = sizes[(sizes.size * TOP).toInt().coerceAtMost(sizes.size - 1)]
                 val rows = 2.0 * reach + 1
-                val noise = roughness(series) * sqrt(12 / (rows * (rows * rows - 1))) / series.medianStep
-                if (top > 0 && (noise < CLEAR * top || reach == REACHES.last())) return plateau(slopes, sizes, top)
+                val noise = noise(series) * sqrt(12 / (rows * (rows * rows - 1))) / series.medianStep
+                if (noise >= CLEAR * top) continue
+                val rate = plateau(slopes, sizes, top)
+                if (rate.isFinite()) return rate
             }
             return Double.NaN
+        }
+
+        /** Of a reading, with what rounding does to it: in rounded readings that hardly change nothing else shows. */
+        private fun noise(series: TrackSeries): Double {
+            val steps = (1 until series.size).map { abs(series.values[it] - series.values[it - 1]) }.filter { it > 0 }
+            return maxOf(roughness(series), (steps.minOrNull() ?: 0.0) / sqrt(12.0))
         }
 
         /** Slopes of the straight lines through so many readings either way: noise bears less on them than on ends. */
@@ -100,10 +111,12 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
             val isPlateau = at.size >= FEWEST_SHARE * sizes.size && at.size >= TIMES_BELOW * below &&
                 fewer >= FEWER_SHARE * at.size
             if (!isPlateau) return Double.NaN
-            // The narrowest range that holds half of them: noise and the ends of runs lie beside it.
+            // The narrowest range that holds half of them: noise and the ends of runs lie beside it. A sine's slopes
+            // pile up below their largest, too, but half of them take a twentieth of it.
             val half = (at.size + 1) / 2
             val from = (0..at.size - half).minBy { at[it + half - 1] - at[it] }
-            return at[from + half / 2]
+            val rate = at[from + half / 2]
+            return if (at[from + half - 1] - at[from] < NARROW * rate) rate else Double.NaN
         }
     }
 }

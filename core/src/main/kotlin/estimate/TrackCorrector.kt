@@ -19,12 +19,15 @@ public class LikelyResponse(public val responses: List<Response>, public val wei
  * @property values best value of the field where and when the reading was taken, sensor units, length n.
  * @property lower lower end of the interval, length n. @property upper upper end, length n.
  * @property silent readings at which the sensor was at its rate limit and said one side only, length n.
+ * @property outlying readings taken for outliers: their values are foretold from the others, and their intervals reach
+ * to the readings themselves, length n.
  */
 public class CorrectedTrack internal constructor(
     public val values: DoubleArray,
     public val lower: DoubleArray,
     public val upper: DoubleArray,
     public val silent: BooleanArray,
+    public val outlying: BooleanArray,
 )
 
 /**
@@ -61,11 +64,17 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             DoubleArray(series.size),
             DoubleArray(series.size),
             BooleanArray(series.size) { row -> parts.any { it.sides.silent[row] } },
+            BooleanArray(series.size),
         )
         pieces(PIECE) { rows, from, to ->
             val mixture = NormalMixture(to - from)
-            for (part in parts) run(part, rows, from, to, mixture)
+            for (part in parts) run(part, rows, from, to, mixture, track.outlying)
             mixture.write(track, from)
+            for (row in from until to) {
+                if (!track.outlying[row]) continue
+                track.lower[row] = minOf(track.lower[row], series.values[row])
+                track.upper[row] = maxOf(track.upper[row], series.values[row])
+            }
         }
         return track
     }
@@ -78,7 +87,14 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         sides.looseness.copyOfRange(rows.first, rows.last + 1),
     )
 
-    private fun run(part: Part, rows: IntRange, from: Int, to: Int, mixture: NormalMixture) {
+    private fun run(
+        part: Part,
+        rows: IntRange,
+        from: Int,
+        to: Int,
+        mixture: NormalMixture,
+        outlying: BooleanArray,
+    ) {
         val stretch = stretch(rows, part.sides)
         val mean = DoubleArray(stretch.size)
         val variance = DoubleArray(stretch.size)
@@ -93,6 +109,7 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             } else {
                 -1
             }
+            if (stretch.outlying[i]) outlying[row] = true
             val limit = series.values[row] - side * BEYOND * hypot(part.along.noise, stretch.looseness[i])
             mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, limit)
         }
@@ -103,9 +120,10 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
     /** How much livelier than usual the water is at each reading, from the readings' own surprises. */
     private fun agitation(stretch: Stretch, response: Response, along: AlongTrack): DoubleArray {
         val factor = DoubleArray(stretch.size) { 1.0 }
+        val smoother = TrackSmoother(stretch, response, along, factor, series.medianStep)
         repeat(ADAPTATIONS) {
-            val smoother = TrackSmoother(stretch, response, along, factor, series.medianStep)
             smoother.logLikelihood()
+            if (it == ADAPTATIONS - 1) OutlierSearch(stretch, smoother::logLikelihood).mark(smoother.surprises.copyOf())
             // A single wild reading is not lively water.
             val surprise = DoubleArray(stretch.size) { minOf(smoother.surprises[it], LARGEST_SURPRISE) }
             val sums = DoubleArray(stretch.size + 1)

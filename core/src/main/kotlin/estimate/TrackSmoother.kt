@@ -19,6 +19,9 @@ internal class Stretch(
     val rising: BooleanArray,
     val looseness: DoubleArray,
 ) {
+    /** Readings that are left out as outliers, length n. Modified. */
+    val outlying = BooleanArray(times.size)
+
     val size: Int get() = times.size
 }
 
@@ -128,6 +131,7 @@ internal class TrackSmoother(
     private val shown = if (response.lags.isEmpty()) 0 else size - 1
 
     private fun see(reading: Int, tape: Tape?, event: Int) {
+        if (stretch.outlying[reading]) return pass(reading)
         val spread = p[shown * size + shown]
         val bound = stretch.values[reading]
         if (stretch.silent[reading]) {

@@ -162,6 +162,13 @@ internal class CorrectSummary(
             if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
             }
+            val outlying = result.track.outlying.count { it }
+            if (outlying > 0) {
+                add(
+                    "$outlying readings stand out from those around them as no water here does and were left out: " +
+                        "their rows are foretold from the others, with intervals that reach to the readings",
+                )
+            }
             if (result.learnedOn in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
                 add("the sensor was learned on the ${result.learnedOn} readings in the middle of the log")
             }

@@ -1,13 +1,12 @@
 package stillwater.io
 
-import de.siegmar.fastcsv.reader.CsvReader
 import de.siegmar.fastcsv.writer.CsvWriter
 import de.siegmar.fastcsv.writer.LineDelimiter
 import java.io.OutputStream
 import java.io.OutputStreamWriter
 
 /**
- * Writes a log again as CSV, every row with its own columns as they are, and some more.
+ * Writes a log again as CSV, byte for byte as it is, with some more columns behind its own.
  *
  * @param log the log. @param names the columns added. @param times times of the readings that [log] yields, s. Not
  * modified.
@@ -31,7 +30,7 @@ internal class AnnotatedLog(
         if (log is CsvSurvey) csv(log, out, cells) else plain(out, cells)
 
     private fun plain(out: OutputStream, cells: (Int) -> List<String?>?): Long {
-        writer(out, ',').use { writer ->
+        writer(out).use { writer ->
             writer.writeRecord(listOf("time_s", "x_m", "y_m", log.quantity) + names)
             for (k in times.indices) {
                 val own = listOf(times[k], xs[k], ys[k], values[k]).map { it.toString() }
@@ -43,28 +42,31 @@ internal class AnnotatedLog(
 
     private val empty = List<String?>(names.size) { null }
 
+    /** All bytes of the log as they are, the added cells before the line ends. */
     private fun csv(survey: CsvSurvey, out: OutputStream, cells: (Int) -> List<String?>?): Long {
         var next = 0
         var other = 0L
-        val reader = CsvReader.builder().fieldSeparator(survey.separator).skipEmptyLines(true)
-            .allowExtraFields(true).allowMissingFields(true).ofCsvRecord(survey.content.reader { })
-        writer(out, survey.separator).use { writer ->
-            var headerSeen = false
-            var width = 0
-            for (row in reader) {
-                val fields = row.fields
-                if (fields.all { it.isBlank() }) continue
-                if (!headerSeen) {
-                    headerSeen = true
-                    width = fields.size
-                    writer.writeRecord(fields + names)
-                    continue
+        out.use {
+            survey.content.raw { mark, text ->
+                out.write(mark)
+                val records = RawRecords(text, survey.content.charset, survey.separator)
+                var width = NO_HEADER
+                while (records.next()) {
+                    val fields = records.fields
+                    val added = when {
+                        fields.all { it.isBlank() } -> emptyList()
+                        width == NO_HEADER -> names.also { width = fields.size }
+                        next < times.size && isRow(survey, fields, next) -> cells(next++) ?: empty
+                        else -> {
+                            other++
+                            // A row of another width or a remark is not made wider: nothing in it would stand in place.
+                            if (fields.size == width) empty else emptyList()
+                        }
+                    }
+                    out.write(records.bytes(records.text))
+                    for (cell in added) out.write(records.bytes(survey.separator + cell.orEmpty()))
+                    out.write(records.bytes(records.lineEnd))
                 }
-                val isReading = next < times.size && isRow(survey, fields, next)
-                // A row that is too short would have the added cells under its own columns.
-                val own = fields + List(maxOf(0, width - fields.size)) { "" }
-                writer.writeRecord(own + ((if (isReading) cells(next) else null) ?: empty))
-                if (isReading) next++ else other++
             }
         }
         check(next == times.size) { "${times.size - next} readings of ${log.file} were not found again" }
@@ -88,10 +90,12 @@ internal class AnnotatedLog(
         return number(columns.x) == xs[k] && (columns.y == CsvColumns.NONE || number(columns.y) == ys[k])
     }
 
-    private fun writer(out: OutputStream, separator: Char) = CsvWriter.builder().fieldSeparator(separator)
-        .lineDelimiter(LineDelimiter.LF).build(OutputStreamWriter(out, Charsets.UTF_8))
+    private fun writer(out: OutputStream) =
+        CsvWriter.builder().lineDelimiter(LineDelimiter.LF).build(OutputStreamWriter(out, Charsets.UTF_8))
 
     companion object {
+        private const val NO_HEADER = -1
+
         /**
          * Refuses [log] if it has one of the columns that are to be added.
          *

@@ -1,6 +1,7 @@
 package stillwater.io
 
 import java.io.IOException
+import java.io.InputStream
 import java.io.InputStreamReader
 import java.io.Reader
 import java.nio.charset.Charset
@@ -29,6 +30,10 @@ internal class LogContent private constructor(
         stream.skipNBytes(markLength.toLong())
         return InputStreamReader(stream, charset)
     }
+
+    /** Hands on the byte order mark, empty without one, and the bytes after it; the stream is closed in the end. */
+    fun <T> raw(use: (mark: ByteArray, text: InputStream) -> T): T =
+        Files.newInputStream(file).buffered().use { use(it.readNBytes(markLength), it) }
 
     companion object {
         private const val HEAD_BYTES = 1 shl 16

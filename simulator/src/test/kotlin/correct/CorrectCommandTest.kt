@@ -66,6 +66,26 @@ class CorrectCommandTest {
     }
 
     @Test
+    fun allBytesOfTheLogAreKept() {
+        for ((name, charset, mark) in listOf(
+            Triple("utf-8", Charsets.UTF_8, ""),
+            Triple("with a mark", Charsets.UTF_8, "\uFEFF"),
+            Triple("utf-16", Charsets.UTF_16LE, "\uFEFF"),
+        )) {
+            val text = survey(60).replace("\"a, b\"", "\"ä \"\"b\"\"\nc\"").replace("\n", "\r\n")
+                .replace("\r\n9,9,0", "\r\n# a remark\r\n\r\n 9,\"9\",0").trimEnd()
+            val file = directory.resolve("log.csv").also { Files.write(it, (mark + text).toByteArray(charset)) }
+            val result = run(file.toString(), "--value", "slow", "--skip-bad-rows")
+            assertEquals(0, result.statusCode, "$name: ${result.output}")
+            val written = String(Files.readAllBytes(out.resolve("corrected.csv")), charset)
+            val own = written.replace(",corrected,corrected_low,corrected_high", "")
+                .replace(Regex("""("),[-0-9.E]+,[-0-9.E]+,[-0-9.E]+(?=\r\n|$)"""), "$1")
+            assertEquals(mark + text, own, name)
+            assertEquals(60, Regex("""c",[-0-9.E]+,[-0-9.E]+,[-0-9.E]+""").findAll(written).count(), name)
+        }
+    }
+
+    @Test
     fun trackWithoutRevisitsSaysSoAndDoesNotInventASensor() {
         val result = run(log(survey()), "--value", "slow")
         assertContains(result.stderr, "no pass comes near another")
@@ -161,8 +181,8 @@ class CorrectCommandTest {
         val lines = out.resolve("corrected.csv").readLines()
         assertTrue(lines[8].startsWith("7,,") && lines[8].endsWith(",,,"), lines[8])
         assertTrue(lines[9].startsWith("7,7,") && !lines[9].endsWith(",,,"), lines[9])
-        // As many cells as the header, so that the added ones do not stand under the log's own.
-        assertEquals("1,2,,,,,,,", lines[20])
+        // A row of another width stays as it is: added cells would stand under the log's own columns.
+        assertEquals("1,2", lines[20])
     }
 
     @Test

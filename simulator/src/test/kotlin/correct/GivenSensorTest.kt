@@ -1,0 +1,123 @@
+package stillwater.correct
+
+import com.github.ajalt.clikt.core.subcommands
+import com.github.ajalt.clikt.testing.CliktCommandTestResult
+import com.github.ajalt.clikt.testing.test
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import stillwater.cli.CorrectCommand
+import stillwater.cli.MapCommand
+import stillwater.cli.Stillwater
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import java.nio.file.Path
+import kotlin.io.path.exists
+import kotlin.io.path.readLines
+import kotlin.io.path.writeText
+import kotlin.math.PI
+import kotlin.math.abs
+import kotlin.math.sin
+import kotlin.random.Random
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** `correct` and `map` told the sensor, on legs there and back over water that is the same along each. */
+class GivenSensorTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private val out: Path get() = directory.resolve("results")
+
+    private fun run(vararg arguments: String): CliktCommandTestResult =
+        Stillwater().subcommands(CorrectCommand(), MapCommand()).test(arguments.toList() + listOf("--out", "$out"))
+
+    private fun file(name: String, text: String) = directory.resolve(name).also { it.writeText(text) }.toString()
+
+    private fun spec(stage: SensorStage) =
+        file("sensor.json", SensorSpec("test", listOf(stage)).toJson())
+
+    private fun water(along: Double) = 8 + sin(2 * PI * along / 60) + along / 100
+
+    private fun temperature(row: Int) = 15 + 8 * sin(row / 100.0)
+
+    /** Legs of 100 m, 10 m apart, at 1 m/s and 1 Hz. */
+    private fun survey(stage: SensorStage) = buildString {
+        appendLine("time_s,x_m,y_m,do_mg_l,temp_c,truth")
+        val sensor = SensorSpec("test", listOf(stage)).build(water(0.0), Random(1))
+        for (row in 0 until 600) {
+            val along = (row % 200).let { if (it < 100) it else 200 - it }.toDouble()
+            val warm = temperature(row)
+            var shown = 0.0
+            repeat(10) { shown = sensor.step(water(along), 0.1, Conditions(mapOf(Conditions.TEMPERATURE to warm))) }
+            appendLine("$row,${row / 100 * 10},$along,${Math.rint(shown * 1000) / 1000},$warm,${water(along)}")
+        }
+    }
+
+    private fun rows(name: String): List<Map<String, Double>> {
+        val lines = out.resolve(name).readLines()
+        val names = lines.first().split(',')
+        return lines.drop(1).map { line ->
+            names.zip(line.split(',')).associate { (key, cell) -> key to (cell.toDoubleOrNull() ?: Double.NaN) }
+        }
+    }
+
+    private fun error(rows: List<Map<String, Double>>, column: String, truth: (Map<String, Double>) -> Double) =
+        rows.map { abs(it.getValue(column) - truth(it)) }.filter { it.isFinite() }.average()
+
+    @Test
+    fun lagThatFollowsTheTemperatureIsUndoneWithIt() {
+        val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
+        val log = file("log.csv", survey(stage))
+        val told = run(
+            "correct", log, "--value", "do_mg_l", "--sensor", spec(stage), "--condition", "temperature=temp_c",
+        )
+        assertEquals(0, told.statusCode, told.output)
+        val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }
+        val measured = error(rows("corrected.csv"), "do_mg_l", truth)
+        val corrected = error(rows("corrected.csv"), "corrected", truth)
+        assertTrue(corrected < 0.1 * measured, "$measured to $corrected")
+        // A constant lag is the nearest without the temperature, and worse.
+        val constant = run("correct", log, "--value", "do_mg_l", "--sensor", spec(SensorStage.Lag(8.0)))
+        assertEquals(0, constant.statusCode, constant.output)
+        assertTrue(error(rows("corrected.csv"), "corrected", truth) > 2 * corrected)
+    }
+
+    @Test
+    fun missingOrWrongConditionIsNamed() {
+        val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
+        val log = file("log.csv", survey(stage))
+        val cases = listOf(
+            emptyList<String>() to "--condition temperature=COLUMN",
+            listOf("--condition", "temperature=fog") to "fog",
+            listOf("--condition", "salinity=temp_c") to "--condition temperature=COLUMN",
+        )
+        for ((more, word) in cases) {
+            for (command in listOf("correct", "map")) {
+                val arguments = listOf(command, log, "--value", "do_mg_l", "--sensor", spec(stage)) + more
+                val result = run(*arguments.toTypedArray())
+                assertEquals(2, result.statusCode, "$arguments: ${result.output}")
+                assertContains(result.stderr, word)
+                assertFalse(out.exists(), "$arguments")
+            }
+        }
+    }
+
+    @Test
+    fun mapShowsTheWaterAndNotTheLag() {
+        val stage = SensorStage.Lag(8.0)
+        val log = file("log.csv", survey(stage))
+        val centre: (Map<String, Double>) -> Double = { water(it.getValue("y_m")) }
+        fun mapped(vararg more: String): Double {
+            val result = run("map", log, "--value", "do_mg_l", "--filter", "averaging", "--cell", "10", *more)
+            assertEquals(0, result.statusCode, result.output)
+            return error(rows("cells.csv"), "value", centre)
+        }
+        val measured = mapped()
+        val corrected = mapped("--sensor", spec(stage))
+        assertTrue(corrected < 0.5 * measured, "$measured to $corrected")
+        assertEquals(2, run("map", log, "--value", "do_mg_l", "--sensor", "none.json").statusCode)
+    }
+}
