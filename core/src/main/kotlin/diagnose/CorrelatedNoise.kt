@@ -43,6 +43,9 @@ internal class CorrelatedNoise(
         var sum = 0.0
         var step = Double.NaN
         var factor = 1.0
+        var lastInnovation = 0.0
+        var lastScale = 0.0
+        var lastLogarithm = 0.0
         for (i in times.indices) {
             val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
             // Even times differ by a rounding error.
@@ -60,14 +63,20 @@ internal class CorrelatedNoise(
             val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
             val first = variance + both
             gain[i] = first / innovation
-            scale[i] = 1 / sqrt(innovation)
+            // Among even rows the filter soon stands still: what it takes then need not be worked out again.
+            if (abs(innovation - lastInnovation) > SAME_VARIANCE * innovation) {
+                lastInnovation = innovation
+                lastScale = 1 / sqrt(innovation)
+                lastLogarithm = ln(innovation)
+            }
+            scale[i] = lastScale
             variance -= gain[i] * first
             if (shocks != null) {
                 second[i] = (both + shaken) / innovation
                 both -= gain[i] * (both + shaken)
                 shaken -= second[i] * (second[i] * innovation)
             }
-            sum += ln(innovation)
+            sum += lastLogarithm
         }
         logDeterminant = sum
     }
@@ -117,6 +126,7 @@ internal class CorrelatedNoise(
     companion object {
         private const val SMALLEST = 1e-9
         private const val SAME = 1e-9
+        private const val SAME_VARIANCE = 1e-13
         private const val TINY = 1e-290
         private val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95, 0.99)
         private val STEPS = doubleArrayOf(1.5, 4.0, 10.0, 25.0, 60.0, 150.0)
@@ -126,8 +136,17 @@ internal class CorrelatedNoise(
         fun white(scales: Scales, used: BooleanArray) =
             CorrelatedNoise(scales.series.times, 0.0, 1.0, used, scales.shocks)
 
-        /** The noise under which [residuals] are likeliest; correlation times reach [longest] s. Not modified. */
-        fun of(scales: Scales, residuals: DoubleArray, used: BooleanArray, longest: Double): CorrelatedNoise {
+        /**
+         * The noise under which [residuals] are likeliest; correlation times reach [longest] s. Looked for everywhere, or
+         * near [guess] alone. Not modified.
+         */
+        fun of(
+            scales: Scales,
+            residuals: DoubleArray,
+            used: BooleanArray,
+            longest: Double,
+            guess: CorrelatedNoise? = null,
+        ): CorrelatedNoise {
             val series = scales.series
             val z = DoubleArray(residuals.size)
             fun score(noise: CorrelatedNoise): Double {
@@ -146,9 +165,10 @@ internal class CorrelatedNoise(
                     bestScore = score
                 }
             }
-            for (share in SHARES) for (step in STEPS) if (share > 0) offer(share, step * series.period)
-            var width = 1.0
-            repeat(REFINEMENTS) {
+            if (guess != null) offer(guess.share, guess.time)
+            if (guess == null || guess.share == 0.0) for (share in SHARES) for (step in STEPS) if (share > 0) offer(share, step * series.period)
+            var width = if (guess == null) 1.0 else 0.5
+            repeat(if (guess == null) REFINEMENTS else REFINEMENTS - 1) {
                 val share = best.share.coerceIn(0.01, 0.999)
                 val odds = ln(share / (1 - share))
                 for (s in -1..1) {

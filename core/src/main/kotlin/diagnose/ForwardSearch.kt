@@ -31,7 +31,7 @@ internal class ForwardSearch(
         // That something is at work is certain here: what might be it need be likely only.
         val others = first.filter { it.pValue < LIKELY && it.term.key !in keys }
             .sortedByDescending { it.worth }.take(OTHER_BEGINNINGS)
-        return (listOf(found) + others.map(::from)).maxBy(::worth)
+        return (listOf(found) + others.map { from(it, found) }.filter { it.isNotEmpty() }).maxBy(::worth)
     }
 
     private fun attempt(fit: ModelFit, heldOut: HeldOutScore, term: Term) =
@@ -49,14 +49,19 @@ internal class ForwardSearch(
     private fun best(worthy: List<Trial>): Trial? =
         worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }.ifEmpty { worthy }.maxByOrNull { it.worth }
 
-    /** The search that begins with [beginning]. */
-    private fun from(beginning: Trial): List<Trial> {
+    /**
+     * The search that begins with [beginning]; nothing where with two causes or more it explains no more than as many
+     * of [rival] do, or comes upon the same.
+     */
+    private fun from(beginning: Trial, rival: List<Trial> = emptyList()): List<Trial> {
         val chosen = arrayListOf(beginning)
         while (chosen.size < settings.mostCauses) {
             val last = chosen.last()
             val taken = chosen.map { it.term.key }
             val rest = terms.filter { it.key !in taken && compatible(it, chosen) }
             chosen += best(worthy(rest.map { attempt(last.fit, last.heldOut, it) }, last.heldOut)) ?: break
+            val other = rival.take(chosen.size)
+            if (other.isNotEmpty() && chosen.last().fit.score < other.last().fit.score + DIFFERENT) return emptyList()
         }
         return pruned(chosen)
     }
@@ -126,5 +131,8 @@ internal class ForwardSearch(
     private companion object {
         const val OTHER_BEGINNINGS = 2
         const val LIKELY = 0.01
+
+        /** Twice the log-likelihood by which two sets of causes are not the same. */
+        const val DIFFERENT = 0.5
     }
 }

@@ -55,8 +55,9 @@ internal object Fitting {
         var current = noise ?: guess ?: CorrelatedNoise.white(model.scales, used)
         var fit = descend(model, start, free, current)
         if (noise != null) return fit
-        repeat(2) {
-            current = CorrelatedNoise.of(model.scales, fit.residuals, used, longest)
+        repeat(2) { round ->
+            val near = current.takeIf { round > 0 }
+            current = CorrelatedNoise.of(model.scales, fit.residuals, used, longest, near)
             fit = descend(model, fit.numbers, free, current)
         }
         return fit

@@ -30,6 +30,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private val taus = DoubleArray(n)
     private val isGap = scales.unknown?.isGap
     private val spline = Spline(series.times, scales.unknown?.isBroken)
+    private val truthSpline by lazy { Spline(series.times, scales.unknown?.isBroken).also { it.fit(truth) } }
+    private var isDelayed = false
 
     /** Index of the first parameter of [term]. */
     fun slot(term: Term): Int = layout.slots.getValue(term.key)
@@ -77,11 +79,11 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private fun delay(p: DoubleArray) {
         val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
         val distance = if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0
-        if (deadTime == 0.0 && distance == 0.0) {
+        isDelayed = deadTime != 0.0 || distance != 0.0
+        if (!isDelayed) {
             truth.copyInto(work)
             return
         }
-        spline.fit(truth)
         var from = 0
         for (i in 0 until n) {
             var time = series.times[i]
@@ -89,7 +91,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             time -= deadTime
             while (from < n - 2 && series.times[from + 1] < time) from++
             while (from > 0 && series.times[from] > time) from--
-            work[i] = spline.at(from, time)
+            work[i] = truthSpline.at(from, time)
         }
     }
 
@@ -109,7 +111,9 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private fun lag(input: DoubleArray, out: DoubleArray, factor: Double, asymmetry: Double) {
         val up = factor * exp(asymmetry / 2)
         val down = factor * exp(-asymmetry / 2)
-        if (!held) spline.fit(input)
+        val isTruth = input === work && !isDelayed
+        val curve = if (isTruth && !held) truthSpline else spline
+        if (!held && !isTruth) spline.fit(input)
         var state = input[0]
         out[0] = state
         var lastDt = Double.NaN
@@ -129,8 +133,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
                     lastTau = tau
                 }
                 // The response to a cubic is a cubic; what is off it fades.
-                val early = if (held) input[i] else spline.follower(i - 1, 0.0, tau)
-                val late = if (held) input[i] else spline.follower(i - 1, dt, tau)
+                val early = if (held) input[i] else curve.follower(i - 1, 0.0, tau)
+                val late = if (held) input[i] else curve.follower(i - 1, dt, tau)
                 state = late + (state - early) * fade
             }
             out[i] = state

@@ -14,38 +14,35 @@ internal class Spline(private val times: DoubleArray, private val isBroken: Bool
     private val work = DoubleArray(n)
     private var column = work
 
-    /** What of the elimination depends on the knots alone: share of the step before, pivot, and what is passed on. */
-    private val share = DoubleArray(n)
-    private val pivot = DoubleArray(n) { 1.0 }
-    private val passed = DoubleArray(n)
+    // What of the elimination depends on the knots alone.
+    private val back = DoubleArray(n)
+    private val forth = DoubleArray(n)
+    private val slopes = DoubleArray(n)
+    private val changes = DoubleArray(n)
 
     init {
+        for (i in 1 until n) slopes[i] = 1 / (times[i] - times[i - 1])
         for (i in 1 until n - 1) {
+            if (isBroken != null && (isBroken[i] || isBroken[i + 1])) continue
             val left = times[i] - times[i - 1]
-            val right = times[i + 1] - times[i]
-            share[i] = left / (left + right)
-            pivot[i] = share[i] * passed[i - 1] + 2
-            passed[i] = (share[i] - 1) / pivot[i]
+            val both = times[i + 1] - times[i - 1]
+            val share = left / both
+            val pivot = share * back[i - 1] + 2
+            back[i] = (share - 1) / pivot
+            forth[i] = share / pivot
+            changes[i] = 6 / (both * pivot)
         }
     }
 
     /** Goes through [values], length n. Retained, not modified. */
     fun fit(values: DoubleArray) {
         column = values
-        work[0] = 0.0
         for (i in 1 until n - 1) {
-            if (isBroken != null && (isBroken[i] || isBroken[i + 1])) {
-                bend[i] = 0.0
-                work[i] = 0.0
-                continue
-            }
-            val left = times[i] - times[i - 1]
-            val right = times[i + 1] - times[i]
-            val change = (values[i + 1] - values[i]) / right - (values[i] - values[i - 1]) / left
-            work[i] = (6 * change / (left + right) - share[i] * work[i - 1]) / pivot[i]
+            val change = (values[i + 1] - values[i]) * slopes[i + 1] - (values[i] - values[i - 1]) * slopes[i]
+            work[i] = changes[i] * change - forth[i] * work[i - 1]
         }
         if (n > 0) bend[n - 1] = 0.0
-        for (i in n - 2 downTo 1) bend[i] = passed[i] * bend[i + 1] + work[i]
+        for (i in n - 2 downTo 1) bend[i] = back[i] * bend[i + 1] + work[i]
         if (n > 0) bend[0] = 0.0
     }
 

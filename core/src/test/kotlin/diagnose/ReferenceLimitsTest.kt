@@ -1,0 +1,67 @@
+package stillwater.diagnose
+
+import kotlin.math.cos
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.math.sqrt
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** What a reference does not say must not become a cause. */
+class ReferenceLimitsTest {
+    private val n = 600
+    private val random = java.util.Random(11)
+
+    private fun water(time: Double) = 5 + sin(time / 9) + 0.7 * sin(time / 23 + 1)
+
+    @Test
+    fun aGapInTheLogIsNoJump() {
+        // Steps of a second, and one of five minutes in the middle of which the boat went on.
+        val times = DoubleArray(n) { it + if (it >= n / 2) 300.0 else 0.0 }
+        var state = water(0.0)
+        var now = 0.0
+        val values = DoubleArray(n) { row ->
+            while (now < times[row] - 1e-9) {
+                state += (1 - exp(-0.1 / 12)) * (water(now + 0.05) - state)
+                now += 0.1
+            }
+            state + 0.005 * random.nextGaussian()
+        }
+        val truth = DoubleArray(n) { water(times[it]) }
+        val log = MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, truth)
+        assertEquals(Verdict.Consistent, Diagnosis(log).run().verdict)
+    }
+
+    @Test
+    fun theNoiseOfAReferenceIsFoundAndMostOfItTakenOff() {
+        val times = DoubleArray(n) { it.toDouble() }
+        val noisy = DoubleArray(n) { water(times[it]) + 0.05 * random.nextGaussian() }
+        val noise = ReferenceNoise(times, noisy, BooleanArray(n))
+        // The error of a spread from 600 numbers is 3 %; five of them.
+        assertEquals(0.05, noise.spread, 0.0075)
+        val smooth = noise.smoothed()
+        val left = sqrt((0 until n).sumOf { (smooth[it] - water(times[it])).let { e -> e * e } } / n)
+        assertTrue(left < 0.025, "$left")
+    }
+
+    /** Rounds of a circle, a little apart, in water that rises by [rise] a second. */
+    private fun rounds(rise: Double): ChangingWater {
+        val angle = DoubleArray(n) { it / 20.0 }
+        val x = DoubleArray(n) { (20 + it / 600.0) * cos(angle[it]) + 0.05 * random.nextGaussian() }
+        val y = DoubleArray(n) { (20 + it / 600.0) * sin(angle[it]) + 0.05 * random.nextGaussian() }
+        val times = DoubleArray(n) { it.toDouble() }
+        val truth = DoubleArray(n) {
+            sin((20 + it / 600.0) * cos(angle[it]) / 6) + rise * times[it] + 0.01 * random.nextGaussian()
+        }
+        return ChangingWater(MeasuredSeries(times, x, y, truth, truth), truth)
+    }
+
+    @Test
+    fun waterThatChangesShowsWhereATrackFollowsItself() {
+        val changed = rounds(0.001)
+        assertTrue(changed.pValue < 1e-6, "${changed.pValue}")
+        assertEquals(0.001, changed.rate, 3 * changed.error)
+        assertTrue(rounds(0.0).pValue > 0.01)
+    }
+}
