@@ -71,7 +71,7 @@ class CorrectCommand : WorkCommand("correct") {
             "stillwater correct profiles.csv --x pres_dbar --value doxy_umol",
             "stillwater correct survey.csv --value slow --reference fast --out corrected",
             "stillwater correct survey.csv --value odo_percent_sat --sensor sensor.json",
-            "stillwater correct survey.csv --value do --sensor extended-sensor.json --condition temperature=temp_c",
+            "stillwater correct a.csv --value do --sensor b.json --condition speed=mps",
         ),
     )
 

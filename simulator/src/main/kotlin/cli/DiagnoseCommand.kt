@@ -64,8 +64,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         "Writes diagnosis.json, extended-sensor.json (where something was named), residuals.csv, figures as SVG and " +
             "PNG, and report.html into DIR. Any honest verdict ends with exit code 0.",
         listOf(
-            "stillwater diagnose tow.csv --value slow_mg_l --reference fast_mg_l --condition speed=speed_mps",
-            "stillwater diagnose bench.csv --value probe --reference sample --sensor believed.json --out bench",
+            "stillwater diagnose a.csv --value slow --reference fast --condition speed=mps",
+            "stillwater diagnose a.csv --value probe --reference sample --sensor b.json",
             "stillwater diagnose survey.csv --value odo_percent_sat --out lake --json",
             "stillwater diagnose survey.csv --value odo_percent_sat --compare temp_c",
         ),

@@ -98,8 +98,8 @@ class MapCommand : WorkCommand("map") {
             "stillwater map survey.csv --value odo_percent_sat --unit %sat --out map",
             "stillwater map platypus_20160519.txt --value ATLAS_DO --cell 2",
             "stillwater map profiles.csv --x pres_dbar --value doxy_umol",
-            "stillwater map survey.csv --value odo_percent_sat --sensor sensor.json --filter averaging",
-            "stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120 --json",
+            "stillwater map survey.csv --value odo --sensor sensor.json --filter averaging",
+            "stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120",
         ),
     )
 

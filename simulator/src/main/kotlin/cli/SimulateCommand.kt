@@ -46,10 +46,10 @@ class SimulateCommand : WorkCommand("simulate") {
         "Writes mission.txt (the mission's log, which map, diagnose and correct read), cells.csv, summary.json, " +
             "animation.html (which plays the run), figures as SVG and PNG, and report.html into DIR.",
         listOf(
-            "stillwater simulate docs/missions/ten-by-ten.json",
-            "stillwater simulate docs/missions/ten-by-ten.json --field smooth --current 0.2,0.1 --wind 3,0",
-            "stillwater simulate docs/missions/ten-by-ten.json --link-loss 0.001 --link-corruption 0.001 --seed 7",
-            "stillwater simulate docs/missions/bay-with-island.json --sensor docs/sensors/noisy-two-path.json",
+            "stillwater simulate docs/missions/ten-by-ten.json --probe-period 1",
+            "stillwater simulate pond.json --field smooth --current 0.2,0.1 --wind 3,0",
+            "stillwater simulate pond.json --link-loss 0.001 --seed 7",
+            "stillwater simulate bay.json --sensor docs/sensors/noisy-two-path.json",
         ),
     )
 

@@ -53,8 +53,8 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
             "resets it. Ctrl-C ends it. With --out, truth.csv has the water at each cell's centre and the cell's mean.",
         listOf(
             "stillwater virtual-boat pond.json --pty",
-            "stillwater virtual-boat pond.json --tcp 4001 --phone-port 4002 --speed 60 --once",
-            "stillwater virtual-boat pond.json --tcp 4001 --wind 3,0 --link-loss 0.001 --seed 7",
+            "stillwater virtual-boat pond.json --tcp 4001 --phone-port 4002 --speed 60",
+            "stillwater virtual-boat pond.json --tcp 4001 --wind 3,0 --link-loss 0.001",
         ),
     )
 

@@ -49,7 +49,11 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         metavar = "FILE",
         help = "sensor spec (JSON) of the probe; without it a first-order lag of 10 s with noise of 0.002 of the range",
     )
-    private val probePeriod by option("--probe-period", metavar = "S", help = "time between readings, s (3)")
+    private val probePeriod by option(
+        "--probe-period",
+        metavar = "S",
+        help = "time between readings, s (3, as on firmware 4.2.0; older boards 0.5)",
+    )
         .number("a number within 0.1..600") { it in SHORTEST..LONGEST_PERIOD }
     private val wind by option("--wind", metavar = "EAST,NORTH", help = "velocity of the air, m/s").flow()
     private val current by option("--current", metavar = "EAST,NORTH", help = "velocity of the water, m/s").flow()

@@ -8,6 +8,7 @@ import stillwater.model.BoatTime
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
 import stillwater.wire.Malformed
+import java.util.Locale
 
 /**
  * Shows a mission under way: a line that stays up to date where somebody watches the terminal, else a line at each
@@ -60,8 +61,8 @@ internal class DriveStatus(
         val map = mission.map
         val known = (0 until map.grid.size).count { map.readings(it) > 0 }
         val parts = listOf(
-            "%7.1f s  %s%s".format(time.seconds, state.word, why),
-            mission.position?.let { "at %.1f, %.1f m".format(it.x, it.y) } ?: "place unknown",
+            "%7.1f s  %s%s".format(Locale.ROOT, time.seconds, state.word, why),
+            mission.position?.let { "at %.1f, %.1f m".format(Locale.ROOT, it.x, it.y) } ?: "place unknown",
             "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readings.passed, "reading")}",
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
             trouble(mission),

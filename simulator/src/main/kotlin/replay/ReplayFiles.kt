@@ -12,6 +12,7 @@ import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
 import stillwater.wire.Malformed
+import java.util.Locale
 
 /**
  * Writes what a replay came to: `cells.csv`, `decisions.csv`, `replay.json`, `mission.json`, `mission.txt` and the
@@ -86,7 +87,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
             "${replayed.format}, ${counted(decisions.steps, "step")}; at its end ${replayed.mission.state.word} $why".trimEnd(),
             "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${kind(it.key, it.value)}" },
             "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
-            "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(it.key, it.value) } +
+            "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(Locale.ROOT, it.key, it.value) } +
                 "; ${counted(decisions.changes.size, "change")}, motors running in ${counted(decisions.driven, "step")}",
             "readings: ${gate.passed} taken, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
                 "${gate.stuck} stuck, ${gate.waiting} waiting, " +

@@ -1,6 +1,8 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.core.CliktCommand
+import com.github.ajalt.clikt.core.subcommands
+import com.github.ajalt.clikt.testing.test
 import org.junit.jupiter.api.Test
 import java.io.ByteArrayOutputStream
 import java.io.IOException
@@ -38,6 +40,25 @@ class MainTest {
         val (status, lines) = outcome(OutOfMemoryError(), false)
         assertEquals(2, status)
         assertTrue("-Xmx2g" in lines.single(), "$lines")
+    }
+
+    @Test
+    fun anExampleIsALineThatCanBeCopied() {
+        val commands = listOf(
+            BenchmarkCommand(),
+            MapCommand(),
+            CorrectCommand(),
+            DiagnoseCommand(),
+            SimulateCommand(),
+            VirtualBoatCommand(),
+            DriveCommand(),
+            ReplayCommand(),
+        )
+        for (command in commands) {
+            val help = Stillwater().subcommands(command).test(listOf(command.commandName, "--help"), width = 80).stdout
+            val examples = help.substringAfter("Examples:\n").trim().lines()
+            assertTrue(examples.all { "$it ".startsWith("stillwater ${command.commandName} ") }, "$examples")
+        }
     }
 
     private fun refusing(message: String) = StandardOutput(

@@ -136,7 +136,7 @@ class SimulateCommandTest {
             listOf("$wrong") to "wrong.json:7:14: planner: expected one of",
             listOf("$acid") to "probe.quantity: expected dissolved-oxygen",
             listOf("$port") to "probe.port: expected dissolved-oxygen on port 1",
-            listOf("$mission", "--sensor", "$text") to "--sensor: expected a sensor spec",
+            listOf("$mission", "--sensor", "$text") to "text.json:1:1: expected an object in braces with name, stages",
             listOf("$mission", "--field", "calm") to "--field: expected one of uniform, gaussian, smooth",
             listOf("$mission", "--field-range", "5,2") to "--field-range: expected two numbers, the first below",
             listOf("$mission", "--wind", "strong") to "--wind: expected velocities east and north",

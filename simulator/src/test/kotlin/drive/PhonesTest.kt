@@ -130,7 +130,7 @@ class PhonesTest {
         assertEquals("", channel.trouble())
         val moments = generateSequence { channel.await() }.takeWhile { it.fixes.isEmpty() }.toList()
         assertEquals(1, channel.timesAlone)
-        assertContains(channel.trouble(), "1 times without the phone")
+        assertContains(channel.trouble(), "1 time without the phone")
         assertTrue(moments.size in 4..6, "${moments.size} steps alone, of 0.1 s each, in the 0.5 s after the patience")
         assertTrue(moments.zipWithNext().all { (a, b) -> b.time > a.time })
     }
