@@ -7,10 +7,9 @@ import kotlin.math.abs
 /**
  * The bounded planner's tree of paths and the queue of its open ends, in arrays that are used again for every plan.
  *
- * Most children are never polled, so that a child becomes a node only then. What waits in the queue is a family: children
- * of one node that are worth the same and came one after the other. All children that teach nothing are one; it stays in
- * the queue until its last child is polled. Nodes are numbered in the order in which they were polled; node 0 is the
- * root. The queue polls the child with the highest priority, and of equal ones the one that came last, so that a tie is
+ * Most children are never polled, so that a child becomes a node only then. What waits in the queue is a family:
+ * children of one node that are worth the same and came one after the other. All children that teach nothing are one;
+ * it stays in the queue until its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The queue polls the child with the highest priority, and of equal ones the one that came last, so that a tie is
  * followed in depth. No call allocates once the arrays have grown.
  *
  * @param settings of the planner.
@@ -27,8 +26,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private var values = DoubleArray(FIRST_NODES)
     private var sensors = DoubleArray(FIRST_NODES)
 
-    // Families: the node they come from and, in the place after it, their directions and one, packed as an order is, the
-    // last in the lowest bits; what each child is worth.
+    // Families: the node they come from and, in the place after it, their directions and one, packed as an order is,
+    // the last in the lowest bits; what each child is worth.
     private var origins = IntArray(2 * FIRST_FAMILIES)
     private var worths = DoubleArray(FIRST_FAMILIES)
     private var families = 0
@@ -157,8 +156,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * Looks whether a neighbour of [node] ends the best path; at the horizon that is all it can do. Mostly none does even
-     * if none was visited before, which is looked at first: visits make no cell worth more.
+     * Looks whether a neighbour of [node] ends the best path; at the horizon that is all it can do. Mostly none does
+     * even if none was visited before, which is looked at first: visits make no cell worth more.
      */
     private fun finish(node: Int) {
         val value = values[node]

@@ -10,7 +10,7 @@ import kotlin.random.Random
  * @property ways 4 for the cells that share an edge, 8 for those that share a corner too.
  */
 internal class NeighbourOrder(private val random: Random, val ways: Int) {
-    /** The directions in their present order, [BITS] bits each, the first in the lowest: they are shuffled in a register. */
+    /** The directions in their present order, [BITS] bits each, the first in the lowest: shuffled in a register. */
     private var directions = (0 until ways).fold(0) { packed, direction -> packed or (direction shl BITS * direction) }
 
     /** Calls [visit] with each neighbour of [cell] that [grid] has. */
@@ -25,7 +25,10 @@ internal class NeighbourOrder(private val random: Random, val ways: Int) {
         }
     }
 
-    /** Calls [visit] with each direction of [packed], which is an order of [shuffled]: the place of its step in [COLUMN_STEPS] and [ROW_STEPS]. */
+    /**
+     * Calls [visit] with each direction of [packed], which is an order that [shuffled] gave: the place of its step in
+     * [COLUMN_STEPS] and [ROW_STEPS].
+     */
     inline fun forEach(packed: Int = shuffled(), visit: (Int) -> Unit) {
         var rest = packed
         repeat(ways) {

@@ -7,8 +7,8 @@ import stillwater.model.Grid
  * What the bounded planner asks of a map, for the cells a boat can reach from its own, in arrays that the search reads
  * without looking for a border: around the reachable cells lies a rim of places that hold no cell.
  *
- * Cells have numbers of their own here, [places]; neighbours lie at fixed distances from each other. The arrays are used
- * again for every plan. No call allocates once they have grown.
+ * Cells have numbers of their own here, [places]; neighbours lie at fixed distances from each other. The arrays are
+ * used again for every plan. No call allocates once they have grown.
  */
 internal class ReachableCells {
     /** The map's grid. */

@@ -42,7 +42,10 @@ class UpdateAllTest {
             var seconds = 0.0
             repeat(60) {
                 val count = random.nextInt(0, 13)
-                val times = DoubleArray(13) { (seconds + sometimes(random, -30.0)).also { seconds += random.nextInt(3) } }
+                val times = DoubleArray(13) {
+                    seconds += random.nextInt(3)
+                    seconds + sometimes(random, -30.0)
+                }
                 // A ramp with noise and outliers: bounds are set, contradicted and crossed.
                 val values = DoubleArray(13) { 0.02 * it + 0.1 * random.nextDouble() + sometimes(random, Double.NaN) }
                 val x = random.nextDouble(-0.2, 3.0) + sometimes(random, Double.NaN)
