@@ -3,9 +3,9 @@ package stillwater.estimate
 import kotlin.math.ln
 
 /**
- * Finds single wild readings, which a lag undone would make much wilder: readings without which the rest is so much more
- * likely that a fault, seen once in [USUAL] readings and then anywhere in their range, is the better explanation. Water
- * that changes at a front is confirmed by the readings after it, and stays.
+ * Finds single wild readings, which a lag undone would make much wilder: readings without which the rest is so much
+ * more likely that a fault, seen once in [USUAL] readings and then anywhere in their range, is the better explanation.
+ * Water that changes at a front is confirmed by the readings after it, and stays.
  *
  * @param stretch the readings; those found are marked in it. @param likelihood logarithm of the density of the readings
  * that are not marked.

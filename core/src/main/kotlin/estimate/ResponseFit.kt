@@ -61,7 +61,10 @@ internal class ResponseFit(
         val at = scores(logs)
         fun moved(move: DoubleArray) = scores(DoubleArray(size) { logs[it] + move[it] })
         val curvature = ScoreCurvature(size, groupOf, groups)
-        if (size > 0) curvature.take(CURVATURE_STEP, { kind.belief(DoubleArray(size) { i -> logs[i] + it[i] }) }, ::moved)
+        if (size > 0) {
+            fun belief(move: DoubleArray) = kind.belief(DoubleArray(size) { logs[it] + move[it] })
+            curvature.take(CURVATURE_STEP, ::belief, ::moved)
+        }
         val heldOut = DoubleArray(groups) { group ->
             val each = if (size == 0) at else moved(curvature.without(group))
             groupOf.indices.sumOf { if (groupOf[it] == group) each[it] else 0.0 }

@@ -134,7 +134,8 @@ internal class CorrectSummary(
         if (found.isEmpty()) return null
         fun mean(of: (HeldOutPasses) -> Double) = digits(found.sumOf { of(it.second) } / found.size, 3)
         val each = found.joinToString { (words, score) -> "${digits(score.after, 3)} learned on $words" }
-        return "rms ${mean { it.before }}$unitAfter as measured, ${mean { it.after }}$unitAfter corrected on average ($each)"
+        return "rms ${mean { it.before }}$unitAfter as measured, " +
+            "${mean { it.after }}$unitAfter corrected on average ($each)"
     }
 
     private fun rows(): String {

@@ -60,7 +60,8 @@ class HeldOutLegsTest {
 
     @Test
     fun whatTeachesNothingHasNoScore() {
-        assertEquals(emptyList(), HeldOutLegs(CorrectedLegs(survey(legs = 12, lag = 8.0), DoubleArray(0))) { null }.scores())
+        val measured = CorrectedLegs(survey(legs = 12, lag = 8.0), DoubleArray(0))
+        assertEquals(emptyList(), HeldOutLegs(measured) { null }.scores())
     }
 
     @Test
