@@ -30,7 +30,7 @@ class MissionRunTest {
             for (result in results) {
                 assertEquals(MissionState.Stopped(StopReason.COMPLETED), result.run.mission.state)
                 // A planner that gets no bounds leaves some cells out.
-                assertTrue(result.comparedError.cells >= 80, "${result.comparedError.cells} cells")
+                assertTrue(result.comparedError.cells >= 70, "${result.comparedError.cells} cells")
             }
             val ratio = results.sumOf { it.comparedError.mean } / results.sumOf { it.inProcessError.mean }
             // The bar: equal within 10 %. Those that learn the sensor may be better: the mission tells them how well
