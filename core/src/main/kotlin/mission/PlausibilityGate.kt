@@ -40,7 +40,8 @@ public fun interface ReadingSink {
  * A reading outside [range] is dropped. Readings equal to the one before wait for one that is not; where there are [stuckAfter]
  * of them or more, that one included, the probe is taken to be stuck and they are dropped, all but the first, which was
  * true when it was read. One other reading among them, a digit changed on the wire, does not end them: it waits for the
- * next and is dropped with them; once the probe is taken to be stuck any number of such may come. The first, and one that differs from the reading before by more than
+ * next and is dropped with them; once the probe is taken to be stuck any number of such may come. The first, and one
+ * that differs from the reading before by more than
  * [largestJump], is held until the next: if it lies between its neighbours, or beyond them by no more than a jump, it
  * passes, else it was alone and is dropped. So a probe that moves fast loses nothing, and a jump of a few deviations of the
  * noise is a good choice. Every reading is counted under

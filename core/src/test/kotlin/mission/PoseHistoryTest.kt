@@ -76,4 +76,17 @@ class BoardClockTest {
         assertTrue(clock.sampled(1L shl 32, BoatTime(20.0)).seconds.isNaN())
         assertTrue(clock.sampled(100, BoatTime(Double.NaN)).seconds.isNaN())
     }
+
+    @Test
+    fun aPlaceIsNoBetterKnownThanThePosesAroundIt() {
+        val history = PoseHistory()
+        assertTrue(history.deviationAt(BoatTime(1.0)).isNaN())
+        history.add(BoatTime(1.0), 0.0, 0.0, 0.5)
+        history.add(BoatTime(2.0), 1.0, 0.0, 0.8)
+        history.add(BoatTime(3.0), 2.0, 0.0, 0.6)
+        for ((seconds, expected) in listOf(0.5 to 0.5, 1.5 to 0.8, 2.5 to 0.8, 3.5 to 0.6)) {
+            assertEquals(expected, history.deviationAt(BoatTime(seconds)), "at $seconds s")
+        }
+        assertTrue(history.deviationAt(BoatTime(Double.NaN)).isNaN())
+    }
 }

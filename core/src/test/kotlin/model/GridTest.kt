@@ -8,8 +8,11 @@ import io.kotest.property.checkAll
 import kotlinx.coroutines.runBlocking
 import org.junit.jupiter.api.Test
 import kotlin.math.PI
+import kotlin.math.cos
+import kotlin.math.sin
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
 
 class GridTest {
     private val config = PropTestConfig(seed = 20_132, iterations = 1_000)
@@ -69,5 +72,22 @@ class GridTest {
         assertFailsWith<IllegalArgumentException> { Grid(origin, 1, 1, 1.0, Double.NaN) }
         assertFailsWith<IllegalArgumentException> { Grid(origin, 1, 1, 1.0, rotation = Double.NaN) }
         assertFailsWith<IllegalArgumentException> { Grid(origin, 100_000, 100_000, 1.0) }
+    }
+
+    @Test
+    fun aPlacesDistanceToItsCellsBorder() {
+        val grid = Grid(Position(100.0, 50.0), 3, 2, cellWidth = 10.0, cellHeight = 4.0, rotation = 0.3)
+        for ((along, across, expected) in listOf(
+            Triple(5.0, 2.0, 2.0),
+            Triple(11.0, 2.0, 1.0),
+            Triple(19.5, 3.8, 0.2),
+            Triple(0.0, 2.0, 0.0),
+        )) {
+            val x = 100 + cos(0.3) * along - sin(0.3) * across
+            val y = 50 + sin(0.3) * along + cos(0.3) * across
+            // Rounding of places some 100 m from the origin.
+            assertEquals(expected, grid.distanceToBorder(x, y), 1e-12)
+        }
+        assertTrue(grid.distanceToBorder(Double.NaN, 0.0).isNaN())
     }
 }
