@@ -137,8 +137,8 @@ internal class CorrelatedNoise(
             CorrelatedNoise(scales.series.times, 0.0, 1.0, used, scales.shocks)
 
         /**
-         * The noise under which [residuals] are likeliest; correlation times reach [longest] s. Looked for everywhere, or
-         * near [guess] alone. Not modified.
+         * The noise under which [residuals] are likeliest; correlation times reach [longest] s. Looked for everywhere,
+         * or near [guess] alone. Not modified.
          */
         fun of(
             scales: Scales,
@@ -166,7 +166,9 @@ internal class CorrelatedNoise(
                 }
             }
             if (guess != null) offer(guess.share, guess.time)
-            if (guess == null || guess.share == 0.0) for (share in SHARES) for (step in STEPS) if (share > 0) offer(share, step * series.period)
+            if (guess == null || guess.share == 0.0) {
+                for (share in SHARES) for (step in STEPS) if (share > 0) offer(share, step * series.period)
+            }
             var width = if (guess == null) 1.0 else 0.5
             repeat(if (guess == null) REFINEMENTS else REFINEMENTS - 1) {
                 val share = best.share.coerceIn(0.01, 0.999)

@@ -111,7 +111,9 @@ public class Diagnosis(
         progress(trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))
     }
 
-    /** The base model; steps are held where [held], as the log says where that is null. Lag and noise are as [rough]. */
+    /**
+     * The base model; steps are held where [held], as the log says where that is null. Lag and noise are as [rough].
+     */
     private fun base(held: Boolean?, rough: ModelFit?): ModelFit {
         val fits = listOf(false, true).filter { held == null || it == held }.map { base(it, scales(rough, it)) }
         // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given

@@ -45,28 +45,9 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
     /** All meetings, the earliest first visit first. */
     fun all(): List<Meeting> {
         if (!(step > 0)) return emptyList()
-        val nearest = IntArray(n) { -1 }
-        val cells = HashMap<Pair<Long, Long>, ArrayList<Int>>()
-        var looks = 0
-        for (j in 0 until n) {
-            val column = floor(series.x[j] / step).toLong()
-            val row = floor(series.y[j] / step).toLong()
-            var least = step
-            for (dx in -1L..1L) {
-                for (dy in -1L..1L) {
-                    for (i in cells[column + dx to row + dy].orEmpty()) {
-                        if (series.times[j] - series.times[i] < apart || looks++ > MOST_LOOKS) continue
-                        if (way(i, j) < least) {
-                            least = way(i, j)
-                            nearest[j] = i
-                        }
-                    }
-                }
-            }
-            cells.getOrPut(column to row) { ArrayList() } += j
-        }
+        val nearest = nearest()
         fun distance(j: Int) = if (j !in 0 until n || nearest[j] < 0) Double.MAX_VALUE else way(nearest[j], j)
-        // Going along the old way is one meeting after the other, each with jitter of its own: those apart by some rows.
+        // Going along the old way is one meeting after the other, each with jitter of its own: some rows apart.
         val found = ArrayList<Meeting>()
         var last = -ROWS_APART
         for (j in 0 until n) {
@@ -76,6 +57,30 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
             last = j
         }
         return found.sortedBy { it.first }
+    }
+
+    /** For each row the nearest of those long before it, within a step; -1 where there is none. */
+    private fun nearest(): IntArray {
+        val nearest = IntArray(n) { -1 }
+        val cells = HashMap<Pair<Long, Long>, ArrayList<Int>>()
+        var looks = 0
+        for (j in 0 until n) {
+            val column = floor(series.x[j] / step).toLong()
+            val row = floor(series.y[j] / step).toLong()
+            var least = step
+            for (cell in 0 until CELLS * CELLS) {
+                val beside = column + cell / CELLS - 1 to row + cell % CELLS - 1
+                for (i in cells[beside].orEmpty()) {
+                    if (series.times[j] - series.times[i] < apart || looks++ > MOST_LOOKS) continue
+                    if (way(i, j) < least) {
+                        least = way(i, j)
+                        nearest[j] = i
+                    }
+                }
+            }
+            cells.getOrPut(column to row) { ArrayList() } += j
+        }
+        return nearest
     }
 
     private fun meeting(i: Int, j: Int): Meeting {
@@ -107,6 +112,7 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
         const val SECOND = 6.0
         const val LEAST_JITTER = 0.1
         const val ROWS_APART = 3
+        const val CELLS = 3
         const val MOST_LOOKS = 4_000_000
     }
 }

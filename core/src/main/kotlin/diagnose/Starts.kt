@@ -20,7 +20,9 @@ internal class Starts(
     /** The places, as full sets of numbers; a time constant that is not fitted stays as it is. */
     fun all(): List<DoubleArray> = places().onEach { numbers ->
         if (!fit.free[ResponseModel.TIME_CONSTANT]) numbers[ResponseModel.TIME_CONSTANT] = tau
-        for (i in numbers.indices) numbers[i] = numbers[i].coerceIn(model.parameters[i].lower, model.parameters[i].upper)
+        model.parameters.forEachIndexed { i, parameter ->
+            numbers[i] = numbers[i].coerceIn(parameter.lower, parameter.upper)
+        }
     }
 
     private fun places(): List<DoubleArray> = when {
