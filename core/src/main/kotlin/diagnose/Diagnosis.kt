@@ -27,7 +27,7 @@ public class Diagnosis(
 
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
-        if (series.reference == null) return BlindDiagnosis(series, settings).run().also { progress(1.0) }
+        if (series.reference == null) return BlindDiagnosis(series, settings, progress).run().also { progress(1.0) }
         val first = weighing(null)
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
         // with each beginning of it, because what came after may make up for the wrong way.
