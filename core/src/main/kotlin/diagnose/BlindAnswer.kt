@@ -55,6 +55,7 @@ internal class BlindAnswer(
             left,
             outliers.rows,
             warnings(left.first(), isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() + bounds.distinct(),
+            lag = lag.channel(""),
         )
     }
 

@@ -11,8 +11,20 @@ import kotlin.math.sqrt
  * step. What is left counts: likelihood ratios are divided by what correlation inflates them, and stretches of the log must
  * agree. See core/docs/Diagnosis.md, (11) to (15).
  */
-internal class BlindDiagnosis(private val series: MeasuredSeries, private val settings: DiagnosisSettings) {
-    private val search by lazy { BlindSearch(series) }
+internal class BlindDiagnosis(
+    private val series: MeasuredSeries,
+    private val settings: DiagnosisSettings,
+    private val progress: (Double) -> Unit = {},
+) {
+    private val search by lazy { BlindSearch(series) { progress(SEARCH * it) } }
+    private var rounds = 0
+
+    /** The share [done] of a round is behind: each takes half of what is left. */
+    private fun tell(done: Double) {
+        var left = 1 - SEARCH
+        repeat(rounds) { left /= 2 }
+        progress(1 - left + left / 2 * done.coerceAtMost(1.0))
+    }
 
     /** The answer. */
     fun run(): DiagnosisResult {
@@ -27,6 +39,7 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         val lag = BlindLag(search, base)
         isShapeOpen = lag.isOpen(settings.separation)
         isLagSeen = lag.isSeen
+        isResolved = base.finestPower() < MOST_FINEST * base.variance
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (isShapeOpen) lag.both() else base
         val first = Round(start)
@@ -47,9 +60,21 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> =
-            terms().filter { term -> state.model.terms.none { it.key == term.key } }.map {
-                if (it.cause in SLOW) slow(it) else tries.attempt(it)
+            terms().filter { term -> state.model.terms.none { it.key == term.key } }.let { terms ->
+                terms.mapIndexed { i, term ->
+                    tell(i.toDouble() / terms.size)
+                    if (term.cause in SLOW) slow(term) else checked(tries.attempt(term))
+                }
             }
+
+        /** What the water's own size says of [trial]: a response that shows more of the water lets it be smaller. */
+        private fun checked(trial: BlindTrial): BlindTrial {
+            val term = trial.term
+            if (term == null || term.cause !in BlindSearch.LINEAR || trial.pValue > settings.level) return trial
+            val noise = state.fit.design.noise
+            val before = search.settled(state.model.terms, state.numbers, noise, state.variances, before = state)
+            return trial.atMost((with(before, trial).score - before.score) / trial.inflation)
+        }
 
         /** Water that changes in time could imitate a drift: the two are held against each other. */
         private fun slow(term: Term): BlindTrial =
@@ -58,6 +83,10 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         /** What no cause explains. */
         val looks: List<BlindTrial> = BlindLooks(state, tries, isShapeOpen).all()
         private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
+
+        init {
+            rounds++
+        }
 
         /** p-values of [causes] for all that was tried. */
         val adjustedCauses: List<Double> = adjusted.take(causes.size)
@@ -69,10 +98,15 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
     /** Whether not even a time constant and a dead time can be told apart: then nothing between them can be named. */
     private var isShapeOpen = false
 
+    /** Whether the waves of the water go as far down as the water does: what is missing looks like another response. */
+    private var isResolved = true
+
     /** Whether there is a lag at all, for certain. */
     private var isLagSeen = false
 
-    private fun terms(): List<Term> = buildList {
+    private fun terms(): List<Term> = all().filter { isResolved || it.cause !in BlindSearch.LINEAR }
+
+    private fun all(): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
         // A lag that does not show for certain has no shape to be named.
         if (!isShapeOpen && isLagSeen) {
@@ -114,10 +148,14 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         return chosen
     }
 
-    private fun added(state: BlindState, trial: BlindTrial): BlindState {
+    private fun with(state: BlindState, trial: BlindTrial): BlindState {
         val model = checkNotNull(trial.model)
         val numbers = checkNotNull(trial.point).numbers
-        val next = search.settled(model.terms, numbers, state.fit.design.noise, state.variances, before = state)
+        return search.settled(model.terms, numbers, state.fit.design.noise, state.variances, before = state)
+    }
+
+    private fun added(state: BlindState, trial: BlindTrial): BlindState {
+        val next = with(state, trial)
         return search.improved(search.evened(search.improved(next)))
     }
 
@@ -155,6 +193,12 @@ internal class BlindDiagnosis(private val series: MeasuredSeries, private val se
         /** Water that is not wholly resolved makes p-values too small by a few times: levels are lower by as much. */
         const val STRICTER = 0.4
         private const val FEWEST_ROWS = 60
+
+        /** Mean square of the finest waves over the noise's, above which there must be finer ones. */
+        private const val MOST_FINEST = 10.0
+
+        /** Share of the work that the search for the lag is. */
+        private const val SEARCH = 0.5
         private const val SMALLEST_RANGE = 1e-100
         private val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
         private const val EVEN = 0.03

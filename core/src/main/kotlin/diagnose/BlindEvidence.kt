@@ -36,8 +36,13 @@ internal object BlindEvidence {
     fun between(worse: BlindState, better: BlindState): Double {
         val a = worse.whitened
         val b = better.whitened
+        // Logarithms of the likelihood; what the noises' determinants differ by is the same in all rows.
+        val wider = (worse.spare - better.spare) / a.size
         val gains = DoubleArray(STRETCHES)
-        for (i in a.indices) gains[(i.toLong() * STRETCHES / a.size).toInt()] += a[i] * a[i] - b[i] * b[i]
+        for (i in a.indices) {
+            gains[(i.toLong() * STRETCHES / a.size).toInt()] +=
+                a[i] * a[i] / worse.variance - b[i] * b[i] / better.variance + wider
+        }
         return Evidence.t(gains)
     }
 }

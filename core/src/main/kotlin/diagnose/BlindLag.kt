@@ -17,7 +17,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     /** The model with a dead time in place of the lag. */
     val deadTime: BlindState = STARTS.map { share ->
         settled(listOf(Term(Cause.DEAD_TIME)), period / 50, share * timeConstant.timeConstant)
-    }.maxBy { it.score }.let { refined(it) }
+    }.maxBy { it.score }.let { refined(it) }.let { refined(search.quieted(it)) }
 
     private fun settled(terms: List<Term>, tau: Double, delay: Double?) = search.settled(
         terms,
@@ -31,7 +31,13 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     private fun refined(state: BlindState): BlindState {
         val free = BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }
         val found = BlindDescent(state).from(state.model, state.numbers, free, STEPS)
-        return search.settled(state.model.terms, found.numbers, noise, state.variances, before = state)
+        return search.settled(
+            state.model.terms,
+            found.numbers,
+            state.fit.design.noise,
+            state.variances,
+            before = state,
+        )
     }
 
     /** The model with a dead time beside the lag, or with the lag alone where that is not worth it. */
@@ -64,11 +70,9 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     /** The same of a time constant against a dead time. */
     val preference: Double = (timeConstant.score - deadTime.score) / inflation
 
-    /** Whether stretches of the log agree that there is a lag of either kind: Student's t. */
-    val sureness: Double = minOf(
-        BlindEvidence.between(none, timeConstant),
-        BlindEvidence.between(none, deadTime),
-    )
+    /** Whether stretches of the log agree that there is a lag, of the likelier kind: Student's t. */
+    val sureness: Double =
+        BlindEvidence.between(none, if (timeConstant.score > deadTime.score) timeConstant else deadTime)
 
     /** Whether the log cannot tell a time constant from a dead time. */
     fun isOpen(separation: Double): Boolean =
@@ -76,6 +80,10 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
 
     /** Whether the log shows a lag of either kind. */
     val isSeen: Boolean get() = seen > LAG_SEEN && sureness > SURE
+
+    /** The delay as that of the channel [name]. */
+    fun channel(name: String): ChannelLag =
+        if (isSeen) ChannelLag(name, delay, delayError) else ChannelLag(name, Double.NaN, Double.NaN)
 
     private companion object {
         const val LAG_SEEN = 12.0

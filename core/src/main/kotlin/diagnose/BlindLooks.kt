@@ -37,7 +37,7 @@ internal class BlindLooks(
         add(trials.look("the rate of change, more at some values than at others", uneven))
         add(trials.look("the value, more at some times than at others", listOf(product(value, age))))
         // Where not even a time constant and a dead time can be told apart, no other shape can be ruled in.
-        if (!isShapeOpen) add(trials.look("what was there before (the response has another shape)", earlier()))
+        if (!isShapeOpen) add(trials.lookAtWater("what was there before (the response has another shape)", earlier()))
         if (median(series.speed) > SLOWEST) heading()
         add(periodic())
     }
@@ -108,10 +108,10 @@ internal class BlindLooks(
         even * even + odd * odd
     }
 
-    /** The mean power of frequencies near the [k]-th, which and whose neighbours are left out. */
+    /** The mean power of frequencies near the [k]-th, from their median, which what leaks into them hardly moves. */
     private fun beside(powers: DoubleArray, k: Int): Double {
         val near = (maxOf(0, k - BESIDE)..minOf(powers.size - 1, k + BESIDE)).filter { abs(it - k) > 1 }
-        return maxOf(near.sumOf { powers[it] } / maxOf(near.size, 1), 1e-300)
+        return maxOf(median(DoubleArray(near.size) { powers[near[it]] }) / ln(2.0), 1e-300)
     }
 
     private fun product(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }

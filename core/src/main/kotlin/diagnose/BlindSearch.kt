@@ -31,18 +31,32 @@ internal class BlindState(
     /** Residuals, whitened, without what the water takes. */
     val whitened: DoubleArray by lazy { fit.residual(residuals) }
 
+    /** What minus twice the log-likelihood has beside the square sum of residuals over their variance. */
+    val spare: Double get() = fit.rows * ln(variance) + fit.design.noise.logDeterminant
+
     /** The lag's time, s. */
     val timeConstant: Double get() = numbers[ResponseModel.TIME_CONSTANT]
 
     /** The water along the track, sensor units. */
     val water: DoubleArray get() = checkNotNull(model.series.reference)
 
+    /** Mean square of the finest waves found, sensor units²: where there is much, still finer ones may be there. */
+    fun finestPower(): Double {
+        val last = modes.bands - 1
+        val heights = DoubleArray(modes.size) { if (modes.band[it] == last) fit.heights[it] else 0.0 }
+        return squares(modes.along(heights)) / modes.along(heights).size
+    }
+
     /** How fast what the model shows goes down with parameter [i] on the scale it is fitted on, length n. */
     fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, numbers, i)
 }
 
-/** Finds the likeliest numbers of models of a log without a reference. */
-internal class BlindSearch(private val series: MeasuredSeries) {
+/**
+ * Finds the likeliest numbers of models of a log without a reference.
+ *
+ * @param progress told how much of [best] is done, a share within 0..1 that grows.
+ */
+internal class BlindSearch(private val series: MeasuredSeries, private val progress: (Double) -> Unit = {}) {
     private val n = series.size
 
     /** Rows that are fitted. */
@@ -66,13 +80,18 @@ internal class BlindSearch(private val series: MeasuredSeries) {
         var variances = DoubleArray(0)
         val coarse = LAGS.map { steps ->
             settled(emptyList(), base(steps * series.period), guess, variances, modes = rough)
-                .also { variances = it.variances }
+                .also {
+                    variances = it.variances
+                    progress(ROUGH * (LAGS.indexOf(steps) + 1) / LAGS.size)
+                }
         }
         // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
         val first = quieted(stepped(improved(improved(coarse.maxBy { it.score }))))
         val found = improved(first)
+        progress(2 * ROUGH)
         var state = settled(emptyList(), found.numbers, found.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, modes)
         // More waves may explain what looked like noise that wanders.
+        progress(3 * ROUGH)
         state = improved(requieted(evened(state)))
         return improved(state).also { lastVariance = it.variance }
     }
@@ -114,7 +133,7 @@ internal class BlindSearch(private val series: MeasuredSeries) {
     }
 
     /** [state] with noise that wanders less or more as long as that suits it better. */
-    private fun requieted(state: BlindState): BlindState {
+    fun requieted(state: BlindState): BlindState {
         val now = state.fit.design.noise.noise
         val from = NOISES.indices.minBy { k ->
             val (share, steps) = NOISES[k]
@@ -307,6 +326,9 @@ internal class BlindSearch(private val series: MeasuredSeries) {
 
     companion object {
         const val MOST_WAVES = 450
+
+        /** Share of the search that one of its parts is. */
+        const val ROUGH = 0.25
         const val FEWEST_WAVES = 30
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0

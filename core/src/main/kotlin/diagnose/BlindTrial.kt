@@ -26,8 +26,11 @@ internal class BlindTrial(
     val worth: Double get() = ratio - 2 * degrees
 
     /** This trial where it is on top of a model whose twice log-likelihood is higher by [score] than the base's. */
-    fun instead(score: Double): BlindTrial {
-        val weaker = minOf(ratio, maxOf(ratio + score / inflation, 0.0))
+    fun instead(score: Double): BlindTrial = atMost(ratio + score / inflation)
+
+    /** This trial where its ratio is [most] at most. */
+    fun atMost(most: Double): BlindTrial {
+        val weaker = minOf(ratio, maxOf(most, 0.0))
         val p = maxOf(pValue, Evidence.pValue(weaker, degrees))
         return BlindTrial(term, name, model, point, change, weaker, inflation, degrees, p)
     }
@@ -43,9 +46,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private val z = state.fit.residual(base.residuals)
 
     /** What the base's own numbers change, whitened and off the water. */
-    private val own = search.free(state.model).indices.filter { search.free(state.model)[it] }
-        .map { state.fit.unlike(BlindDescent.derivative(state.model, base.numbers, it)) }
-    private val ownBasis = Evidence.orthonormal(own)
+    private val ownColumns = search.free(state.model).indices.filter { search.free(state.model)[it] }
+        .map { BlindDescent.derivative(state.model, base.numbers, it) }
+    private val ownBasis = Evidence.orthonormal(ownColumns.map { state.fit.unlike(it) })
     private val asFit = ModelFit(
         state.model,
         base.numbers,
@@ -65,21 +68,16 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val free = search.free(model)
         val starts = Starts(asFit, model, term, small = true).all()
         val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
-        val looked = places.map { descent.from(model, it, free, 1) }.minBy { it.left }
-        // What gains next to nothing at the first step is no cause, however well it is fitted.
+        val looked = places.map { descent.from(model, it, free, LOOKS) }.minBy { it.left }
+        // What gains next to nothing at the first steps is no cause, however well it is fitted.
         val isWorthIt = Evidence.ratio(base.left, looked.left, state.fit.rows) > LEAST_GAIN
-        val best = if (isWorthIt) better(model, places, free) else looked
+        val best = if (isWorthIt) descent.from(model, looked.numbers, free, STEPS) else looked
         val slot = model.slot(term)
         val columns = (slot until slot + model.width(term)).map {
             state.fit.unlike(BlindDescent.derivative(model, best.numbers, it))
         }
         val change = DoubleArray(n) { base.residuals[it] - best.residuals[it] }
         return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
-    }
-
-    private fun better(model: ResponseModel, places: List<DoubleArray>, free: BooleanArray): BlindPoint {
-        val rough = places.map { descent.from(model, it, free, FIRST_STEPS) }.minBy { it.left }
-        return descent.from(model, rough.numbers, free, STEPS)
     }
 
     /** Places where the range may end: beyond ever fewer of the readings. */
@@ -106,17 +104,16 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         change: DoubleArray,
         searched: Double,
         floor: Double = 1.0,
+        rest: DoubleArray? = null,
     ): BlindTrial {
         val extra = Evidence.orthonormal(columns, ownBasis)
         val gain = Evidence.ratio(base.left, left, state.fit.rows)
-        val after = what.point?.let { state.fit.residual(it.residuals) } ?: z
+        val after = rest ?: what.point?.let { state.fit.residual(it.residuals) } ?: z
         val inflation = maxOf(BlindEvidence.inflation(extra, after), floor)
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
-        val t = between(Evidence.without(state.fit.unlike(change), ownBasis))
-        // Several numbers give the sum of what they change a good look of chance: the t is held against that.
-        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
-        val p = maxOf(Evidence.pValue(ratio, degrees), if (t > 0) Evidence.student(fewer, STRETCHES - 1) else 1.0)
+        val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
+        val p = pValue(what.term, ratio, degrees, unlike, searched)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
@@ -132,6 +129,14 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val size = scores.sum() / maxOf(weights.sum(), 1e-300)
         val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
         return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
+    }
+
+    /** Over how many stretches the change [unlike] is spread, where a single wrong reading could be taken for [term]. */
+    private fun agreeing(term: Term?, unlike: DoubleArray): Int {
+        if (term?.cause != Cause.SATURATION) return STRETCHES
+        val weights = DoubleArray(STRETCHES)
+        for (i in 0 until n) weights[(i.toLong() * STRETCHES / n).toInt()] += unlike[i] * unlike[i]
+        return (weights.sum() * weights.sum() / maxOf(squares(weights), 1e-300)).toInt().coerceIn(2, STRETCHES)
     }
 
     /** The jumps that serve best, one after the other while each is worth it. */
@@ -167,20 +172,45 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
      * [floor] what the ratio is divided by at least. */
-    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial {
-        val directions = Evidence.orthonormal(columns.map { state.fit.unlike(it) }, ownBasis)
-        var change = DoubleArray(n)
-        if (directions.isEmpty()) return BlindTrial(null, name, null, null, change, 0.0, 1.0, 1, 1.0)
-        // The columns' own sum that explains most: normal equations off the base's numbers.
-        val off = columns.map { Evidence.without(state.fit.unlike(it), ownBasis) }
-        val white = columns.map { state.fit.whitened(it) }
-        val matrix = Array(off.size) { i ->
-            DoubleArray(off.size) { j -> (dot(off[i], white[j]) + dot(off[j], white[i])) / 2 }
-        }
-        val share = SymmetricSystem(matrix, DoubleArray(off.size) { dot(off[it], z) }).solve(1e-9)
-        change = DoubleArray(n) { i -> columns.indices.sumOf { share[it] * columns[it][i] } }
-        val gained = off.indices.sumOf { share[it] * dot(off[it], z) }
-        return weighed(Weighed(null, name, null, null), off, base.left - maxOf(gained, 0.0), change, searched, floor)
+    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial =
+        look(name, columns, searched, floor) { it.white }
+
+    /**
+     * A look at whether the water is shown as [columns] show it.
+     *
+     * The water found is smaller than the true water where noise hides it, so that columns which show more of it serve
+     * even where there is nothing. Residuals are therefore held against what of them is unlike any water alone.
+     */
+    fun lookAtWater(name: String, columns: List<DoubleArray>): BlindTrial = look(name, columns, 0.0, 1.0) { it.unlike }
+
+    private fun look(
+        name: String,
+        columns: List<DoubleArray>,
+        searched: Double,
+        floor: Double,
+        scored: (Looked.Direction) -> DoubleArray,
+    ): BlindTrial {
+        val looked = Looked(state.fit, n)
+        ownColumns.forEach { looked.add(it) }
+        val known = looked.directions.size
+        columns.forEach { looked.add(it) }
+        val found = looked.directions.drop(known)
+        if (found.isEmpty()) return BlindTrial(null, name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
+        val heights = found.map { dot(scored(it), z) }
+        val change = DoubleArray(n) { i -> found.indices.sumOf { heights[it] * found[it].column[i] } }
+        val after = DoubleArray(n) { i -> z[i] - found.indices.sumOf { heights[it] * found[it].unlike[i] } }
+        val gained = heights.sumOf { it * it }
+        val what = Weighed(null, name, null, null)
+        return weighed(what, found.map { it.unlike }, base.left - gained, change, searched, floor, after)
+    }
+
+    /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], the larger. */
+    private fun pValue(term: Term?, ratio: Double, degrees: Int, unlike: DoubleArray, searched: Double): Double {
+        val t = between(unlike)
+        // Several numbers give the sum of what they change a good look of chance: the t is held against that.
+        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
+        val agreed = if (t > 0) Evidence.student(fewer, agreeing(term, unlike) - 1) else 1.0
+        return maxOf(Evidence.pValue(ratio, degrees), agreed)
     }
 
     /** The whitened residuals of the base. */
@@ -188,13 +218,13 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     private companion object {
         const val BASE_STEPS = 4
-        const val FIRST_STEPS = 3
+        const val LOOKS = 2
         const val STEPS = 6
         const val STRETCHES = BlindEvidence.STRETCHES
         const val FAR = 1e12
 
         /** Twice the gain in log-likelihood below which a cause is not fitted to the end: far below any level. */
-        const val LEAST_GAIN = 4.0
+        const val LEAST_GAIN = 2.0
         val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
         const val PLACES = 48
         const val MOST_JUMPS = 3

@@ -54,19 +54,28 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
     public companion object {
         /**
          * Learns the lags of the channel in [series], called [name], and of [others], columns of the same rows by name,
-         * NaN where a row has none.
+         * NaN where a row has none. What [diagnosed], the diagnosis of [series], has found is not searched again;
+         * [progress] is told how much is done, a share within 0..1 that grows.
          */
-        public fun of(series: MeasuredSeries, name: String, others: Map<String, DoubleArray>): ChannelLags =
-            ChannelLags(
-                listOf(lag(name, series)) + others.map { (other, column) -> lag(other, series.withValues(column)) },
+        public fun of(
+            series: MeasuredSeries,
+            name: String,
+            others: Map<String, DoubleArray>,
+            diagnosed: DiagnosisResult? = null,
+            progress: (Double) -> Unit = {},
+        ): ChannelLags {
+            val own = diagnosed?.lag?.let { ChannelLag(name, it.delay, it.error) } ?: lag(name, series)
+            return ChannelLags(
+                listOf(own) + others.entries.mapIndexed { i, (other, column) ->
+                    lag(other, series.withValues(column)) { progress((i + it) / others.size) }
+                },
             )
+        }
 
-        private fun lag(name: String, series: MeasuredSeries): ChannelLag {
+        private fun lag(name: String, series: MeasuredSeries, progress: (Double) -> Unit = {}): ChannelLag {
             if (BlindDiagnosis.tooLittle(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
-            val search = BlindSearch(series)
-            val found = BlindLag(search, search.best())
-            if (!found.isSeen) return ChannelLag(name, Double.NaN, Double.NaN)
-            return ChannelLag(name, found.delay, found.delayError)
+            val search = BlindSearch(series, progress)
+            return BlindLag(search, search.best()).channel(name)
         }
     }
 }

@@ -28,7 +28,7 @@ public class Diagnosis(
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
         val reference = series.reference
-            ?: return BlindDiagnosis(series, settings).run().also { progress(1.0) }
+            ?: return BlindDiagnosis(series, settings, progress).run().also { progress(1.0) }
         val quieter = quieter(reference)
         return if (quieter == null) weighed() else Diagnosis(quieter, settings, progress).weighed()
     }

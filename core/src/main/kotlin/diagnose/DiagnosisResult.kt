@@ -130,4 +130,5 @@ public class DiagnosisResult internal constructor(
     public val warnings: List<String>,
     public val effects: List<NamedEffect> = emptyList(),
     public val revisits: Revisits? = null,
+    internal val lag: ChannelLag? = null,
 )

@@ -29,9 +29,14 @@ internal class Starts(
         small && term.cause in IN_PROPORTION -> listOf(with(STEPS.getValue(term.cause)))
         small && term.cause == Cause.DRIFT -> listOf(with(scales.range / series.duration))
         small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(1.0))
-        small && term.cause == Cause.DEAD_TIME -> listOf(with(series.period))
-        small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(with(series.period))
-        small && term.cause == Cause.POSITION_OFFSET -> listOf(with(scales.ordinarySpeed * series.period))
+        small && term.cause == Cause.DEAD_TIME -> listOf(0.3, 1.0).map { inPlace(it * series.period) }
+        small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(0.5, 1.5).map { inPlace(it * series.period) }
+        small && term.cause == Cause.TWO_PATH_RESPONSE -> listOf(3.0, 8.0, 25.0).map { ratio ->
+            with(ratio, SHARE).also { it[ResponseModel.TIME_CONSTANT] = tau / (1 + SHARE * (ratio - 1)) }
+        }
+        small && term.cause == Cause.POSITION_OFFSET ->
+            listOf(inPlace(0.3 * series.period, scales.ordinarySpeed * 0.3 * series.period))
+        small && term.cause == Cause.SLEW_LIMIT -> rates(listOf(0.75, 0.9, 0.97, 0.99, 0.998)).map { with(it) }
         else -> of(term.cause)
     }
 
@@ -65,12 +70,16 @@ internal class Starts(
         else -> listOf(extended())
     }
 
-    private fun rates(): List<Double> {
+    /** A delay of [delay] s, which is the new number where that is not [value], taken off the time constant. */
+    private fun inPlace(delay: Double, value: Double = delay) =
+        with(value).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 2) }
+
+    private fun rates(shares: List<Double> = listOf(0.5, 0.75, 0.9, 0.97)): List<Double> {
         val shown = DoubleArray(series.size - 1) { i ->
             abs(series.values[i + 1] - fit.residuals[i + 1] - series.values[i] + fit.residuals[i]) /
                 (series.times[i + 1] - series.times[i])
         }.sortedArray()
-        return listOf(0.5, 0.75, 0.9, 0.97).map { maxOf(shown[(it * (shown.size - 1)).toInt()], 1e-9 * scales.range) }
+        return shares.map { maxOf(shown[(it * (shown.size - 1)).toInt()], 1e-9 * scales.range) }
     }
 
     /** The numbers fitted so far, in the places they have in [model]; new ones neutral. */
@@ -103,5 +112,8 @@ internal class Starts(
             Cause.TEMPERATURE_DEPENDENT_RESPONSE to 0.01,
         )
         val IN_PROPORTION = STEPS.keys
+
+        /** A small share of the slow path. */
+        const val SHARE = 0.01
     }
 }

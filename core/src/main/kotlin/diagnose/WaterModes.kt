@@ -25,7 +25,7 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
     private val found = ArrayList<DoubleArray>()
     private val bandOf = ArrayList<Int>()
 
-    /** Length of the shortest process, m. */
+    /** Length of the shortest process or wave, m. */
     var finest: Double = extent
         private set
 
@@ -44,17 +44,29 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
             }
         }
         moving = 1 until next
-        // The shortest takes what it needs first; those above it need ever fewer.
         val still = most - found.size
-        finest = shortest((FINEST * still).toInt())
+        val enough = LATTICE * maxOf(step, 1e-9 * extent)
+        val lattice = if (isLine) null else WaterLattice(track.x, track.y, still, enough)
+        val gaussian = shortest((FINEST * still).toInt())
+        if (lattice != null && lattice.shortest <= maxOf(enough, WAVE * gaussian)) {
+            finest = lattice.shortest
+            lattice.rings().forEach { add(it, next++) }
+        } else {
+            finest = gaussian
+            ladder(still).forEach { add(it, next++) }
+        }
+    }
+
+    /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */
+    private fun ladder(most: Int): List<List<DoubleArray>> {
         var length = finest
         val ladder = ArrayList<List<DoubleArray>>()
-        var free = still
+        var free = most
         while (length < extent && free > 0) {
             ladder += factor(length, Double.POSITIVE_INFINITY, free).also { free -= it.size }
             length *= FACTOR
         }
-        ladder.reversed().forEach { add(it, next++) }
+        return ladder.reversed()
     }
 
     /** Whether the track is a line gone to and fro, as a float's casts: then it comes back often, to changed water. */
@@ -150,6 +162,12 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
     private companion object {
         const val FINEST = 0.75
         const val FACTOR = 2.2
+
+        /** The shortest waves that a process holds, over its length: e⁻⁴ of the longest's power. */
+        const val WAVE = 2.2
+
+        /** Steps from row to row in the shortest wave of a lattice: shorter ones nobody's lag lets through. */
+        const val LATTICE = 8.0
         const val SHORTEST = 2.0
         const val ENOUGH = 1e-4
         const val MOVING = 0.15

@@ -1,6 +1,7 @@
 package stillwater.diagnosis
 
 import stillwater.diagnose.ChannelLags
+import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.MeasuredSeries
 import stillwater.io.LogPass
 import stillwater.io.SquareReach
@@ -27,11 +28,18 @@ class DiagnosisLog private constructor(
     val cut: Long,
     private val compare: List<String> = emptyList(),
 ) {
-    /** The lags of the readings and of the columns to compare; null where there are none. */
-    fun channels(): ChannelLags? = if (compare.isEmpty()) {
+    /** Whether there are columns to compare. */
+    val isCompared: Boolean get() = compare.isNotEmpty()
+
+    /**
+     * The lags of the readings, which [result] has found already where it has no reference, and of the columns to
+     * compare; null where there are none. [progress] is told how much is done, a share within 0..1.
+     */
+    fun channels(result: DiagnosisResult, progress: (Double) -> Unit = {}): ChannelLags? = if (compare.isEmpty()) {
         null
     } else {
-        ChannelLags.of(series, quantity, compare.associateWith { checkNotNull(columns.condition(compared(it))) })
+        val others = compare.associateWith { checkNotNull(columns.condition(compared(it))) }
+        ChannelLags.of(series, quantity, others, result, progress)
     }
 
     companion object {

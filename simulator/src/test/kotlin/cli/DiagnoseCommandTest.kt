@@ -3,8 +3,10 @@ package stillwater.cli
 import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.testing.test
 import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.double
 import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
 import org.junit.jupiter.api.io.TempDir
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
@@ -101,6 +103,8 @@ class DiagnoseCommandTest {
         val channels = Json.parseToJsonElement(Files.readString(out.resolve("diagnosis.json"))).jsonObject
             .getValue("channels").jsonObject
         assertEquals(2, channels.getValue("deadTimes").jsonArray.size)
+        // Half a second: rows are a second apart.
+        assertEquals(3.0, channels.getValue("mostCommon_s").jsonPrimitive.double, 0.5)
     }
 
     @Test
