@@ -79,7 +79,8 @@ internal class BlindLooks(
     /** The strongest of all frequencies that the log can tell apart and the water cannot imitate. */
     private fun periodic(): BlindTrial {
         val highest = 0.4 / series.period
-        val lowest = 3 / maxOf(series.duration, 1e-9)
+        // Water that changes goes to and fro a few times in a log as well.
+        val lowest = FEWEST_TURNS / maxOf(series.duration, 1e-9)
         val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
         if (count < 2) return trials.look("time, periodically", emptyList())
         val powers = powers(count, lowest, highest)
@@ -128,6 +129,7 @@ internal class BlindLooks(
         const val SLOWEST = 0.02
         const val MOST_FREQUENCIES = 500
         const val BESIDE = 12
+        const val FEWEST_TURNS = 10.0
         val SHARES = doubleArrayOf(0.1, 0.5, 2.0, 5.0).toList()
     }
 }

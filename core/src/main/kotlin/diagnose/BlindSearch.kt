@@ -85,7 +85,8 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
                     progress(ROUGH * (LAGS.indexOf(steps) + 1) / LAGS.size)
                 }
         }
-        // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise that wanders.
+        // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise
+        // that wanders.
         val first = quieted(stepped(improved(improved(coarse.maxBy { it.score }))))
         val found = improved(first)
         progress(2 * ROUGH)

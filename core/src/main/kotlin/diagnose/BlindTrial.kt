@@ -131,7 +131,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
     }
 
-    /** Over how many stretches the change [unlike] is spread, where a single wrong reading could be taken for [term]. */
+    /** Over how many stretches [unlike] is spread, where a single wrong reading could be taken for [term]. */
     private fun agreeing(term: Term?, unlike: DoubleArray): Int {
         if (term?.cause != Cause.SATURATION) return STRETCHES
         val weights = DoubleArray(STRETCHES)

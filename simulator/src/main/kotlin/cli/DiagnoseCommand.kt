@@ -92,8 +92,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                 val settings = DiagnosisSettings(base = given)
                 Diagnosis(read.series, settings) { progress.advance((it * WHOLE).toLong()) }.run()
             }
-            val channels = WorkProgress(terminal, "comparing channels", "%", WHOLE, shown && read.isCompared).use { bar ->
-                read.channels(result) { bar.advance((it * WHOLE).toLong()) }
+            val isShown = shown && read.isCompared
+            val channels = WorkProgress(terminal, "comparing channels", unit = "%", WHOLE, isShown).use { progress ->
+                read.channels(result) { progress.advance((it * WHOLE).toLong()) }
             }
             val diagnosed = Diagnosed(read, result, worth(read, result), isGiven(given, result), channels)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
