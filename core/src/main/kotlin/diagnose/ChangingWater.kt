@@ -26,10 +26,22 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     private val isMet = meetings.size >= FEWEST_MEETINGS
 
     /** r, sensor units/s; NaN where the track does not cross itself often enough. */
-    val rate: Double = if (isCrossed) rate { true } else if (isMet) met() else Double.NaN
+    val rate: Double = if (isCrossed) {
+        rate { true }
+    } else if (isMet) {
+        met()
+    } else {
+        Double.NaN
+    }
 
     /** Standard error of [rate]. */
-    val error: Double = if (isCrossed) error() else if (isMet) metError() else Double.NaN
+    val error: Double = if (isCrossed) {
+        error()
+    } else if (isMet) {
+        metError()
+    } else {
+        Double.NaN
+    }
 
     /** Probability of such a rate in water that does not change. */
     val pValue: Double =

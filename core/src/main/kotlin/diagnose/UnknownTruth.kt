@@ -37,7 +37,13 @@ internal class UnknownTruth private constructor(
             if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstant)
         }
         val variance = DoubleArray(times.size) { i ->
-            val seen = if (isGap[i]) 1.0 else if (isHeld) 0.0 else 1 - keep[i]
+            val seen = if (isGap[i]) {
+                1.0
+            } else if (isHeld) {
+                0.0
+            } else {
+                1 - keep[i]
+            }
             val shock = gain * doubts[i] * seen / spread
             if (abs(shock) > LEAST) shock * shock else 0.0
         }

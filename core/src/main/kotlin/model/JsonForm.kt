@@ -86,7 +86,11 @@ public class JsonForm<T>(private val serializer: DeserializationStrategy<T>, pri
                 return
             }
             when (form.kind) {
-                StructureKind.CLASS, StructureKind.OBJECT -> fields(form, path, "an object in braces with " + names(form))
+                StructureKind.CLASS, StructureKind.OBJECT -> fields(
+                    form,
+                    path,
+                    "an object in braces with " + names(form),
+                )
                 PolymorphicKind.SEALED -> if (form.serialName == ANY) scanner.any() else typed(form, path)
                 StructureKind.LIST -> scanner.items("a list in brackets") { index ->
                     value(form.getElementDescriptor(0), "$path[$index]")

@@ -71,7 +71,11 @@ internal class JsonScanner(private val text: String) {
         val characters = StringBuilder()
         while (true) {
             val character = text.getOrElse(at) { throw Fault(begin, "a closing quotation mark", "none") }
-            if (character < ' ') throw Fault(at, "no control character in a text", "one; a quotation mark may be missing")
+            if (character <
+                ' '
+            ) {
+                throw Fault(at, "no control character in a text", "one; a quotation mark may be missing")
+            }
             at++
             if (character == '"') return characters.toString()
             characters.append(if (character == '\\') escaped() else character)
@@ -108,7 +112,10 @@ internal class JsonScanner(private val text: String) {
     private fun found(): String = when (next()) {
         '{' -> "an object in braces"
         '[' -> "a list in brackets"
-        '"' -> "the text '" + short(text.substring(at + 1, minOf(at + 1 + 2 * SHORT, text.length)).substringBefore('"')) + "'"
+        '"' -> "the text '" + short(
+            text.substring(at + 1, minOf(at + 1 + 2 * SHORT, text.length)).substringBefore('"'),
+        ) +
+            "'"
         END -> if (at >= text.length) "the end" else "a zero byte"
         else -> "'" + short(word().ifEmpty { text[at].toString() }) + "'"
     }
@@ -130,7 +137,11 @@ internal class JsonScanner(private val text: String) {
                 }
             }
         }
-        throw Fault(begin, "an escape of JSON such as \\n, \\\" or \\u00b5", "another; a backslash itself is written twice")
+        throw Fault(
+            begin,
+            "an escape of JSON such as \\n, \\\" or \\u00b5",
+            "another; a backslash itself is written twice",
+        )
     }
 
     private fun short(words: String) = if (words.length <= SHORT) words else words.take(SHORT) + "..."

@@ -93,9 +93,10 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /** What the sensor that entered a cell at [sensor] is expected to show on leaving it. */
-    private fun towards(sensor: Double, middle: Double): Double {
-        return sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
-    }
+    private fun towards(
+        sensor: Double,
+        middle: Double,
+    ): Double = sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
 
     /** What the path to [node] is worth. */
     fun value(node: Int): Double = values[node]

@@ -238,9 +238,11 @@ class TrackCorrectionTest {
     fun directionsOfACovarianceAreItsOwn() {
         val matrix = arrayOf(doubleArrayOf(4.0, 1.0, 0.5), doubleArrayOf(1.0, 3.0, -0.2), doubleArrayOf(0.5, -0.2, 1.0))
         val eigen = SymmetricEigen(matrix)
-        for (i in 0..2) for (j in 0..2) {
-            val again = (0..2).sumOf { eigen.values[it] * eigen.vectors[it][i] * eigen.vectors[it][j] }
-            assertEquals(matrix[i][j], again, 1e-12)
+        for (i in 0..2) {
+            for (j in 0..2) {
+                val again = (0..2).sumOf { eigen.values[it] * eigen.vectors[it][i] * eigen.vectors[it][j] }
+                assertEquals(matrix[i][j], again, 1e-12)
+            }
         }
         assertTrue(eigen.values.toList() == eigen.values.sortedDescending())
     }

@@ -41,7 +41,11 @@ class MissionSpecTest {
             Triple("\"home\":{\"x_m\":5", "\"home\":{\"x_m\":500", listOf("home (500.0, 5.0)", "water")),
             Triple("\"cell_m\":10", "\"cell_m\":30", listOf("land lies", "polygon-rrt")),
             Triple("\"budget\"", "\"bugdet\"", listOf("bugdet")),
-            Triple("\"home\":{", "\"home\":{\"x_m\":70,\"y_m\":70},\"home\":{", listOf("each field once", "'home' again")),
+            Triple(
+                "\"home\":{",
+                "\"home\":{\"x_m\":70,\"y_m\":70},\"home\":{",
+                listOf("each field once", "'home' again"),
+            ),
         )) {
             val text = refusal(old, new)
             assertEquals(1, text.lines().size, text)

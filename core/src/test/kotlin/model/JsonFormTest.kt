@@ -12,7 +12,11 @@ import kotlin.test.assertTrue
 
 class JsonFormTest {
     @Serializable
-    private data class Buoy(@SerialName("depth_m") val depth: Double, val count: Int = 1, val marks: List<String>? = null) {
+    private data class Buoy(
+        @SerialName("depth_m") val depth: Double,
+        val count: Int = 1,
+        val marks: List<String>? = null,
+    ) {
         init {
             require(depth >= 0) { "depth ($depth m) must be at least 0" }
         }

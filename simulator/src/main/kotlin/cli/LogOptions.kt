@@ -12,7 +12,11 @@ class LogOptions : OptionGroup(
     help = "A CSV survey needs a header line. Columns time_s or unix_time_s, lat_deg and lon_deg, or x_m and y_m " +
         "are recognised; all others are taken by name. Platypus logs (4.0.0, 4.1.0, 4.2.0) are recognised by content.",
 ) {
-    private val time by option("--time", metavar = "COLUMN", help = "column with the time, in seconds or as 2025-06-01T12:00:00Z")
+    private val time by option(
+        "--time",
+        metavar = "COLUMN",
+        help = "column with the time, in seconds or as 2025-06-01T12:00:00Z",
+    )
     private val latitude by option("--lat", metavar = "COLUMN", help = "column with the latitude in degrees")
     private val longitude by option("--lon", metavar = "COLUMN", help = "column with the longitude in degrees")
     private val x by option(

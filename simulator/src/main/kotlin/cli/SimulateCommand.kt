@@ -84,7 +84,12 @@ class SimulateCommand : WorkCommand("simulate") {
                 !quiet -> {
                     files.summary.facts.forEach { (name, value) -> echo("$name: $value") }
                     for (warning in files.summary.warnings + drawing) echo("warning: $warning", err = true)
-                    echo("wrote ${counted(written.size, "file")} into $out, see ${Path.of(out).resolve("animation.html")}")
+                    echo(
+                        "wrote ${counted(
+                            written.size,
+                            "file",
+                        )} into $out, see ${Path.of(out).resolve("animation.html")}",
+                    )
                 }
             }
         }

@@ -28,7 +28,9 @@ internal class StandardOutput(stream: OutputStream, charset: Charset = Charsets.
         object : FilterOutputStream(stream) {
             override fun write(byte: Int) = guarded { out.write(byte) }
 
-            override fun write(bytes: ByteArray, offset: Int, length: Int) = guarded { out.write(bytes, offset, length) }
+            override fun write(bytes: ByteArray, offset: Int, length: Int) = guarded {
+                out.write(bytes, offset, length)
+            }
 
             override fun flush() = guarded { out.flush() }
         }.buffered(),

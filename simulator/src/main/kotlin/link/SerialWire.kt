@@ -77,7 +77,10 @@ internal class SerialWire private constructor(private val port: SerialPort) : Bo
             port.setComPortParameters(address.baud, BITS, SerialPort.ONE_STOP_BIT, SerialPort.NO_PARITY)
             port.setComPortTimeouts(SerialPort.TIMEOUT_NONBLOCKING, 0, 0)
             if (!port.openPort(0, BUFFER, BUFFER)) {
-                val trouble = SerialTrouble.of(port.lastErrorCode, "windows" in System.getProperty("os.name").lowercase())
+                val trouble = SerialTrouble.of(
+                    port.lastErrorCode,
+                    "windows" in System.getProperty("os.name").lowercase(),
+                )
                 throw WireProblem(trouble.words(address.name, ports(), port.lastErrorCode))
             }
             // A pseudo-terminal has no such lines, and no harm is done.

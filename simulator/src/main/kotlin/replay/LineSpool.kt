@@ -44,6 +44,9 @@ internal class LineSpool :
     private fun <T> guarded(block: () -> T): T = try {
         block()
     } catch (failed: IOException) {
-        throw OutputException("cannot keep the replay's log aside: ${failed.message ?: failed.javaClass.simpleName}", failed)
+        throw OutputException(
+            "cannot keep the replay's log aside: ${failed.message ?: failed.javaClass.simpleName}",
+            failed,
+        )
     }
 }

@@ -120,7 +120,8 @@ internal class OwnLogReplay(
         lines.count("steps", number)
         val mission = mission ?: return notUnderstood.count("a mission before its steps", number)
         val record = json["mission"] as? JsonObject
-        val time = (record?.get("t_s") as? JsonPrimitive)?.doubleOrNull ?: return notUnderstood.count("a step's t_s", number)
+        val time =
+            (record?.get("t_s") as? JsonPrimitive)?.doubleOrNull ?: return notUnderstood.count("a step's t_s", number)
         if (time <= lastTime) notUnderstood.count("a step later than the one before it", number)
         lastTime = time
         (json["in"] as? JsonObject)?.let { feed(mission, it) }
@@ -138,7 +139,14 @@ internal class OwnLogReplay(
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
             val isPlace = latitude in LatLon.LATITUDES_DEG && longitude.isFinite()
-            if (isPlace) mission.fix(BoatTime(time), LatLon(latitude, longitude)) else notUnderstood.count("a place", number)
+            if (isPlace) {
+                mission.fix(
+                    BoatTime(time),
+                    LatLon(latitude, longitude),
+                )
+            } else {
+                notUnderstood.count("a place", number)
+            }
         }
         for (compass in came.list("compass")) {
             val (time, heading, yawRate) = numbers(compass) ?: continue

@@ -84,19 +84,33 @@ internal class ReplayFiles(private val replayed: Replayed) {
             malformed().map { (name, count) -> "$count of the board ($name)" }
         val why = Decisions.why(replayed.mission.state)
         return listOfNotNull(
-            "${replayed.format}, ${counted(decisions.steps, "step")}; at its end ${replayed.mission.state.word} $why".trimEnd(),
+            "${replayed.format}, ${counted(
+                decisions.steps,
+                "step",
+            )}; at its end ${replayed.mission.state.word} $why".trimEnd(),
             "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${kind(it.key, it.value)}" },
             "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
-            "states: " + decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(Locale.ROOT, it.key, it.value) } +
-                "; ${counted(decisions.changes.size, "change")}, motors running in ${counted(decisions.driven, "step")}",
+            "states: " +
+                decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(Locale.ROOT, it.key, it.value) } +
+                "; ${counted(
+                    decisions.changes.size,
+                    "change",
+                )}, motors running in ${counted(decisions.driven, "step")}",
             "readings: ${gate.passed} taken, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
                 "${gate.stuck} stuck, ${gate.waiting} waiting, " +
-                "${gate.withoutValueOrPlace} without a place; ${counted(replayed.mission.refusedFixes, "fix", "fixes")} refused",
+                "${gate.withoutValueOrPlace} without a place; ${counted(
+                    replayed.mission.refusedFixes,
+                    "fix",
+                    "fixes",
+                )} refused",
             replayed.asRecorded?.let { same ->
                 val steps = if (same.differingSteps == 0L) {
                     "every step as recorded"
                 } else {
-                    "${counted(same.differingSteps, "step")} otherwise than recorded, the first at ${same.firstDifference} s"
+                    "${counted(
+                        same.differingSteps,
+                        "step",
+                    )} otherwise than recorded, the first at ${same.firstDifference} s"
                 }
                 "$steps; the map is ${if (same.isSameMap) "" else "not "}that of the recorded readings, bit for bit"
             },

@@ -27,7 +27,10 @@ class MainTest {
     fun aMistakeInTheProgramIsOneLineAndACodeOfItsOwn() {
         val bug = IllegalStateException("the cell -1 is none\nof the grid")
         val words = "stillwater: a mistake in the program (IllegalStateException: the cell -1 is none)"
-        assertEquals(70 to listOf("$words; with STILLWATER_TRACE=1 in the environment it says where"), outcome(bug, false))
+        assertEquals(
+            70 to listOf("$words; with STILLWATER_TRACE=1 in the environment it says where"),
+            outcome(bug, false),
+        )
         val (status, lines) = outcome(bug, true)
         assertEquals(70, status)
         assertEquals(words, lines[0])

@@ -72,7 +72,14 @@ class GivenSensorTest {
         val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
         val log = file("log.csv", survey(stage))
         val told = run(
-            "correct", log, "--value", "do_mg_l", "--sensor", spec(stage), "--condition", "temperature=temp_c",
+            "correct",
+            log,
+            "--value",
+            "do_mg_l",
+            "--sensor",
+            spec(stage),
+            "--condition",
+            "temperature=temp_c",
         )
         assertEquals(0, told.statusCode, told.output)
         val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }

@@ -61,7 +61,9 @@ class LogOnDiskTest {
                 disk.room = if (random.nextBoolean()) random.nextInt(80) else 10_000
                 disk.failsToForce = random.nextInt(4) == 0
                 runCatching { log.flush() }.onFailure { assertTrue(it is OutputException, "$it") }
-                assertTrue(lines.toString().toByteArray().take(disk.written.size()) == disk.written.toByteArray().toList())
+                assertTrue(
+                    lines.toString().toByteArray().take(disk.written.size()) == disk.written.toByteArray().toList(),
+                )
                 assertEquals(lines.toString().toByteArray().size, disk.written.size() + log.pending)
             }
             disk.room = 10_000

@@ -44,7 +44,11 @@ class MissionFileTest {
                 "8:14: budget: expected one of metres, seconds, reserve, found 'minutes'",
             ),
             Triple("{\"seconds\": 900}", "{}", "8:13: budget: a budget needs either metres or seconds"),
-            Triple("\"home\": {", "\"home\": [", "9:11: home: expected an object in braces with x_m, y_m, found a list in brackets"),
+            Triple(
+                "\"home\": {",
+                "\"home\": [",
+                "9:11: home: expected an object in braces with x_m, y_m, found a list in brackets",
+            ),
             Triple("\"x_m\": 5,", "\"x_m\": 500,", "9:11: home (500.0, 5.0) must lie on the water"),
             Triple(
                 "\"budget\"",
@@ -57,7 +61,11 @@ class MissionFileTest {
                 "7:14: land lies at or beside the cell at (75.0, 15.0), where this planner goes from cell to cell; use " +
                     "polygon-rrt or a grid that is all water",
             ),
-            Triple("\"y_m\": 80}", "\"y_m\": {}}", "4:85: area.north_east.y_m: expected a number, found an object in braces"),
+            Triple(
+                "\"y_m\": 80}",
+                "\"y_m\": {}}",
+                "4:85: area.north_east.y_m: expected a number, found an object in braces",
+            ),
         )) {
             assertEquals("pond.json:$expected", problem(old, new))
         }
