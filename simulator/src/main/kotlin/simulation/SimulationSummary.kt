@@ -89,9 +89,11 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         val why = account.refused.entries.joinToString("") { ", ${it.value} refused (${it.key})" }
         val outside = if (account.outside > 0) ", ${account.outside} of them off the map" else ""
         val borders = run.mission.unplaced
-        val unplaced = if (borders > 0) ", $borders of them at borders, which told of the probe but of no cell" else ""
-        return "${account.received} of ${account.sent} sent were received: ${account.taken} taken$outside$unplaced$why" +
-            if (account.waiting > 0) ", ${account.waiting} waiting" else ""
+        val unplaced =
+            if (borders > 0) ", $borders of them at borders, which told of the probe but of no cell" else ""
+        val waiting = if (account.waiting > 0) ", ${account.waiting} waiting" else ""
+        val received = "${account.received} of ${account.sent} sent were received"
+        return "$received: ${account.taken} taken$outside$unplaced$why$waiting"
     }
 
     private fun bounds(): String? {

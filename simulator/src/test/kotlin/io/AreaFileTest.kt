@@ -56,7 +56,8 @@ class AreaFileTest {
 
     @Test
     fun theRingThatDoesNotFitIsPointedAt() {
-        val text = "{\"type\": \"Polygon\", \"coordinates\": [\n[[0,0],[10,0],[10,10],[0,10]],\n [[20,0],[21,0],[21,1]]]}"
+        val shore = "[[0,0],[10,0],[10,10],[0,10]]"
+        val text = "{\"type\": \"Polygon\", \"coordinates\": [\n$shore,\n [[20,0],[21,0],[21,1]]]}"
         val refused = assertFailsWith<JsonFileProblem> { AreaFile.parse(text, "lake.geojson", AreaUnits.METRES) }
         val expected = "keep-out 1, which starts at (20.0 m, 0.0 m), lies outside the shore"
         assertEquals("lake.geojson:3:2: coordinates[1]: $expected", refused.message)

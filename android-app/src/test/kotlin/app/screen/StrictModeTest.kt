@@ -44,15 +44,10 @@ class StrictModeTest {
 
     private fun isSeen(work: () -> Unit): Boolean {
         StrictMode.setThreadPolicy(STRICT)
-        return try {
-            work()
-            false
-        } catch (seen: RuntimeException) {
-            // Android 8 has a class of its own for it.
-            check("StrictMode" in "$seen") { "$seen" }
-            true
-        } finally {
-            StrictMode.setThreadPolicy(StrictMode.ThreadPolicy.LAX)
-        }
+        val seen = runCatching(work).exceptionOrNull()
+        StrictMode.setThreadPolicy(StrictMode.ThreadPolicy.LAX)
+        // Android 8 has a class of its own for it.
+        check(seen == null || "StrictMode" in "$seen") { "$seen" }
+        return seen != null
     }
 }
