@@ -178,23 +178,17 @@ class CorrectFiles(
         private val FORMAT = Json { prettyPrint = true }
         private val HOW = listOf(
             "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
-                "response " +
-                "is undone in phase only, and short runs of the track are foretold from the other passes near " +
-                "them; the " +
-                "better they agree, the higher its score. Parameters are fitted without the group of runs that is " +
-                "scored.",
+                "response is undone in phase only, and short runs of the track are foretold from the other passes " +
+                "near them; the better they agree, the higher its score. Parameters are fitted without the group of " +
+                "runs that is scored.",
             "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
-                "from the " +
-                "scatter between groups of neighbouring runs. What is not ruled out stays open, and the corrected " +
-                "value is " +
-                "the mean over it.",
+                "from the scatter between groups of neighbouring runs. What is not ruled out stays open, and the " +
+                "corrected value is the mean over it.",
             "The value and its interval come from a Kalman smoother with the sensor's response in its state. How " +
-                "rough the " +
-                "water is along the track and how noisy the readings are is learned from the log; detail that the " +
-                "sensor has " +
-                "smoothed away is not made up but left open in the interval.",
+                "rough the water is along the track and how noisy the readings are is learned from the log; detail " +
+                "that the sensor has smoothed away is not made up but left open in the interval.",
             "A limit on the rate of change is recognised only where readings often run at just that rate, both ways: " +
-                "noise of half of a second's largest change hides it. Then a lag is learned in its place, and the " +
+                "noise of a quarter to a half of a second's largest change hides it. Then a lag is learned in its place, and the " +
                 "intervals cover far less than 95 %. A sensor known to be rate limited is better given with --sensor.",
             "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
                 "and its interval reaches to the reading.",
