@@ -85,6 +85,7 @@ data class TracePoint(
  * @property stuck too many that were the same.
  * @property withoutPlace no number, or the boat's place was not known.
  * @property unreadable lines, or parts of them, that were not understood; not among [received].
+ * @property atBorders of [taken], those so near to a cell's border that they told of the probe but of no cell.
  */
 data class ReadingCounts(
     val received: Long = 0,
@@ -95,6 +96,7 @@ data class ReadingCounts(
     val stuck: Long = 0,
     val withoutPlace: Long = 0,
     val unreadable: Long = 0,
+    val atBorders: Long = 0,
 )
 
 /**

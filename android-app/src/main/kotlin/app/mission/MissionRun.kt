@@ -120,6 +120,7 @@ internal class MissionRun(
             gate.stuck,
             gate.withoutValueOrPlace,
             mission.board.unreadable,
+            mission.unplaced,
         )
     }
 

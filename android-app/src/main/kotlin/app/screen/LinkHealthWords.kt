@@ -93,6 +93,7 @@ internal class LinkHealthWords(private val context: Context) {
             HealthLine(text(R.string.readings), isTitle = true),
             HealthLine(text(R.string.readings_taken, counts.received, counts.taken, counts.waiting)),
             rates.readings?.let { HealthLine(text(R.string.readings_rate, it)) },
+            counts.atBorders.takeIf { it > 0 }?.let { HealthLine(text(R.string.readings_at_borders, it)) },
             HealthLine(
                 text(
                     R.string.readings_refused,

@@ -31,6 +31,7 @@ class LinkScreenTest {
             "812 positions; 2 jumps, 1 too wide, 0 refused",
             "The phone slept 2 times, 31.0 s at most",
             "1412 received, 1400 taken, 0 waiting",
+            "Of those taken, 41 too near to a border to count for a cell",
             "Refused: 2 out of range, 3 unconfirmed jumps, 7 without a place, 0 of a stuck probe",
             "9113 lines, 9110 on the disk, 0 lost",
         )) {

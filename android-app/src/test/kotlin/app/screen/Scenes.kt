@@ -133,7 +133,7 @@ internal object Scenes {
             plan = lane(ROWS_DONE).reversed() + lane(ROWS_DONE + 2) + aroundTheIsland,
             used = if (state == MissionState.Idle && !isRecovered) 0.0 else 662.0,
             trace = trace.takeLast(TRACE),
-            counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 0, 7, 3),
+            counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 0, 7, 3, 41),
             log = LogReport("2026-07-14T09-31-12-North-pond.log.incomplete", 9_113, 9_110),
             readAt = DoubleArray(grid.size) { if (map.readings(it) > 0) 1.0 * it * SECONDS_A_CELL else Double.NaN },
             now = ROWS_DONE * grid.columns * SECONDS_A_CELL.toDouble(),
