@@ -168,7 +168,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         val middles = cells.middles
         val steps = cells.steps
         // Drawn in any case: the orders that follow depend on it.
-        val packed = order.shuffled()
+        val packed = order.drawn()
         var any = false
         for (direction in 0 until order.ways) {
             val next = place + steps[direction]

@@ -26,10 +26,10 @@ internal class NeighbourOrder(private val random: Random, val ways: Int) {
     }
 
     /**
-     * Calls [visit] with each direction of [packed], which is an order that [shuffled] gave: the place of its step in
+     * Calls [visit] with each direction of [packed], which is an order that [drawn] gave: the place of its step in
      * [COLUMN_STEPS] and [ROW_STEPS].
      */
-    inline fun forEach(packed: Int = shuffled(), visit: (Int) -> Unit) {
+    inline fun forEach(packed: Int = drawn(), visit: (Int) -> Unit) {
         var rest = packed
         repeat(ways) {
             visit(rest and MASK)
@@ -38,7 +38,7 @@ internal class NeighbourOrder(private val random: Random, val ways: Int) {
     }
 
     /** Draws the next order. Fisher and Yates: every order is as likely. */
-    fun shuffled(): Int {
+    fun drawn(): Int {
         var packed = directions
         for (last in ways - 1 downTo 4) packed = swapped(packed, last, random.nextInt(last + 1))
         // Bounds that the compiler knows are drawn without a division.

@@ -1,5 +1,6 @@
 package stillwater.closedloop
 
+import org.junit.jupiter.api.Assumptions.assumeFalse
 import org.junit.jupiter.api.Assumptions.assumeTrue
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
@@ -107,6 +108,7 @@ class TwoProcessesTest {
     @Test
     fun aTerminalThatIsClosedStopsABoatOnASerialPort() {
         assumeTrue("linux" in System.getProperty("os.name").lowercase(), "pseudo-terminals are made on Linux only")
+        assumeFalse(isHangUpIgnored(), "run under nohup, whose programs are to survive their terminal")
         val (boat, ports) = boat("--pty", "--speed", "20", "--once")
         boat.use {
             drive(ports).use { drive ->
@@ -119,6 +121,10 @@ class TwoProcessesTest {
             }
         }
     }
+
+    /** Programs inherit which signals are ignored; SIGHUP is the lowest bit of a hexadecimal number. */
+    private fun isHangUpIgnored(): Boolean =
+        File("/proc/self/status").readLines().first { it.startsWith("SigIgn:") }.last().digitToInt(16) % 2 == 1
 
     @Test
     fun aMissionWhoseProgramWasKilledGoesOnDisarmedAndLosesASecondAtMost() {
