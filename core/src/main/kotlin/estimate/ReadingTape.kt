@@ -23,6 +23,10 @@ internal class ReadingTape(capacity: Int) {
     /** What readings near borders count for. */
     val crossings = Crossings()
 
+    /** Whether a reading on the tape says how well its place is known. */
+    var tellsOfPlaces: Boolean = false
+        private set
+
     /** Readings and interruptions on the tape. */
     var size: Int = 0
         private set
@@ -81,6 +85,7 @@ internal class ReadingTape(capacity: Int) {
         slots[size] = slot
         times[size] = seconds
         places[size] = place
+        if (place != Crossings.EXACT) tellsOfPlaces = true
         values[size++] = value
     }
 

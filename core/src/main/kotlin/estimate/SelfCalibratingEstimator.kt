@@ -142,7 +142,7 @@ public class SelfCalibratingEstimator(
      * changes evenly within a cell look the same but at the borders: what happens there counts then.
      */
     private fun decide() {
-        tape.crossings.areHeeded = tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
+        tape.crossings.areHeeded = tape.tellsOfPlaces && tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
         choice.decide(tape)
         if (!tape.crossings.areHeeded || choice.timeConstant <= LONGEST * tape.meanStay()) return
         tape.crossings.areHeeded = false
