@@ -49,9 +49,7 @@ internal class BlindAnswer(
             after.takeIf { isNamed },
             settings.base?.takeIf { given?.state != null } ?: ExtendedSensor(asFit(base), null).spec("base"),
             extended,
-            (verdict as? Verdict.Ambiguous)?.let { v ->
-                Manoeuvres.of(v.sets.filter { it.size > 1 }.flatten().toSet())
-            },
+            verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
             warnings(left.first(), isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() + bounds.distinct(),
@@ -66,7 +64,7 @@ internal class BlindAnswer(
         val sets = all + listOfNotNull(lagSet(isOpen))
         return when {
             isStructured && left.ratio > LEFT * least ->
-                Verdict.Unexplained("the residuals depend on ${left.description}")
+                Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
                 Verdict.InsufficientData("passes over the same water are too few or too noisy to show a lag")
             sets.isEmpty() -> Verdict.Consistent
@@ -82,6 +80,9 @@ internal class BlindAnswer(
         given?.state != null -> listOf(Cause.TIME_CONSTANT)
         else -> null
     }
+
+    /** The kinds of lag where it may be either: a lag is there whatever else is. */
+    private fun openLag(isOpen: Boolean): List<Cause>? = lagSet(isOpen)?.takeIf { it.size > 1 }
 
     /** The longest time constant that the log allows, s. */
     private fun longest(): Double =

@@ -42,7 +42,7 @@ internal class BlindDiagnosis(
         isLagSeen = lag.isSeen
         isResolved = base.finestPower() < MOST_FINEST * base.variance
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
-        val start = if (isShapeOpen) lag.both() else base
+        val start = if (isShapeOpen) lag.both else base
         val first = Round(start)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: start

@@ -17,7 +17,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     /** The model with a dead time in place of the lag. */
     val deadTime: BlindState = STARTS.map { share ->
         settled(listOf(Term(Cause.DEAD_TIME)), period / 50, share * timeConstant.timeConstant)
-    }.maxBy { it.score }.let { refined(it) }.let { refined(search.quieted(it)) }
+    }.maxBy { it.score }.let { search.requieted(refined(it)) }.let { refined(it) }
 
     private fun settled(terms: List<Term>, tau: Double, delay: Double?) = search.settled(
         terms,
@@ -27,24 +27,35 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         before = timeConstant,
     )
 
-    /** [state] with the dead time alone fitted. */
+    /** [state] with the dead time alone fitted, as far as it leads: the water must follow each step. */
     private fun refined(state: BlindState): BlindState {
-        val free = BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }
-        val found = BlindDescent(state).from(state.model, state.numbers, free, STEPS)
-        return search.settled(
-            state.model.terms,
-            found.numbers,
-            state.fit.design.noise,
-            state.variances,
-            before = state,
-        )
+        var best = state
+        repeat(REFINEMENTS) {
+            val free = BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }
+            val found = BlindDescent(best).from(best.model, best.numbers, free, STEPS)
+            val next = search.settled(
+                best.model.terms,
+                found.numbers,
+                best.fit.design.noise,
+                best.variances,
+                before = best,
+            )
+            val gain = next.score - best.score
+            if (gain > 0) best = next
+            if (!(gain > BlindSearch.ENOUGH)) return best
+        }
+        return best
     }
 
     /** The model with a dead time beside the lag, or with the lag alone where that is not worth it. */
-    fun both(): BlindState {
+    val both: BlindState by lazy {
         val half = timeConstant.timeConstant / 2
-        val next = search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half))
-        return if ((next.score - timeConstant.score) / inflation > WORTH) next else timeConstant
+        var best = search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half))
+        repeat(MORE) {
+            val next = search.improved(best)
+            if (next.score > best.score) best = next
+        }
+        if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
     }
 
     /** The dead time, s. */
@@ -75,8 +86,17 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         BlindEvidence.between(none, if (timeConstant.score > deadTime.score) timeConstant else deadTime)
 
     /** Whether the log cannot tell a time constant from a dead time. */
-    fun isOpen(separation: Double): Boolean =
-        isSeen && (preference < separation || BlindEvidence.between(deadTime, timeConstant) < SURE)
+    fun isOpen(separation: Double): Boolean = isSeen &&
+        (preference < separation || BlindEvidence.between(deadTime, timeConstant) < SURE || isShared)
+
+    /**
+     * Whether some of the lag is rather a dead time, but stretches of the log do not agree about that: that a dead time
+     * alone is less likely than a lag alone then says nothing of which it is. The lag alone is within the model with
+     * both, where the t of gains is half that of the dead time's own size.
+     */
+    private val isShared: Boolean by lazy {
+        both !== timeConstant && BlindEvidence.between(timeConstant, both) < SURE / 2
+    }
 
     /** Whether the log shows a lag of either kind. */
     val isSeen: Boolean get() = seen > LAG_SEEN && sureness > SURE
@@ -92,6 +112,8 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
         const val SURE = 2.8
         const val STEPS = 6
+        const val REFINEMENTS = 8
+        const val MORE = 2
         val STARTS = listOf(0.5, 1.0)
     }
 }

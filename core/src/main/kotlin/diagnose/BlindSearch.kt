@@ -69,14 +69,13 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     /** The water's waves. */
     val modes = WaterModes(series, track, (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES))
     private val rough = WaterModes(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
-    private val even = DoubleArray(n) { 1.0 }
 
-    private fun noise(share: Double, steps: Double, spread: DoubleArray = even) =
-        BlindNoise(CorrelatedNoise(series.times, share, steps * series.period, used.copyOf()), spread)
+    private fun noise(share: Double, steps: Double) =
+        CorrelatedNoise(series.times, share, steps * series.period, used.copyOf())
 
     /** The likeliest model with a lag alone. */
     fun best(): BlindState {
-        val guess = noise(FIRST_SHARE, FIRST_STEPS)
+        val guess = BlindNoise(noise(FIRST_SHARE, FIRST_STEPS), DoubleArray(n) { 1.0 })
         var variances = DoubleArray(0)
         val coarse = LAGS.map { steps ->
             settled(emptyList(), base(steps * series.period), guess, variances, modes = rough)
@@ -119,16 +118,12 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     /** Numbers of a lag of [timeConstant] s. */
     private fun base(timeConstant: Double) = doubleArrayOf(timeConstant, 1.0, 0.0, 0.0)
 
-    /** [state] with the noise that suits it best. */
+    /** [state] with the noise that suits it best; never a less likely one. */
     fun quieted(state: BlindState): BlindState {
-        val spread = spread(state)
         var best = state
-        val now = state.fit.design.noise.noise
         for ((share, steps) in NOISES) {
-            val isSame = abs(share - now.share) < 1e-9 && abs(steps * series.period - now.time) < 1e-9
-            if (best !== state && isSame) continue
-            val next = again(state, noise(share, steps, spread))
-            if (best === state || next.score > best.score) best = next
+            val next = again(state, spread(state, noise(share, steps)))
+            if (next.score > best.score) best = next
         }
         return best
     }
@@ -140,13 +135,12 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
             val (share, steps) = NOISES[k]
             abs(share - now.share) + abs(ln(steps * series.period / now.time))
         }
-        val spread = spread(state)
         for (way in listOf(-1, 1)) {
             var best = state
             var k = from + way
             while (k in NOISES.indices) {
                 val (share, steps) = NOISES[k]
-                val next = again(state, noise(share, steps, spread))
+                val next = again(state, BlindNoise(noise(share, steps), state.fit.design.noise.spread))
                 if (next.score <= best.score) break
                 best = next
                 k += way
@@ -156,9 +150,19 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         return state
     }
 
-    /** [state] with each row's spread of noise as its residuals say. */
-    fun evened(state: BlindState): BlindState =
-        again(state, BlindNoise(state.fit.design.noise.noise.with(series, used), spread(state)))
+    /** [state] with each row's spread of noise as its residuals say, as long as that suits it better. */
+    fun evened(state: BlindState): BlindState {
+        val now = state.fit.design.noise
+        val noise = now.noise.with(series, used)
+        var best = if (now.noise.rows == noise.rows) state else again(state, BlindNoise(noise, now.spread))
+        repeat(EVENINGS) {
+            val next = again(best, spread(best, noise))
+            val gain = next.score - best.score
+            if (gain > 0) best = next
+            if (!(gain > ENOUGH)) return best
+        }
+        return best
+    }
 
     private fun CorrelatedNoise.with(series: MeasuredSeries, used: BooleanArray) =
         CorrelatedNoise(series.times, share, time, used.copyOf())
@@ -166,8 +170,11 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     private fun again(state: BlindState, noise: BlindNoise) =
         settled(state.model.terms, state.numbers, noise, state.variances, before = state)
 
-    /** Relative spread of each row's noise: fixes that are off do more harm where the water is steep. */
-    private fun spread(state: BlindState): DoubleArray {
+    /**
+     * [noise] with the relative spread of each row that suits the residuals of [state] best: fixes that are off do more
+     * harm where the water is steep.
+     */
+    private fun spread(state: BlindState, noise: CorrelatedNoise): BlindNoise {
         val steep = state.modes.steepness(state.fit.heights)
         val tau = maxOf(state.timeConstant, series.period)
         var felt = 0.0
@@ -177,11 +184,11 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
             steep[i] = felt
         }
         val usual = maxOf(steep.average(), 1e-290)
-        val z = state.whitened
-        val now = state.fit.design.noise.spread
-        return UNEVEN.map { share -> DoubleArray(n) { 1 + share * steep[it] / usual } }.maxBy { v ->
-            -n * ln(z.indices.sumOf { z[it] * z[it] * now[it] * now[it] / v[it] } / n) - v.sumOf { ln(it) }
-        }.let { v -> DoubleArray(n) { sqrt(v[it]) } }
+        val z = DoubleArray(n)
+        return UNEVEN.map { share -> BlindNoise(noise, DoubleArray(n) { sqrt(1 + share * steep[it] / usual) }) }.maxBy {
+            it.whiten(state.residuals, z)
+            -noise.rows * ln(squares(z) / noise.rows) - it.logDeterminant
+        }
     }
 
     /** [state] with the numbers that fit better, and the water for them. */
@@ -337,6 +344,10 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         const val ROUNDS = 2
         const val HELD = 6.0
         const val STEPS = 8
+        const val EVENINGS = 4
+
+        /** Twice the gain in log-likelihood below which nothing is tried once more. */
+        const val ENOUGH = 2.0
         const val FIRST_RATIO = 1e4
         const val FLAT = 1e-8
         const val LEAST = 1e-8

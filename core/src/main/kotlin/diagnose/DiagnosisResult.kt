@@ -8,6 +8,9 @@ public sealed interface Verdict {
     /** The name in files. */
     public val label: String
 
+    /** Sets of causes of each of which something is at work, where this track cannot tell which. */
+    public val ambiguity: List<List<Cause>> get() = emptyList()
+
     /** [causes], one or a combination, explain the log, and nothing else of the list does. */
     public data class Named(val causes: List<Cause>) : Verdict {
         override val label: String get() = "named"
@@ -16,6 +19,7 @@ public sealed interface Verdict {
     /** Something of each of [sets] is at work; this track cannot tell which. A set of one is certain. */
     public data class Ambiguous(val sets: List<List<Cause>>) : Verdict {
         override val label: String get() = "ambiguous"
+        override val ambiguity: List<List<Cause>> get() = sets.filter { it.size > 1 }
     }
 
     /** The base model explains the log. */
@@ -23,8 +27,11 @@ public sealed interface Verdict {
         override val label: String get() = "consistent"
     }
 
-    /** Structure is left that no cause of the list explains: [what]. */
-    public data class Unexplained(val what: String) : Verdict {
+    /** Structure is left that no cause explains: [what]. What is seen for certain beside it is in [ambiguity]. */
+    public data class Unexplained(
+        val what: String,
+        override val ambiguity: List<List<Cause>> = emptyList(),
+    ) : Verdict {
         override val label: String get() = "unexplained"
     }
 

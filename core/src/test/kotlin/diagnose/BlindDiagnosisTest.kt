@@ -3,7 +3,9 @@ package stillwater.diagnose
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import kotlin.math.PI
 import kotlin.math.sin
+import kotlin.math.tanh
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertContains
@@ -34,8 +36,7 @@ class BlindDiagnosisTest {
     @Test
     fun aPlainLagIsFoundAndNothingElseIsNamed() {
         val result = Diagnosis(log(SensorStage.Lag(5.0))).run()
-        val lag = setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
-        assertTrue(causes(result.verdict).all { it in lag }, "${result.verdict}")
+        assertTrue(causes(result.verdict).all { it in LAG }, "${result.verdict}")
         // The sensor holds its input over a step, which is half a step less of a delay.
         assertEquals(5.0, result.baseline.parameters.first().value, 0.7)
     }
@@ -65,6 +66,50 @@ class BlindDiagnosisTest {
     }
 
     @Test
+    fun aLagIsSaidBesideWhatNoCauseExplains() {
+        val late = log(SensorStage.Delay(5.0))
+        val hum = DoubleArray(n) { late.values[it] + 0.5 * sin(2 * PI * late.times[it] / 7) }
+        val verdict = Diagnosis(MeasuredSeries(late.times, x, y, hum, null)).run().verdict
+        assertIs<Verdict.Unexplained>(verdict, "$verdict")
+        assertContains(verdict.what, "period of 6.99 s")
+        assertEquals(listOf(LAG), verdict.ambiguity)
+    }
+
+    /** Casts up and down through water that heaves from cast to cast, as a float's. */
+    private fun casts(lag: Double): MeasuredSeries {
+        val rows = 80
+        val random = Random(11)
+        val depth = DoubleArray(CASTS * rows) { i ->
+            val way = 2.0 + 1.0 * (i % rows)
+            if (i / rows % 2 == 0) way else 2.0 + rows - way + 2.0
+        }
+        val heave = DoubleArray(CASTS) { 3 * random.nextDouble(-1.0, 1.0) }
+        val times = DoubleArray(depth.size) { 25.0 * it }
+        val water = DoubleArray(depth.size) { i -> 200 - 40 * tanh((depth[i] - 40 - heave[i / rows]) / 6) }
+        val sensor = SensorSpec("float", listOf(SensorStage.Lag(lag), SensorStage.Noise(0.05))).build(water[0], random)
+        val values = DoubleArray(depth.size) { sensor.step(water[it], 25.0, Conditions.NONE) }
+        return MeasuredSeries(times, depth, DoubleArray(depth.size), values, null)
+    }
+
+    @Test
+    fun aLagShowsInCastsThroughWaterThatHeaves() {
+        val result = Diagnosis(casts(lag = 60.0)).run()
+        assertTrue(causes(result.verdict).all { it in LAG }, "${result.verdict}")
+        assertContains(result.warnings.joinToString(" "), "The readings lag the water")
+        // The sensor holds its input over a step, which is half a step less of a delay.
+        assertEquals(60.0, result.baseline.parameters.first().value, 15.0)
+    }
+
+    @Test
+    fun noiseLookedForAnewIsNeverLessLikely() {
+        val search = BlindSearch(casts(lag = 60.0))
+        val state = search.best()
+        for (next in listOf(search.evened(state), search.quieted(state), search.requieted(state))) {
+            assertTrue(next.score >= state.score, "${next.score} after ${state.score}")
+        }
+    }
+
+    @Test
     fun readingsTooSmallToReckonWithAreTooLittle() {
         assertIs<Verdict.InsufficientData>(Diagnosis(log(SensorStage.Lag(5.0), scale = 1e-200)).run().verdict)
     }
@@ -85,5 +130,10 @@ class BlindDiagnosisTest {
         // Half a second: rows are a second apart.
         assertEquals(2.0, checkNotNull(lags.common), 0.5)
         assertEquals(4.0, checkNotNull(lags.own), 0.5)
+    }
+
+    private companion object {
+        const val CASTS = 10
+        val LAG = listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
     }
 }

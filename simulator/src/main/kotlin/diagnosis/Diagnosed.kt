@@ -57,13 +57,18 @@ class Diagnosed(
             if (set.size == 1) {
                 sentence(set.single())
             } else {
-                "One of ${set.joinToString(", ") { it.label }} is at work; this track cannot tell which."
+                open(set)
             }
         }
         is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log."
-        is Verdict.Unexplained -> "Something is at work that no cause of the list explains: ${verdict.what}."
+        is Verdict.Unexplained ->
+            (listOf("Something is at work that no cause of the list explains: ${verdict.what}.") +
+                verdict.ambiguity.map { open(it) }).joinToString(" ")
         is Verdict.InsufficientData -> "This log cannot show it: ${verdict.why}."
     }
+
+    private fun open(set: List<Cause>) =
+        "One of ${set.joinToString(", ") { it.label }} is at work; this track cannot tell which."
 
     private fun sentence(cause: Cause): String {
         val parameters = result.effects.firstOrNull { it.cause == cause }?.parameters

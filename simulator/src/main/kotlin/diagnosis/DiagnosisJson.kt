@@ -19,7 +19,6 @@ import stillwater.diagnose.Candidate
 import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
-import stillwater.diagnose.Verdict
 import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
 
@@ -39,9 +38,7 @@ internal object DiagnosisJson {
         put("extended", result.extended?.let { model(it, checkNotNull(result.extendedSensor)) } ?: JsonNull)
         put("gain", gain(diagnosed))
         putJsonArray("ambiguity") {
-            (result.verdict as? Verdict.Ambiguous)?.sets.orEmpty().filter { it.size > 1 }.forEach { set ->
-                addJsonArray { set.forEach { add(it.label) } }
-            }
+            result.verdict.ambiguity.forEach { set -> addJsonArray { set.forEach { add(it.label) } } }
         }
         put("separatingManoeuvre", result.separatingManoeuvre)
         diagnosed.channels?.let { put("channels", channels(it)) }

@@ -14,6 +14,7 @@ import stillwater.sensor.SensorStage
 import java.nio.file.Files
 import java.nio.file.Path
 import kotlin.io.path.exists
+import kotlin.math.PI
 import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
@@ -87,6 +88,34 @@ class DiagnoseCommandTest {
         }
         Files.write(file, listOf("time_s,x_m,y_m,oxygen,temperature") + rows)
         return file.toString()
+    }
+
+    /** A dead time of 5 s beside a hum with a period of 7 s, along a way that crosses itself often. */
+    private fun humming(): String {
+        val x = DoubleArray(900) { 15 * sin(it / 19.0) }
+        val y = DoubleArray(900) { 15 * sin(it / 25.0 + 1) }
+        val water = DoubleArray(900) { sin(x[it] / 4) + sin(y[it] / 5 + 1) + sin((x[it] + y[it]) / 7) }
+        val spec = SensorSpec("hidden", listOf(SensorStage.Delay(5.0), SensorStage.Noise(0.004)))
+        val sensor = spec.build(water[0], Random(7))
+        val rows = water.indices.map { i ->
+            "$i,${x[i]},${y[i]},${sensor.step(water[i], 1.0, Conditions.NONE) + 0.5 * sin(2 * PI * i / 7)}"
+        }
+        val file = directory.resolve("humming.csv")
+        Files.write(file, listOf("time_s,x_m,y_m,oxygen") + rows)
+        return file.toString()
+    }
+
+    @Test
+    fun theKindsOfALagAreSaidBesideWhatNothingExplains() {
+        val out = directory.resolve("hum")
+        val result = diagnose(humming(), "--value", "oxygen", "--numbers-only", "--out", "$out")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "verdict: unexplained")
+        assertContains(result.stdout, "One of time-constant, dead-time is at work; this track cannot tell which.")
+        assertContains(result.stderr, "The readings lag the water by")
+        val json = Json.parseToJsonElement(Files.readString(out.resolve("diagnosis.json"))).jsonObject
+        assertEquals("""[["time-constant","dead-time"]]""", "${json.getValue("ambiguity")}")
+        assertContains("${json.getValue("separatingManoeuvre")}", "cross a sharp front")
     }
 
     @Test
