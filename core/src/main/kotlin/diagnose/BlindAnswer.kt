@@ -125,7 +125,7 @@ internal class BlindAnswer(
         state.score,
     )
 
-    /** Standard errors of the numbers on the scales they are fitted on, as correlation inflates them; 0 of those fixed. */
+    /** Standard errors of the numbers on their fitted scales, as correlation inflates them; 0 of those fixed. */
     private fun errors(state: BlindState): DoubleArray = errors(state.fit, state.model, state.numbers, state.whitened)
 
     private fun errors(fit: BlindFit, model: ResponseModel, numbers: DoubleArray, z: DoubleArray): DoubleArray {
