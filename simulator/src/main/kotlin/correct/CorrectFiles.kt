@@ -188,8 +188,9 @@ class CorrectFiles(
                 "rough the water is along the track and how noisy the readings are is learned from the log; detail " +
                 "that the sensor has smoothed away is not made up but left open in the interval.",
             "A limit on the rate of change is recognised only where readings often run at just that rate, both ways: " +
-                "noise of a quarter to a half of a second's largest change hides it. Then a lag is learned in its place, and the " +
-                "intervals cover far less than 95 %. A sensor known to be rate limited is better given with --sensor.",
+                "noise of a quarter to a half of a second's largest change hides it. Then a lag is learned in its " +
+                "place, and the intervals cover far less than 95 %. A sensor known to be rate limited is better " +
+                "given with --sensor.",
             "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
                 "and its interval reaches to the reading.",
         )

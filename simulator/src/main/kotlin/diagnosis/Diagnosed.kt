@@ -62,8 +62,10 @@ class Diagnosed(
         }
         is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log."
         is Verdict.Unexplained ->
-            (listOf("Something is at work that no cause of the list explains: ${verdict.what}.") +
-                verdict.ambiguity.map { open(it) }).joinToString(" ")
+            (
+                listOf("Something is at work that no cause of the list explains: ${verdict.what}.") +
+                    verdict.ambiguity.map { open(it) }
+                ).joinToString(" ")
         is Verdict.InsufficientData -> "This log cannot show it: ${verdict.why}."
     }
 
