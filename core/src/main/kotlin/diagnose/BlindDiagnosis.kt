@@ -82,7 +82,7 @@ internal class BlindDiagnosis(
             stillTries.attempt(term).instead(still.score - state.score)
 
         /** What no cause explains. */
-        val looks: List<BlindTrial> = BlindLooks(state, tries, isShapeOpen).all()
+        val looks: List<BlindTrial> = BlindLooks(state, tries, !isShapeOpen && isResolved).all()
         private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
 
         init {

@@ -10,11 +10,16 @@ import kotlin.math.ln
 import kotlin.math.sin
 import kotlin.math.sqrt
 
-/** Looks for what no cause of the list explains in a log without a reference. */
+/**
+ * Looks for what no cause of the list explains in a log without a reference.
+ *
+ * @param canShowShape whether the log can show the response's shape at all: not where not even a time constant and a dead
+ *   time can be told apart, nor where waves of the water are missing.
+ */
 internal class BlindLooks(
     private val state: BlindState,
     private val trials: BlindTrials,
-    private val isShapeOpen: Boolean,
+    private val canShowShape: Boolean,
 ) {
     private val series = state.model.series
     private val n = series.size
@@ -36,8 +41,7 @@ internal class BlindLooks(
         val uneven = listOf(followed(product(rate, value)))
         add(trials.look("the rate of change, more at some values than at others", uneven))
         add(trials.look("the value, more at some times than at others", listOf(product(value, age))))
-        // Where not even a time constant and a dead time can be told apart, no other shape can be ruled in.
-        if (!isShapeOpen) add(trials.lookAtWater("what was there before (the response has another shape)", earlier()))
+        if (canShowShape) add(trials.lookAtWater("what was there before (the response has another shape)", earlier()))
         if (median(series.speed) > SLOWEST) heading()
         add(periodic())
     }
