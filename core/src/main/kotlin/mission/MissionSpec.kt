@@ -11,6 +11,7 @@ import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.JsonForm
 import stillwater.model.LatLon
+import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.WaterArea
 import kotlin.math.abs
@@ -40,6 +41,7 @@ public data class OriginSpec(
 ) {
     init {
         LatLon(latitude, longitude)
+        require(LocalFrame.canStartAt(latitude)) { "lat_deg ($latitude) must not be at a pole" }
     }
 }
 

@@ -94,7 +94,7 @@ class CorrectCommand : WorkCommand("correct") {
             throw failure("--between: expected --held-out and a transect (--x without --y), found none")
         }
         CorrectFiles.requireNewColumns(opened)
-        OutputDirectory(Path.of(out)).use { directory ->
+        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
             val bytes = Files.size(file)
             val shown = !quiet && bytes >= WORTH_SHOWING
             val result = WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->

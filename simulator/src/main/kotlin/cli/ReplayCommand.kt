@@ -57,7 +57,8 @@ class ReplayCommand : WorkCommand("replay") {
             "a mission's log or a Platypus log",
             "neither",
         )
-        OutputDirectory(Path.of(out)).use { directory ->
+        requireNoOtherMission(Path.of(out), "replay.json")
+        OutputDirectory(Path.of(out), listOfNotNull(log, mission).map { Path.of(it) }).use { directory ->
             val isOwn = version == PlatypusVersion.LEVEL_JSON && content.head.any { SPEC in it }
             LineSpool().use { own ->
                 val replayed = if (isOwn) {

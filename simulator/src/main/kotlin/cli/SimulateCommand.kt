@@ -58,7 +58,8 @@ class SimulateCommand : WorkCommand("simulate") {
         requireVirtualProbe(mission)
         val most = longest ?: MissionRun.longest(mission)
         val settings = boat.settings()
-        OutputDirectory(Path.of(out)).use { directory ->
+        requireNoOtherMission(Path.of(out), "summary.json")
+        OutputDirectory(Path.of(out), listOf(Path.of(missionFile))).use { directory ->
             val isShown = !headless && !quiet && !json && terminal.terminalInfo.outputInteractive
             val result = directory.stream("mission.txt") { log ->
                 val run = MissionRun(mission, settings) { log.write((it + "\n").toByteArray()) }

@@ -28,9 +28,11 @@ public class OutputException(message: String, cause: Throwable? = null) : Runtim
  * Confined to one thread. Close it in all cases: `OutputDirectory(path).use { ...; it.commit() }`.
  *
  * @property directory where the results go; it and its parents are created on commit if missing.
+ * @param inputs files that were read and are not to be replaced. Retained.
  * @throws OutputException if [directory] is a file or cannot be written.
  */
-public class OutputDirectory(public val directory: Path) : AutoCloseable {
+public class OutputDirectory(public val directory: Path, private val inputs: List<Path> = emptyList()) :
+    AutoCloseable {
     private val target = directory.toAbsolutePath().normalize()
     private val createdParents = ArrayList<Path>()
     private val staging: Path
@@ -63,7 +65,7 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
      * Lets [block] write the file [name] piece by piece, buffered; for results larger than memory. An IOException
      * from [block] counts as the disk's refusal, so [block] should not read other files.
      *
-     * @throws OutputException if the disk refuses, and [block]'s own exceptions unchanged.
+     * @throws OutputException if the disk refuses or the file is an input, and [block]'s own exceptions unchanged.
      */
     public fun <T> stream(name: String, block: (OutputStream) -> T): T {
         check(isOpen) { "output directory $directory is already committed or closed" }
@@ -72,6 +74,10 @@ public class OutputDirectory(public val directory: Path) : AutoCloseable {
             "name ($name) must be a path inside the output directory"
         }
         return guarded("write $name in") {
+            val place = target.resolve(name)
+            if (place.exists() && inputs.any { it.exists() && Files.isSameFile(it, place) }) {
+                throw OutputException("output ${directory.resolve(name)} is the input itself; name another directory")
+            }
             Files.createDirectories(file.parent)
             Files.newOutputStream(file).buffered().use(block).also { if (name !in names) names += name }
         }

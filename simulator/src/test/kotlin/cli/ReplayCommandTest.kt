@@ -15,6 +15,7 @@ import stillwater.mission.Mission
 import stillwater.mission.MissionRecovery
 import stillwater.mission.Wish
 import java.nio.file.Path
+import kotlin.io.path.deleteExisting
 import kotlin.io.path.exists
 import kotlin.io.path.readLines
 import kotlin.io.path.readText
@@ -68,6 +69,19 @@ class ReplayCommandTest {
             assertEquals(mission.readings.passed, summary.count("readings", "taken"))
             assertEquals(emptyMap(), summary.getValue("lines_not_understood").jsonObject.toMap())
             assertTrue(summary.getValue("board_lines_not_understood").jsonObject.isNotEmpty(), "seed $seed: $summary")
+        }
+    }
+
+    @Test
+    fun aLogFromTheWaterIsNotReplaced() {
+        val (lines, _) = sailed(44, 30)
+        for (name in listOf("mission.txt", "mission.txt.incomplete")) {
+            val log = write(name, lines)
+            val result = runBoatCommand("replay", log.toString(), "--out", directory.toString())
+            assertEquals(2, result.statusCode, result.output)
+            assertContains(result.output, "has the log of another mission")
+            assertEquals(lines, log.readLines(), name)
+            log.deleteExisting()
         }
     }
 

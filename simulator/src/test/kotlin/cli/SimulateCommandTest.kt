@@ -61,6 +61,15 @@ class SimulateCommandTest {
     }
 
     @Test
+    fun aLogFromTheWaterIsNotReplaced() {
+        val log = directory.resolve("afloat").createDirectories().resolve("mission.txt").apply { writeText("measured") }
+        val result = simulate(log.parent)
+        assertEquals(2, result.statusCode, result.output)
+        assertTrue("has the log of another mission" in result.output, result.output)
+        assertEquals("measured", log.readText())
+    }
+
+    @Test
     fun theSummaryIsWhatItWas() {
         // To three digits: what is not exact may differ in its last bits on another machine.
         val found = shortened(summary()).toString().replace(",\"", ",\n\"") + "\n"

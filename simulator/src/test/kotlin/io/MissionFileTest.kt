@@ -23,6 +23,7 @@ class MissionFileTest {
     @Test
     fun whatIsWrongIsSaidWithItsPlaceAndWhatWasExpected() {
         for ((old, new, expected) in listOf(
+            Triple("45.5", "90", "3:25: origin: lat_deg (90.0) must not be at a pole"),
             Triple("\"columns\": 6", "\"columns\": 0", "5:59: grid: columns (0) must be at least 1"),
             Triple(
                 "\"columns\": 6",

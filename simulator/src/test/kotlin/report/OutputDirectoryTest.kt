@@ -56,6 +56,22 @@ class OutputDirectoryTest {
     }
 
     @Test
+    fun anInputIsNotReplaced() {
+        val out = home.resolve("out").createDirectory()
+        val input = out.resolve("cells.csv").apply { writeText("measured") }
+        val problem = assertFailsWith<OutputException> {
+            OutputDirectory(out, listOf(out.resolve("../out/cells.csv"))).use {
+                it.write("report.html", "new")
+                it.write("cells.csv", "computed")
+                it.commit()
+            }
+        }
+        assertContains(problem.message.orEmpty(), "cells.csv is the input itself")
+        assertEquals("measured", input.readText())
+        assertEquals(1, Files.list(out).use { it.count() })
+    }
+
+    @Test
     fun withoutCommitNothingChangesAndNothingIsLeft() {
         val out = home.resolve("out").createDirectory()
         out.resolve("results.csv").writeText("old")
