@@ -8,9 +8,8 @@ import kotlin.math.sqrt
  * The diagnosis of a log without a reference: the water is inferred with the sensor, from passes over the same place.
  *
  * Each cause is an extension of a first-order lag, fitted with the water free to take what it can imitate at every
- * step. What is left counts: likelihood ratios are divided by what correlation inflates them, and stretches
- * of the log must
- * agree. See core/docs/Diagnosis.md, (11) to (15).
+ * step. What is left counts: likelihood ratios are divided by what correlation inflates them, and stretches of the log
+ * must agree. See core/docs/Diagnosis.md, (11) to (15).
  */
 internal class BlindDiagnosis(
     private val series: MeasuredSeries,

@@ -25,6 +25,9 @@ public class Diagnosis(
     private val longest = CauseSearch.longest(series, settings)
     private var trials = 0
 
+    /** The base model as it looks with nothing known of gaps, sharp fronts and single wild readings. */
+    private val rough by lazy { base(null, null) }
+
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
         val reference = series.reference
@@ -41,7 +44,6 @@ public class Diagnosis(
         // Water that changes faster than a sparse reference shows looks like noise.
         if (series.size < FEWEST || series.isSparse) return null
         val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
-        val rough = base(null, null)
         val shown = noise.spread * abs(rough.numbers[ResponseModel.GAIN])
         if (!(shown > NOISY * Spikes.spread(rough.whitened))) return null
         return series.withQuieter(noise.smoothed())
@@ -74,13 +76,13 @@ public class Diagnosis(
 
     private fun weighing(held: Boolean?): Weighing {
         used.fill(true)
-        val rough = settled(held)
+        val settled = settled(held)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
-        val spikes = Spikes.of(rough.whitened).filter {
-            abs(rough.residuals[it]) > rough.model.scales.resolution && !unknown.isInDoubt(it)
+        val spikes = Spikes.of(settled.whitened).filter {
+            abs(settled.residuals[it]) > settled.model.scales.resolution && !unknown.isInDoubt(it)
         }
         spikes.forEach { used[it] = false }
-        val base = if (spikes.isEmpty()) rough else base(held, rough)
+        val base = if (spikes.isEmpty()) settled else base(held, settled)
         return Weighing(CauseSearch(series, base.model.scales, used, settings), base, used, spikes, settings, ::tell)
     }
 
@@ -89,7 +91,7 @@ public class Diagnosis(
      * of the log: each in turn.
      */
     private fun settled(held: Boolean?): ModelFit {
-        var last = base(held, null)
+        var last = if (held == null) rough else base(held, null)
         repeat(SETTLING) {
             if (scales(last, last.model.held).shocks == null) return last
             last = base(held, last)

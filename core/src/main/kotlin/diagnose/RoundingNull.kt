@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import kotlin.math.PI
+import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.round
@@ -96,7 +98,7 @@ internal class RoundingNull(private val fit: ModelFit, private val longest: Doub
     private fun whitened(residuals: DoubleArray) = DoubleArray(n).also { fit.noise.whiten(residuals, it) }
 
     private fun gaussian() =
-        sqrt(-2 * ln(1 - random.nextDouble())) * kotlin.math.cos(2 * Math.PI * random.nextDouble())
+        sqrt(-2 * ln(1 - random.nextDouble())) * cos(2 * PI * random.nextDouble())
 
     private companion object {
         const val SEED = 20_261

@@ -2,6 +2,7 @@ package stillwater.diagnose
 
 import kotlin.math.abs
 import kotlin.math.exp
+import kotlin.math.sqrt
 
 /**
  * What a reference does not say of the truth between its rows: gaps in the log, and moves of a probe or sharp fronts
@@ -63,7 +64,7 @@ internal class UnknownTruth private constructor(
             val isGap = BooleanArray(n) { it > 0 && times[it] - times[it - 1] > GAP * series.period }
             val within = within(times, truth, isGap)
             val usual = median(within)
-            val spread = sqrtOfMeanSquare(truth)
+            val spread = deviation(truth)
             val steps = DoubleArray(n) { if (it == 0 || isGap[it]) 0.0 else abs(truth[it] - truth[it - 1]) }
             val far = SUDDEN * median(steps)
             val isBroken = BooleanArray(n) { i ->
@@ -100,9 +101,9 @@ internal class UnknownTruth private constructor(
             return most
         }
 
-        private fun sqrtOfMeanSquare(truth: DoubleArray): Double {
+        private fun deviation(truth: DoubleArray): Double {
             val mean = truth.average()
-            return kotlin.math.sqrt(truth.sumOf { (it - mean) * (it - mean) } / truth.size)
+            return sqrt(truth.sumOf { (it - mean) * (it - mean) } / truth.size)
         }
 
         /** A step longer than so many usual ones is a gap. */

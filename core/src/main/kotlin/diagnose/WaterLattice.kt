@@ -4,6 +4,7 @@ import kotlin.math.PI
 import kotlin.math.cos
 import kotlin.math.hypot
 import kotlin.math.sin
+import kotlin.math.sqrt
 
 /**
  * Plane waves of all directions that are periodic in a box about a track, which is wider than the track by the way they
@@ -27,7 +28,7 @@ internal class WaterLattice(private val x: DoubleArray, private val y: DoubleArr
         var high = maxOf(2 * hypot(width, height), 2 * least)
         if (numbers(low).size * 2 + 2 > most) {
             repeat(HALVINGS) {
-                val middle = kotlin.math.sqrt(low * high)
+                val middle = sqrt(low * high)
                 if (numbers(middle).size * 2 + 2 > most) low = middle else high = middle
             }
             high

@@ -24,8 +24,8 @@ import kotlin.math.sqrt
  * [Conditions.POSITION_DEVIATION], that is not assumed: those nearer to a border than it count for no cell. Between cells
  * that do not touch, or after leaving the grid or a reading without a value in another cell, the sensor's state is taken as
  * unknown. A reading farther than [FARTHEST] widths of the prior from its middle is not used and counts as a conflict.
- * Where no model explains the readings [isExplained] says so: bounds are then those of a [BoundedExtendedFilter], which needs no model, and so are values if the nearest model's
- * have run away from it.
+ * Where no model explains the readings [isExplained] says so: bounds are then those of a [BoundedExtendedFilter], which
+ * needs no model, and so are values if the nearest model's have run away from it.
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again

@@ -71,11 +71,8 @@ internal class JsonScanner(private val text: String) {
         val characters = StringBuilder()
         while (true) {
             val character = text.getOrElse(at) { throw Fault(begin, "a closing quotation mark", "none") }
-            if (character <
-                ' '
-            ) {
-                throw Fault(at, "no control character in a text", "one; a quotation mark may be missing")
-            }
+            val isControl = character < ' '
+            if (isControl) throw Fault(at, "no control character in a text", "one; a quotation mark may be missing")
             at++
             if (character == '"') return characters.toString()
             characters.append(if (character == '\\') escaped() else character)
@@ -112,10 +109,10 @@ internal class JsonScanner(private val text: String) {
     private fun found(): String = when (next()) {
         '{' -> "an object in braces"
         '[' -> "a list in brackets"
-        '"' -> "the text '" + short(
-            text.substring(at + 1, minOf(at + 1 + 2 * SHORT, text.length)).substringBefore('"'),
-        ) +
-            "'"
+        '"' -> {
+            val begin = text.substring(at + 1, minOf(at + 1 + 2 * SHORT, text.length))
+            "the text '${short(begin.substringBefore('"'))}'"
+        }
         END -> if (at >= text.length) "the end" else "a zero byte"
         else -> "'" + short(word().ifEmpty { text[at].toString() }) + "'"
     }

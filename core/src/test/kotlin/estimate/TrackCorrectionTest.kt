@@ -30,11 +30,15 @@ class TrackCorrectionTest {
         val omega = 0.1
         val response = Response(3.0, listOf(ResponseLag(8.0), ResponseLag(5.0)))
         val phase = omega * 3 + kotlin.math.atan(omega * 8) + kotlin.math.atan(omega * 5)
-        val times = DoubleArray(2000) { it.toDouble() }
-        val series = TrackSeries(times, times, DoubleArray(2000), DoubleArray(2000) { sin(omega * it - phase) })
-        val corrected = DoubleArray(2000).also { PhaseCorrection(series).correct(response, it) }
+        assertUndone(response, omega, phase, size = 2000, middle = 500 until 1500)
+    }
+
+    private fun assertUndone(response: Response, omega: Double, phase: Double, size: Int, middle: IntRange) {
+        val times = DoubleArray(size) { it.toDouble() }
+        val series = TrackSeries(times, times, DoubleArray(size), DoubleArray(size) { sin(omega * it - phase) })
+        val corrected = DoubleArray(size).also { PhaseCorrection(series).correct(response, it) }
         // A twentieth of the amplitude: what the ends of the series leave in its middle.
-        for (i in 500 until 1500) assertEquals(sin(omega * i), corrected[i], 0.05)
+        for (i in middle) assertEquals(sin(omega * i), corrected[i], 0.05)
     }
 
     @Test
@@ -228,10 +232,7 @@ class TrackCorrectionTest {
         val re = 0.8 / (1 + 0.4 * 0.4) + 0.2 / (1 + 3.5 * 3.5)
         val im = 0.8 * 0.4 / (1 + 0.4 * 0.4) + 0.2 * 3.5 / (1 + 3.5 * 3.5)
         val phase = omega * 2 + kotlin.math.atan2(im, re)
-        val times = DoubleArray(4000) { it.toDouble() }
-        val series = TrackSeries(times, times, DoubleArray(4000), DoubleArray(4000) { sin(omega * it - phase) })
-        val corrected = DoubleArray(4000).also { PhaseCorrection(series).correct(response, it) }
-        for (i in 1500 until 2500) assertEquals(sin(omega * i), corrected[i], 0.05)
+        assertUndone(response, omega, phase, size = 4000, middle = 1500 until 2500)
     }
 
     @Test

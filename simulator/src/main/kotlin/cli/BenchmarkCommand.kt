@@ -18,7 +18,6 @@ import stillwater.model.Grid
 import stillwater.model.WaterArea
 import stillwater.plan.Lawnmower
 import stillwater.report.OutputDirectory
-import stillwater.report.counted
 import stillwater.report.toTerminal
 import stillwater.run.BudgetKind
 import stillwater.run.Checkpoints
@@ -156,7 +155,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
             if (!quiet &&
                 !json
             ) {
-                echo("wrote ${counted(written.size, "file")} into $out, see ${Path.of(out).resolve("report.html")}")
+                echo(wrote(written, out, "report.html"))
             }
         }
     }

@@ -13,7 +13,6 @@ import stillwater.correct.CorrectFiles
 import stillwater.correct.CorrectedLog
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
-import stillwater.report.counted
 import java.nio.file.Files
 import java.nio.file.Path
 
@@ -113,7 +112,7 @@ class CorrectCommand : WorkCommand("correct") {
                 !quiet -> {
                     files.lines().forEach { echo(it) }
                     for (warning in files.warnings + drawing) echo("warning: $warning", err = true)
-                    echo("wrote ${counted(written.size, "file")} into $out, see ${Path.of(out).resolve("report.html")}")
+                    echo(wrote(written, out, "report.html"))
                 }
             }
         }

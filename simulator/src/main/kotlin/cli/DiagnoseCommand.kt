@@ -20,7 +20,6 @@ import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
-import stillwater.report.counted
 import stillwater.sensor.SensorSpec
 import java.nio.file.Path
 
@@ -104,12 +103,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                 !quiet -> {
                     diagnosed.lines().forEach { echo(it) }
                     for (warning in diagnosed.warnings + drawing) echo("warning: $warning", err = true)
-                    echo(
-                        "wrote ${counted(written.size, "file")} into $out, see ${Path.of(
-                            out,
-                        ).resolve(if (numbersOnly) "diagnosis.json" else "report.html")}",
-                        err = true,
-                    )
+                    echo(wrote(written, out, if (numbersOnly) "diagnosis.json" else "report.html"), err = true)
                 }
             }
         }

@@ -24,17 +24,7 @@ class Stillwater : CliktCommand("stillwater") {
 
 fun main(args: Array<String>) {
     val output = StandardOutput.install()
-    val command = Stillwater().subcommands(
-        BenchmarkCommand(),
-        MapCommand(),
-        CorrectCommand(),
-        DiagnoseCommand(),
-        SimulateCommand(),
-        VirtualBoatCommand(),
-        DriveCommand(),
-        ReplayCommand(),
-    )
-    val status = run(command, args, System.getenv(TRACE) != null, System.err)
+    val status = run(Stillwater().subcommands(commands()), args, System.getenv(TRACE) != null, System.err)
     System.out.flush()
     if (output.isLost) {
         System.err.println("stillwater: standard output could not be written")
@@ -42,6 +32,18 @@ fun main(args: Array<String>) {
     }
     if (status != 0) exitProcess(status)
 }
+
+/** All there are, new ones, in the order of the help. */
+internal fun commands(): List<CliktCommand> = listOf(
+    BenchmarkCommand(),
+    MapCommand(),
+    CorrectCommand(),
+    DiagnoseCommand(),
+    SimulateCommand(),
+    VirtualBoatCommand(),
+    DriveCommand(),
+    ReplayCommand(),
+)
 
 /**
  * Runs [command] with [args]; answers the exit code. What no command expects ends in one line on [errors] too, with the

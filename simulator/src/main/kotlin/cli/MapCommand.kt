@@ -14,7 +14,6 @@ import stillwater.io.DecimalText
 import stillwater.io.SurveyLog
 import stillwater.model.Interval
 import stillwater.report.OutputDirectory
-import stillwater.report.counted
 import stillwater.run.FilterKind
 import stillwater.run.LagFilterSettings
 import stillwater.sensor.SensorSpec
@@ -122,7 +121,7 @@ class MapCommand : WorkCommand("map") {
                     echo("Map of ${summary.quantity}")
                     echo(summary.text())
                     for (warning in summary.warnings + drawing) echo("warning: $warning", err = true)
-                    echo("wrote ${counted(written.size, "file")} into $out, see ${Path.of(out).resolve("report.html")}")
+                    echo(wrote(written, out, "report.html"))
                 }
             }
         }

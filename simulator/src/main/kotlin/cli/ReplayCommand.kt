@@ -17,7 +17,6 @@ import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
 import stillwater.replay.Replayed
 import stillwater.report.OutputDirectory
-import stillwater.report.counted
 import java.nio.file.Path
 
 /** `stillwater replay`: a recorded log through the mission once more. */
@@ -80,7 +79,7 @@ class ReplayCommand : WorkCommand("replay") {
             !quiet -> {
                 files.lines().forEach { echo(it) }
                 for (warning in warnings) echo("warning: $warning", err = true)
-                echo("wrote ${counted(written.size, "file")} into $out", err = true)
+                echo(wrote(written, out), err = true)
             }
         }
     }

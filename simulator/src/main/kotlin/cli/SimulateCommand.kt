@@ -12,7 +12,6 @@ import stillwater.io.MissionFile
 import stillwater.mission.MissionSpec
 import stillwater.mission.Quantity
 import stillwater.report.OutputDirectory
-import stillwater.report.counted
 import stillwater.simulation.Film
 import stillwater.simulation.LiveView
 import stillwater.simulation.MissionRun
@@ -85,12 +84,7 @@ class SimulateCommand : WorkCommand("simulate") {
                 !quiet -> {
                     files.summary.facts.forEach { (name, value) -> echo("$name: $value") }
                     for (warning in files.summary.warnings + drawing) echo("warning: $warning", err = true)
-                    echo(
-                        "wrote ${counted(
-                            written.size,
-                            "file",
-                        )} into $out, see ${Path.of(out).resolve("animation.html")}",
-                    )
+                    echo(wrote(written, out, "animation.html"))
                 }
             }
         }

@@ -90,12 +90,10 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         System.out.flush()
         server.serve(duration, once)
         out?.let { write(it, world) }
+        val unanswered = "${counted(phone.unanswered, "time")} without an answer from the phone's program"
         val bad = listOfNotNull(
             "${counted(wire.untaken, "byte")} that nobody took".takeIf { wire.untaken > 0 },
-            "${counted(phone.unanswered, "time")} without an answer from the phone's program".takeIf {
-                phone.unanswered >
-                    0
-            },
+            unanswered.takeIf { phone.unanswered > 0 },
             "${phone.unreadable} of its lines unreadable".takeIf { phone.unreadable > 0 },
             "fell behind the asked speed ${counted(server.slips, "time")}".takeIf { server.slips > 0 },
         )

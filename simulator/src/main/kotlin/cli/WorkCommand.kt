@@ -6,6 +6,8 @@ import com.github.ajalt.clikt.core.context
 import stillwater.io.JsonFileProblem
 import stillwater.io.LogProblem
 import stillwater.report.OutputException
+import stillwater.report.counted
+import java.nio.file.Path
 
 /** A command whose every way to fail is one line that begins with its name, and exit code [BAD_INPUT]. */
 abstract class WorkCommand(name: String) : CliktCommand(name) {
@@ -31,6 +33,12 @@ abstract class WorkCommand(name: String) : CliktCommand(name) {
         } catch (problem: OutputException) {
             throw failure(problem.message.orEmpty())
         }
+    }
+
+    /** What to say of the files [written] into [directory], of which [first] is the one to look at; null for none. */
+    protected fun wrote(written: List<Path>, directory: String, first: String? = null): String {
+        val look = first?.let { ", see ${Path.of(directory).resolve(it)}" }.orEmpty()
+        return "wrote ${counted(written.size, "file")} into $directory$look"
     }
 
     /** The end of the command because of [message]. */

@@ -139,14 +139,11 @@ internal class OwnLogReplay(
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
             val isPlace = latitude in LatLon.LATITUDES_DEG && longitude.isFinite()
-            if (isPlace) {
-                mission.fix(
-                    BoatTime(time),
-                    LatLon(latitude, longitude),
-                )
-            } else {
+            if (!isPlace) {
                 notUnderstood.count("a place", number)
+                continue
             }
+            mission.fix(BoatTime(time), LatLon(latitude, longitude))
         }
         for (compass in came.list("compass")) {
             val (time, heading, yawRate) = numbers(compass) ?: continue

@@ -83,38 +83,31 @@ internal class ReplayFiles(private val replayed: Replayed) {
         } +
             malformed().map { (name, count) -> "$count of the board ($name)" }
         val why = Decisions.why(replayed.mission.state)
+        val steps = counted(decisions.steps, "step")
+        val changes = counted(decisions.changes.size, "change")
+        val fixes = counted(replayed.mission.refusedFixes, "fix", "fixes")
         return listOfNotNull(
-            "${replayed.format}, ${counted(
-                decisions.steps,
-                "step",
-            )}; at its end ${replayed.mission.state.word} $why".trimEnd(),
+            "${replayed.format}, $steps; at its end ${replayed.mission.state.word} $why".trimEnd(),
             "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${kind(it.key, it.value)}" },
             "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
             "states: " +
                 decisions.secondsIn.entries.joinToString(", ") { "%s %.1f s".format(Locale.ROOT, it.key, it.value) } +
-                "; ${counted(
-                    decisions.changes.size,
-                    "change",
-                )}, motors running in ${counted(decisions.driven, "step")}",
+                "; $changes, motors running in ${counted(decisions.driven, "step")}",
             "readings: ${gate.passed} taken, ${gate.outOfRange} out of range, ${gate.lone} alone, " +
                 "${gate.stuck} stuck, ${gate.waiting} waiting, " +
-                "${gate.withoutValueOrPlace} without a place; ${counted(
-                    replayed.mission.refusedFixes,
-                    "fix",
-                    "fixes",
-                )} refused",
-            replayed.asRecorded?.let { same ->
-                val steps = if (same.differingSteps == 0L) {
-                    "every step as recorded"
-                } else {
-                    "${counted(
-                        same.differingSteps,
-                        "step",
-                    )} otherwise than recorded, the first at ${same.firstDifference} s"
-                }
-                "$steps; the map is ${if (same.isSameMap) "" else "not "}that of the recorded readings, bit for bit"
-            },
+                "${gate.withoutValueOrPlace} without a place; $fixes refused",
+            replayed.asRecorded?.let(::compared),
         )
+    }
+
+    private fun compared(same: AsRecorded): String {
+        val differing = counted(same.differingSteps, "step")
+        val steps = if (same.differingSteps == 0L) {
+            "every step as recorded"
+        } else {
+            "$differing otherwise than recorded, the first at ${same.firstDifference} s"
+        }
+        return "$steps; the map is ${if (same.isSameMap) "" else "not "}that of the recorded readings, bit for bit"
     }
 
     /** The kinds are plurals, and keys in the JSON. */

@@ -99,10 +99,9 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     private fun bounds(): String? {
         val centres = result.boundsAtCentres
         if (centres.cells == 0) return null
-        return "${number(
-            centres.meanWidth,
-        )}$space$unit wide in ${counted(centres.cells, "cell")}; they hold the water at the " +
-            "centre in ${percent(centres.holding)}, the cell's mean in ${percent(result.boundsAroundMeans.holding)}"
+        val wide = "${number(centres.meanWidth)}$space$unit wide in ${counted(centres.cells, "cell")}"
+        val means = percent(result.boundsAroundMeans.holding)
+        return "$wide; they hold the water at the centre in ${percent(centres.holding)}, the cell's mean in $means"
     }
 
     private fun link(): String {

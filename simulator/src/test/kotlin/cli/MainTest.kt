@@ -47,17 +47,7 @@ class MainTest {
 
     @Test
     fun anExampleIsALineThatCanBeCopied() {
-        val commands = listOf(
-            BenchmarkCommand(),
-            MapCommand(),
-            CorrectCommand(),
-            DiagnoseCommand(),
-            SimulateCommand(),
-            VirtualBoatCommand(),
-            DriveCommand(),
-            ReplayCommand(),
-        )
-        for (command in commands) {
+        for (command in commands()) {
             val help = Stillwater().subcommands(command).test(listOf(command.commandName, "--help"), width = 80).stdout
             val examples = help.substringAfter("Examples:\n").trim().lines()
             assertTrue(examples.all { "$it ".startsWith("stillwater ${command.commandName} ") }, "$examples")

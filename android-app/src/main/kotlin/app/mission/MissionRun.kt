@@ -110,7 +110,7 @@ internal class MissionRun(
 
     private fun counts(): ReadingCounts {
         val gate = mission.readings
-        val waiting = (if (gate.held == null) 0L else 1L) + gate.same.size
+        val waiting = gate.waiting.toLong()
         return ReadingCounts(
             gate.passed + gate.leftOut + waiting,
             gate.passed,
