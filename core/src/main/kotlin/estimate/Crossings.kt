@@ -16,7 +16,7 @@ internal class Crossings {
     private var isBetween = false
 
     /** Whether borders are treated so; where not, every reading is of the cell it is believed to be in. */
-    var areHeeded: Boolean = true
+    var areHeeded: Boolean = false
 
     /** The boat left without a reading of where it went. */
     fun leave() {

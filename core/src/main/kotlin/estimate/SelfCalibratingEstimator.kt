@@ -45,7 +45,11 @@ public class SelfCalibratingEstimator(
 ) : CellEstimator(grid, prior) {
     private val middle = prior.midpoint
     private val scale = if (prior.width > 0 && prior.width.isFinite()) prior.width else 1.0
-    private val choice = SensorChoice(settings)
+    private val plain = SensorChoice(settings)
+
+    /** The same with borders heeded: each has its own history, since a fit begins where its last one ended. */
+    private val heeding by lazy(LazyThreadSafetyMode.NONE) { SensorChoice(settings) }
+    private var choice = plain
     private val tape = ReadingTape(settings.recalled)
     private var nextReplay = FIRST_REPLAY
     private val slots = IntArray(grid.size) { LagBank.NONE }
@@ -138,15 +142,24 @@ public class SelfCalibratingEstimator(
     }
 
     /**
-     * Chooses and fits the sensor's model anew. Where stays are short beside the time constant, a slow sensor and water that
-     * changes evenly within a cell look the same but at the borders: what happens there counts then.
+     * Chooses and fits the sensor's model anew, and whether borders are heeded. In water that changes evenly within a cell a
+     * stay looks the same as one with a slow sensor; what happens at borders tells them apart. Heeding them hides that, and
+     * the sensor seems slower than it is; where cells are even it takes readings of the wrong cell away, and it does not.
      */
     private fun decide() {
-        tape.crossings.areHeeded = tape.tellsOfPlaces && tape.shareOfStays(FEWEST_SURE) >= MOST_STAYS
-        choice.decide(tape)
-        if (!tape.crossings.areHeeded || choice.timeConstant <= LONGEST * tape.meanStay()) return
-        tape.crossings.areHeeded = false
-        choice.decide(tape)
+        val crossings = tape.crossings
+        crossings.areHeeded = false
+        choice = plain
+        plain.decide(tape)
+        if (!tape.tellsOfPlaces || tape.shareOfStays(FEWEST_SURE) < MOST_STAYS) return
+        crossings.areHeeded = true
+        heeding.decide(tape)
+        val longest = minOf(LONGER * plain.timeConstant, LONGEST * tape.meanStay())
+        if (heeding.isExplained && heeding.timeConstant <= longest) {
+            choice = heeding
+        } else {
+            crossings.areHeeded = false
+        }
     }
 
     private fun writeAll() {
@@ -232,7 +245,8 @@ public class SelfCalibratingEstimator(
         private const val MOST_STAYS = 0.95
         private const val FEWEST_SURE = 2
 
-        /** Time constant over the mean stay, beyond which they are not. */
+        /** Time constant over that without borders heeded, and over the mean stay, beyond which they are not. */
+        private const val LONGER = 1.15
         private const val LONGEST = 2.0
         private const val FIRST_CELLS = 128
         private const val FIRST_REPLAY = 16
