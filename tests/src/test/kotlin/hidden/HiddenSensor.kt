@@ -159,7 +159,8 @@ internal class HiddenSensor(
     private fun factor(i: Int, s: Double): Double {
         var factor = 1.0
         val flow = strength(HiddenEffect.FLOW)
-        if (flow != 0.0) factor *= (world.track.speed[i] / ORDINARY_SPEED).pow(-flow)
+        // Water that stands still about a probe does not stop it for good.
+        if (flow != 0.0) factor *= (maxOf(world.track.speed[i], SLOWEST) / ORDINARY_SPEED).pow(-flow)
         factor *= exp(-strength(HiddenEffect.TEMPERATURE) * (world.temperature[i] - ORDINARY_TEMPERATURE))
         factor *= exp(strength(HiddenEffect.FOULING) * (i.toDouble() / world.size - 0.5))
         factor *= exp(strength(HiddenEffect.VALUE_LAG) * ((s - middle) / spread).coerceIn(-3.0, 3.0))
@@ -188,6 +189,7 @@ internal class HiddenSensor(
 
     companion object {
         const val ORDINARY_SPEED = 1.0
+        const val SLOWEST = 0.05
         const val ORDINARY_TEMPERATURE = 15.0
         const val INTERFERENCE_SECONDS = 37.0
     }
