@@ -10,7 +10,7 @@ import kotlin.math.ln
  * @property cost what as many meaningless numbers and places would gain, as twice a log-likelihood.
  * @property worth what it gains beyond [cost].
  * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
- * blocks.
+ * blocks. @property foretells whether it foretells rows it was not fitted to better than the model without it.
  */
 internal class Trial(
     val term: Term,
@@ -22,6 +22,7 @@ internal class Trial(
     val worth: Double,
     val pValue: Double,
     val heldOut: HeldOutScore,
+    val foretells: Boolean,
 )
 
 /** Tries causes one by one on top of a fitted model, adds the best, and drops what then is no longer needed. */
@@ -48,8 +49,11 @@ internal class CauseSearch(
         return free
     }
 
-    /** [base] with [term] on top, fitted; [withHeldOut] costs four fits more. */
-    fun attempt(base: ModelFit, baseHeldOut: HeldOutScore, term: Term): Trial {
+    /**
+     * [base] with [term] on top, fitted; where it is likely, four fits more say what it foretells, and more where it acts now
+     * and then only. [root] is the model without any term.
+     */
+    fun attempt(base: ModelFit, baseHeldOut: HeldOutScore, term: Term, root: ModelFit): Trial {
         val best = if (term.cause == Cause.OFFSET_STEPS) jumps(base) else extended(base, term)
         val free = best.free.count { it } - base.free.count { it }
         val degrees =
@@ -66,7 +70,11 @@ internal class CauseSearch(
         val p = minOf(1.0, Evidence.pValue(ratio, degrees))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
-        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, gain - cost, p, heldOut)
+        var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
+        if (worthHolding && gained <= 0 && best.model.terms.any { it.cause in ACT_NOW_AND_THEN }) {
+            gained = HeldOut.gainWhereTheyAct(best, base, root, used)
+        }
+        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, gain - cost, p, heldOut, gained > 0)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {
@@ -160,6 +168,9 @@ internal class CauseSearch(
         /** Longest correlation time of noise in [series], s. */
         fun longest(series: MeasuredSeries, settings: DiagnosisSettings): Double =
             maxOf(series.duration / settings.noiseShare, 3 * series.period)
+
+        /** What shows only where the water comes to it, which may be once in a log. */
+        private val ACT_NOW_AND_THEN = setOf(Cause.SATURATION, Cause.SLEW_LIMIT)
 
         private val LAG_CHANGES = setOf(
             Cause.ASYMMETRIC_RESPONSE,

@@ -23,7 +23,7 @@ internal class ForwardSearch(
 
     /** The trials chosen one after the other; each fit holds all before it. */
     fun chosen(): List<Trial> {
-        val worthy = worthy(first, baseHeldOut)
+        val worthy = worthy(first)
         val best = best(worthy) ?: return emptyList()
         val found = from(best)
         if (found.size < 2 || best.term.cause.baseNumbers.isNotEmpty()) return found
@@ -35,14 +35,12 @@ internal class ForwardSearch(
     }
 
     private fun attempt(fit: ModelFit, heldOut: HeldOutScore, term: Term) =
-        search.attempt(fit, heldOut, term).also { told() }
+        search.attempt(fit, heldOut, term, base).also { told() }
 
-    /** Those of [trials] that are more than chance and foretell held-out blocks better than [heldOut]. */
-    private fun worthy(trials: List<Trial>, heldOut: HeldOutScore): List<Trial> {
+    /** Those of [trials] that are more than chance and foretell what is held out. */
+    private fun worthy(trials: List<Trial>): List<Trial> {
         val adjusted = Evidence.holm(trials.map { it.pValue })
-        return trials.indices.filter { i ->
-            adjusted[i] < settings.level && trials[i].heldOut.logLikelihood > heldOut.logLikelihood
-        }.map { trials[it] }
+        return trials.indices.filter { adjusted[it] < settings.level && trials[it].foretells }.map { trials[it] }
     }
 
     /** A wrong number of the base makes everything else look significant: it comes first, if it is one. */
@@ -59,7 +57,7 @@ internal class ForwardSearch(
             val last = chosen.last()
             val taken = chosen.map { it.term.key }
             val rest = terms.filter { it.key !in taken && compatible(it, chosen) }
-            chosen += best(worthy(rest.map { attempt(last.fit, last.heldOut, it) }, last.heldOut)) ?: break
+            chosen += best(worthy(rest.map { attempt(last.fit, last.heldOut, it) })) ?: break
             val other = rival.take(chosen.size)
             if (other.isNotEmpty() && chosen.last().fit.score < other.last().fit.score + DIFFERENT) return emptyList()
         }

@@ -22,6 +22,14 @@ class HiddenEffectsTest {
         assertTrue(missed.size <= 2, scores.markdown())
     }
 
+    /** Seeds of the work on it, not of a campaign's report: an end of the range and a rate limit that show once in a log. */
+    @Test
+    fun whatActsOnceInALogIsNamed() {
+        val cases = HiddenCampaign.run(listOf(80_198L, 81_047L), withReference = true, directory)
+        assertEquals(listOf(HiddenEffect.SLEW, HiddenEffect.SATURATION), cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
     @Test
     fun aCaseIsDrawnFromItsSeedAlone() {
         val files = (1..2).map { run ->
