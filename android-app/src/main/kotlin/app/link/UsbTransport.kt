@@ -9,6 +9,7 @@ import android.os.Build
 import com.hoho.android.usbserial.driver.UsbSerialDriver
 import com.hoho.android.usbserial.driver.UsbSerialPort
 import com.hoho.android.usbserial.driver.UsbSerialProber
+import stillwater.app.R
 import java.io.IOException
 
 /** Finds the serial adapters that are plugged in. A seam, because the library's own prober needs real hardware. */
@@ -20,10 +21,13 @@ internal fun interface SerialDrivers {
         /** CDC-ACM, FTDI, CH34x, CP21xx and what else usb-serial-for-android knows. */
         val LIBRARY = SerialDrivers { UsbSerialProber.getDefaultProber().findAllDrivers(it) }
 
-        /** Whether the library is in this build; the one that Maven makes is without it. */
-        fun areBuiltIn(): Boolean =
+        /** Whether the library is in this build; the one that Maven makes is without it, and a test may be. */
+        @Volatile var areBuiltIn: Boolean = has("com.hoho.android.usbserial.driver.UsbSerialProber")
+
+        /** Whether the program has the class [name]. */
+        fun has(name: String): Boolean =
             try {
-                Class.forName("com.hoho.android.usbserial.driver.UsbSerialProber")
+                Class.forName(name)
                 true
             } catch (_: ClassNotFoundException) {
                 false
@@ -48,6 +52,8 @@ internal class UsbTransport(
 
     override fun connection(): Connection {
         val manager = this.manager ?: throw IOException("this phone is no USB host")
+        // The choice may have been kept by a build that had the library.
+        if (!SerialDrivers.areBuiltIn) throw IOException(context.getString(R.string.usb_missing))
         val driver = drivers.find(manager).firstOrNull() ?: throw IOException("no USB serial adapter is plugged in")
         val device = driver.device
         if (!manager.hasPermission(device)) {
@@ -83,13 +89,21 @@ private class UsbConnection(
         try {
             port.open(opened)
             port.setParameters(BAUD, DATA_BITS, UsbSerialPort.STOPBITS_1, UsbSerialPort.PARITY_NONE)
-            port.setDTR(true)
-            port.setRTS(true)
+            raise(port::setDTR)
+            raise(port::setRTS)
         } catch (error: IOException) {
             opened.close()
             throw error
         }
     }
+
+    /** The library's drivers for adapters without such a line refuse: their boards do not wait for one. */
+    private fun raise(line: (Boolean) -> Unit) =
+        try {
+            line(true)
+        } catch (_: UnsupportedOperationException) {
+            Unit
+        }
 
     /** The library reads what is there and answers 0 when the time is over. */
     override fun read(into: ByteArray): Int = port.read(into, READ_MILLIS)

@@ -66,7 +66,7 @@ internal class LinkScreen(private val context: Context, private val host: Screen
     private fun offer() {
         val paired =
             BluetoothTransport.paired(context).map { LinkChoice.Bluetooth(it.address, it.name ?: it.address) }
-        val usb = if (SerialDrivers.areBuiltIn()) listOf(LinkChoice.Usb) else emptyList()
+        val usb = if (SerialDrivers.areBuiltIn) listOf(LinkChoice.Usb) else emptyList()
         val now: List<LinkChoice> = paired + usb + LinkChoice.Demo
         if (now == offered) return
         offered = now

@@ -177,7 +177,7 @@ internal class Preflight(private val context: Context) {
 
     companion object {
         /** A receiver gives one fix a second; three missed ones are a gap. s. */
-        private const val OLDEST_FIX = 3.0
+        const val OLDEST_FIX = 3.0
 
         /** A board speaks ten times a second, s. */
         private const val LONGEST_SILENCE = 2.0

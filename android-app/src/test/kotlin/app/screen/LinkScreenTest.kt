@@ -2,12 +2,14 @@ package stillwater.app.screen
 
 import android.view.View
 import android.widget.TextView
+import org.junit.After
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.Shadows.shadowOf
 import stillwater.app.R
 import stillwater.app.link.LinkChoice
+import stillwater.app.link.SerialDrivers
 import stillwater.app.service.BoatService
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.Gaps
@@ -19,6 +21,23 @@ class LinkScreenTest {
     private val window = Window()
     private val activity = window.activity.apply { go(ScreenName.LINK) }
 
+    @After
+    fun withTheLibrary() {
+        SerialDrivers.areBuiltIn = true
+    }
+
+    /** The one that Maven makes. */
+    @Test
+    fun aBuildWithoutUsbSaysSoWhereTheLinkIsChosen() {
+        activity.show(BoatSnapshot())
+        activity.button("Connect to USB serial")
+        SerialDrivers.areBuiltIn = false
+        activity.go(ScreenName.LINK)
+        val words = activity.wordsShown()
+        assertTrue("Connect to USB serial" !in words)
+        assertTrue(words.any { it.startsWith("USB: not in this build of the app. Connect by Bluetooth") }, "$words")
+    }
+
     @Test
     fun whatWasDroppedLostAndRefusedIsCountedOnTheScreen() {
         activity.show(Scenes.surveying.copy(gaps = Gaps(2, 31.0)))
@@ -28,7 +47,7 @@ class LinkScreenTest {
             "0 bytes and 4 commands dropped",
             "Last error: read failed, socket might closed",
             "5210 lines, 3 not understood, 0 commands refused",
-            "812 positions; 2 jumps, 1 too wide, 0 refused",
+            "812 positions; 2 jumps, 1 too uncertain, 0 refused",
             "The phone slept 2 times, 31.0 s at most",
             "1412 received, 1400 taken, 0 waiting",
             "Of those taken, 41 too near to a border to count for a cell",
