@@ -145,7 +145,8 @@ internal class AreaView(
             // A single corner has its number above it.
             val (right, down) = if (far < 1f) 0f to -1f else (x - middleX) / far to (y - middleY) / far
             val away = LABEL_DP * density
-            drawWords(canvas, "${index + 1}", x + right * away, y + down * away + words.textSize / 3)
+            val at = (x + right * away).coerceIn(words.textSize / 2, maxOf(words.textSize, width - words.textSize / 2))
+            drawWords(canvas, "${index + 1}", at, y + down * away + words.textSize / 3)
         }
     }
 

@@ -36,7 +36,7 @@ class MapViewTest {
         val (x, y) = assertNotNull(map.projection()).run { x(field.grid.center(25)) to y(field.grid.center(25)) }
         map.finger(MotionEvent.ACTION_DOWN, x, y, 0)
         map.finger(MotionEvent.ACTION_UP, x, y, 50)
-        val bounds = "%.3f mg/L, at most %.3f".format(field.value(25), field.upper(25))
+        val bounds = "%.3f mg/L, at least %.3f".format(field.value(25), field.lower(25))
         assertEquals(listOf("$bounds; 10 readings; 2 min 5 s ago"), said)
         val unmeasured = field.grid.center(field.grid.size - 1)
         assertEquals("Not measured; anything from 4.000 to 12.000 mg/L", map.tap(unmeasured))
