@@ -155,7 +155,7 @@ class SetupTest {
         standAt(45.33, -73.15)
         listOf(0.0 to 0.0, 40.0 to 0.0, 40.0 to 30.0, 0.0 to 30.0).forEach { (x, y) -> touch(x, y) }
         press(R.id.draw_keep_out)
-        listOf(10.0 to 10.0, 20.0 to 20.0, 20.0 to 10.0, 10.0 to 25.0).forEach { (x, y) -> touch(x, y) }
+        listOf(10.0 to 10.0, 20.0 to 20.0, 20.0 to 10.0, 10.0 to 20.0).forEach { (x, y) -> touch(x, y) }
         assertTrue(problem().startsWith("✗ keep-out 1 crosses or touches itself"), problem())
         repeat(4) { press(R.id.undo_corner) }
         assertTrue(activity.desk.draft.keepOuts.isEmpty())
