@@ -23,8 +23,8 @@ public class CellsText(private val spec: MissionSpec, private val map: FieldMap)
     private val quantity = spec.probe.quantity.name.lowercase().replace('_', '-')
 
     /**
-     * Writes a header with the units in its names, and a line for each cell, row by row from the south-west. The unit of
-     * value, lower and upper is the mission's and stands in a column of its own; empty where it has none.
+     * Writes a header with the units in its names, and a line for each cell, row by row from the south-west. The unit
+     * of value, lower and upper is the mission's and stands in a column of its own; empty where it has none.
      */
     public fun csv(out: Appendable) {
         out.append("column,row,x_m,y_m,lat_deg,lon_deg,value,lower,upper,visits,readings,conflicts,quantity,unit\n")

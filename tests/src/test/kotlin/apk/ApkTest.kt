@@ -59,8 +59,8 @@ class ApkTest {
     /**
      * The packager verifies the signatures themselves; here, that both are there for those who ask.
      *
-     * Source: Android's documentation of APK Signature Scheme v2, "APK Signing Block": between the entries and the central
-     * directory, pairs of a length (8 bytes) and an identifier (4), the length of all (8) and a magic word (16).
+     * Source: Android's documentation of APK Signature Scheme v2, "APK Signing Block": between the entries and the
+     * central directory, pairs of a length (8 bytes) and an identifier (4), the length of all (8), a magic word (16).
      */
     @Test
     fun itIsSignedByTheSchemesTwoAndThree() {

@@ -82,7 +82,7 @@ internal class MapScreen(private val context: Context) : Screen {
         fun boat(report: MissionReport, snapshot: BoatSnapshot): Position? =
             report.position?.takeIf { !report.isOver } ?: atRest(report, snapshot)
 
-        /** Where the phone is, while no mission under way knows its boat; null where that is not known, or elsewhere. */
+        /** Where the phone is, while no mission under way knows its boat; null where nobody knows, or elsewhere. */
         fun atRest(report: MissionReport, snapshot: BoatSnapshot): Position? {
             val fix = snapshot.freshFix ?: return null
             val origin = report.spec.origin

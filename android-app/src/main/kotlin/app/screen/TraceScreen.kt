@@ -7,6 +7,7 @@ import stillwater.app.mission.MissionReport
 import stillwater.app.mission.TracePoint
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.setup.words
+import stillwater.model.Grid
 import stillwater.model.Interval
 
 /** The probe's last minutes in numbers and as a curve. */
@@ -75,6 +76,7 @@ internal class TraceScreen(private val context: Context) : Screen {
             point.seconds,
             point.reading,
             point.gradient ?: Double.NaN,
+            point.cell ?: Grid.OUTSIDE,
             point.corrected ?: Double.NaN,
             point.lower ?: Double.NaN,
             point.upper ?: Double.NaN,

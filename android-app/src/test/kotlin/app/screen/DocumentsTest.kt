@@ -104,7 +104,8 @@ class DocumentsTest {
         assertEquals(1, table.drop(1).count { it[table[0].indexOf("readings")] == "2" })
         out.reset()
         assertEquals("application/geo+json", choose("GeoJSON", document).type)
-        val feature = Json.parseToJsonElement(out.toString()).jsonObject.getValue("features").jsonArray.single().jsonObject
+        val shapes = Json.parseToJsonElement(out.toString()).jsonObject
+        val feature = shapes.getValue("features").jsonArray.single().jsonObject
         assertEquals("mg/L", feature.getValue("properties").jsonObject.getValue("unit").jsonPrimitive.content)
         // Longitude first, as the standard has it and no map says: the other way round lies in Antarctica.
         val ring = feature.getValue("geometry").jsonObject.getValue("coordinates").jsonArray.single().jsonArray

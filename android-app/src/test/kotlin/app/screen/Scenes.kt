@@ -174,7 +174,7 @@ internal object Scenes {
                     filter.update(BoatTime(time), center.x, center.y, value)
                     val now = filter.map
                     val slope = (value - (trace.lastOrNull()?.reading ?: value))
-                    trace += TracePoint(time, value, slope, now.value(cell), now.lower(cell), now.upper(cell))
+                    trace += TracePoint(time, value, slope, cell, now.value(cell), now.lower(cell), now.upper(cell))
                 }
             }
         }

@@ -18,13 +18,17 @@ import stillwater.app.mission.LogOutput
 import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
+import java.io.File
 import java.io.FileOutputStream
 import java.time.Duration
 import kotlin.test.assertEquals
 import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
-/** Two hours on the demo's water, in virtual time: nothing grows, nothing is lost. */
+/**
+ * Two hours on the demo's water, in virtual time: nothing grows, nothing is lost. The numbers are written to
+ * `target/long-mission.txt`.
+ */
 @RunWith(RobolectricTestRunner::class)
 @Config(sdk = [35])
 class LongMissionTest {
@@ -91,6 +95,10 @@ class LongMissionTest {
         assertEquals(counts.taken, read.readings)
         assertEquals(0L, read.unreadable)
         assertEquals("stopped", read.lastState)
+        File("target/long-mission.txt").apply { absoluteFile.parentFile.mkdirs() }.writeText(
+            "heap in use after 50 min: $early bytes, after 100 min: $late\n$counts\n$log, " +
+                "${BoatService.logOf(context, log.name).length()} bytes\n",
+        )
     }
 
     /** Lets [seconds] s pass, files keeping up. */
