@@ -39,10 +39,12 @@ class MainActivityTest {
     }
 
     @Test
-    fun stopIsOnEveryScreenAndStops() {
+    fun everyScreenHasStopAndWhatCanBePressedIsLargeAndHasAName() {
         val activity = Window().activity
         for (name in ScreenName.entries) {
             activity.open(name)
+            activity.show(Scenes.recovered)
+            checkPressable(activity, name)
             val stop = activity.view<View>(R.id.stop)
             assertTrue(stop.isShown, "$name")
             assertTrue(stop.isEnabled)
@@ -55,6 +57,21 @@ class MainActivityTest {
     }
 
     @Test
+    fun aTurnOfThePhoneKeepsTheScreenAndTheWayBack() {
+        val window = Window()
+        window.activity.go(ScreenName.TRACE)
+        window.activity.go(ScreenName.LINK)
+        val before = window.activity
+        window.controller.recreate()
+        assertTrue(before !== window.activity && before.isDestroyed)
+        assertEquals("Link", window.activity.view<TextView>(R.id.menu).text.toString().drop(2))
+        @Suppress("DEPRECATION")
+        window.activity.onBackPressed()
+        assertTrue(window.activity.view<View>(R.id.trace).isShown)
+    }
+
+    @Test
+    @Config(sdk = [35])
     fun theWayThroughTheScreensOutlivesATurnOfThePhoneAndBackLeadsAlongIt() {
         val window = Window()
         window.activity.go(ScreenName.MISSION)
@@ -112,16 +129,6 @@ class MainActivityTest {
         assertEquals(emptyList(), Preflight.missingPermissions(context))
         activity.show(Scenes.loaded)
         assertTrue("All in order" in activity.wordsShown())
-    }
-
-    @Test
-    fun whatCanBePressedIsLargeAndHasAName() {
-        val activity = Window().activity
-        for (name in ScreenName.entries) {
-            activity.open(name)
-            activity.show(Scenes.recovered)
-            checkPressable(activity, name)
-        }
     }
 
     /** Views are the same on all Androids: what comes and goes, and what unfolds, on one. */
