@@ -85,7 +85,7 @@ internal fun Context.boundsWords(lower: Double, upper: Double, range: Interval?)
         isLowerKnown && isUpperKnown -> getString(R.string.bounds_both, lower, upper)
         isUpperKnown -> getString(R.string.bounds_upper, upper)
         isLowerKnown -> getString(R.string.bounds_lower, lower)
-        else -> getString(R.string.bounds_none, lower, upper)
+        else -> getString(R.string.bounds_none, range?.lower ?: lower, range?.upper ?: upper)
     }
 }
 
