@@ -51,20 +51,23 @@ internal class UsbTransport(
     private var askedFor: UsbDevice? = null
 
     override fun connection(): Connection {
-        val manager = this.manager ?: throw IOException("this phone is no USB host")
+        val manager = this.manager ?: fail(R.string.usb_no_host)
         // The choice may have been kept by a build that had the library.
-        if (!SerialDrivers.areBuiltIn) throw IOException(context.getString(R.string.usb_missing))
-        val driver = drivers.find(manager).firstOrNull() ?: throw IOException("no USB serial adapter is plugged in")
+        if (!SerialDrivers.areBuiltIn) fail(R.string.usb_missing)
+        val driver = drivers.find(manager).firstOrNull() ?: fail(R.string.usb_no_adapter)
         val device = driver.device
         if (!manager.hasPermission(device)) {
             // Once for each time it is plugged in: the dialog is not to come back every few seconds.
             if (device != askedFor) manager.requestPermission(device, permissionAnswer(context))
             askedFor = device
-            throw IOException("the USB permission is not given yet")
+            fail(R.string.usb_not_permitted)
         }
         askedFor = null
-        return UsbConnection(manager, device, driver.ports.firstOrNull() ?: throw IOException("no serial port"))
+        val port = driver.ports.firstOrNull() ?: fail(R.string.usb_no_port)
+        return UsbConnection(manager, device, port, context.getString(R.string.usb_not_opened))
     }
+
+    private fun fail(words: Int): Nothing = throw IOException(context.getString(words))
 
     companion object {
         /** What Android tells us when the person has answered; stays within the app. */
@@ -83,9 +86,10 @@ private class UsbConnection(
     private val manager: UsbManager,
     private val device: UsbDevice,
     private val port: UsbSerialPort,
+    private val notOpened: String,
 ) : Connection {
     override fun open() {
-        val opened = manager.openDevice(device) ?: throw IOException("Android does not open the USB device")
+        val opened = manager.openDevice(device) ?: throw IOException(notOpened)
         try {
             port.open(opened)
             port.setParameters(BAUD, DATA_BITS, UsbSerialPort.STOPBITS_1, UsbSerialPort.PARITY_NONE)

@@ -1,5 +1,7 @@
 package stillwater.app.screen
 
+import android.Manifest.permission.BLUETOOTH_CONNECT
+import android.bluetooth.BluetoothManager
 import android.view.View
 import android.widget.TextView
 import org.junit.After
@@ -36,6 +38,27 @@ class LinkScreenTest {
         val words = activity.wordsShown()
         assertTrue("Connect to USB serial" !in words)
         assertTrue(words.any { it.startsWith("USB: not in this build of the app. Connect by Bluetooth") }, "$words")
+    }
+
+    /** "No paired device" would send a person to the wrong settings. */
+    @Test
+    fun whatStandsInBluetoothsWayIsSaidAndGoesWhenItIsMended() {
+        val adapter = checkNotNull(activity.getSystemService(BluetoothManager::class.java)).adapter
+        val shadow = shadowOf(activity.application)
+        shadow.denyPermissions(BLUETOOTH_CONNECT)
+        shadowOf(adapter).setEnabled(false)
+        activity.show(BoatSnapshot())
+        assertTrue("✗ Bluetooth is not permitted yet" in activity.wordsShown(), "${activity.wordsShown()}")
+        activity.button(activity.getString(R.string.allow)).performClick()
+        val asked = shadowOf(activity).lastRequestedPermission.requestedPermissions.toList()
+        assertTrue(BLUETOOTH_CONNECT in asked, "$asked")
+        shadow.grantPermissions(BLUETOOTH_CONNECT)
+        activity.show(BoatSnapshot())
+        assertTrue("✗ Bluetooth is off: switch it on in the phone's settings" in activity.wordsShown())
+        shadowOf(adapter).setEnabled(true)
+        activity.show(BoatSnapshot())
+        assertTrue(activity.wordsShown().none { it.startsWith("✗") }, "${activity.wordsShown()}")
+        assertTrue(activity.getString(R.string.no_paired) in activity.wordsShown())
     }
 
     @Test
