@@ -21,7 +21,7 @@ class TraceSceneTest {
         assertEquals(expected, settled.map { it.lower })
         assertEquals(expected.map { it + 1 }, settled.map { it.corrected })
         assertEquals(expected.map { it + 2 }, settled.map { it.upper })
-        assertEquals(moments.map { it.seconds to it.reading }, settled.map { it.seconds to it.reading }, "as it was said")
+        assertEquals(moments.map { it.seconds to it.reading }, settled.map { it.seconds to it.reading }, "as said")
         assertEquals(emptyList(), TraceScene().settled)
     }
 }
