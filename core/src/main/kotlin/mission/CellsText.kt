@@ -20,10 +20,14 @@ import stillwater.model.Position
  */
 public class CellsText(private val spec: MissionSpec, private val map: FieldMap) {
     private val frame = LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude))
+    private val quantity = spec.probe.quantity.name.lowercase().replace('_', '-')
 
-    /** Writes a header with the units in its names, and a line for each cell, row by row from the south-west. */
+    /**
+     * Writes a header with the units in its names, and a line for each cell, row by row from the south-west. The unit
+     * of value, lower and upper is the mission's and stands in a column of its own; empty where it has none.
+     */
     public fun csv(out: Appendable) {
-        out.append("column,row,x_m,y_m,lat_deg,lon_deg,value,lower,upper,visits,readings,conflicts\n")
+        out.append("column,row,x_m,y_m,lat_deg,lon_deg,value,lower,upper,visits,readings,conflicts,quantity,unit\n")
         for (cell in 0 until map.grid.size) {
             val center = map.grid.center(cell)
             val place = frame.toLatLon(center)
@@ -31,7 +35,8 @@ public class CellsText(private val spec: MissionSpec, private val map: FieldMap)
                 listOf(value(cell), map.lower(cell), map.upper(cell))
             out.append("${cell % map.grid.columns},${cell / map.grid.columns},")
             out.append(numbers.joinToString(",") { if (it.isFinite()) it.toString() else "" })
-            out.append(",${map.visits(cell)},${map.readings(cell)},${map.conflicts(cell)}\n")
+            out.append(",${map.visits(cell)},${map.readings(cell)},${map.conflicts(cell)}")
+            out.append(",$quantity,${spec.probe.quantity.unit}\n")
         }
     }
 
@@ -54,7 +59,7 @@ public class CellsText(private val spec: MissionSpec, private val map: FieldMap)
         val ring = JsonArray((corners + corners.first()).map(::coordinates))
         val properties = mapOf(
             "mission" to JsonPrimitive(spec.name),
-            "quantity" to JsonPrimitive(spec.probe.quantity.name.lowercase().replace('_', '-')),
+            "quantity" to JsonPrimitive(quantity),
             "unit" to JsonPrimitive(spec.probe.quantity.unit),
             "column" to JsonPrimitive(cell % map.grid.columns),
             "row" to JsonPrimitive(cell / map.grid.columns),

@@ -20,17 +20,20 @@ import kotlin.math.abs
 @Serializable
 public data class PlaceSpec(@SerialName("x_m") val x: Double, @SerialName("y_m") val y: Double) {
     init {
-        require(abs(x) <= FARTHEST && abs(y) <= FARTHEST) {
+        require(reaches(Position(x, y))) {
             "x_m, y_m ($x, $y) must be within $FARTHEST m of the origin"
         }
     }
 
-    private companion object {
-        const val FARTHEST = 100_000.0
-    }
-
     /** The same in the local frame. */
     public val position: Position get() = Position(x, y)
+
+    public companion object {
+        private const val FARTHEST = 100_000.0
+
+        /** Whether [position], m from a mission's origin, is near enough to be a place of that mission. */
+        public fun reaches(position: Position): Boolean = abs(position.x) <= FARTHEST && abs(position.y) <= FARTHEST
+    }
 }
 
 /** Where the mission's frame has its zero, degrees, WGS-84. */

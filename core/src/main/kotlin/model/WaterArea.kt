@@ -217,14 +217,15 @@ private object Outline {
         val different = corners.filterIndexed { index, corner -> index == 0 || corner != corners[index - 1] }
         val open = if (different.size > 1 && different.last() == different.first()) different.dropLast(1) else different
         require(open.distinct().size >= CORNERS) { "$name has ${open.distinct().size} different corners; it needs 3" }
-        require(twiceArea(open) != 0.0) { "$name encloses no area" }
+        require(!isStraight(open)) { "$name encloses no area: its corners lie on one line" }
         return open
     }
 
-    private fun twiceArea(corners: List<Position>) = corners.indices.sumOf { i ->
-        val a = corners[i]
-        val b = corners[(i + 1) % corners.size]
-        (a.x - corners[0].x) * (b.y - corners[0].y) - (b.x - corners[0].x) * (a.y - corners[0].y)
+    /** Not by the area: that of a rectangle whose corners come in the wrong order is 0, too, and it crosses itself. */
+    private fun isStraight(corners: List<Position>): Boolean {
+        val a = corners[0]
+        val b = corners.first { it != a }
+        return corners.all { (b.x - a.x) * (it.y - a.y) == (it.x - a.x) * (b.y - a.y) }
     }
 
     private const val CORNERS = 3

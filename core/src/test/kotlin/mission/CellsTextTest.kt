@@ -32,6 +32,7 @@ class CellsTextTest {
         assertTrue(lines.all { it.split(',').size == columns.size })
         val measured = columns.zip(lines[2].split(',')).toMap()
         assertEquals(listOf("1", "0", "8.5", "8.0", "", "1", "1"), measured.values(MEASURED))
+        assertEquals(listOf("dissolved-oxygen", "mg/L"), measured.values(listOf("quantity", "unit")))
         assertEquals("", columns.zip(lines[1].split(',')).toMap()["value"])
         // The centre is where the grid has it, to the millimetre that a degree's digits leave.
         val place = LatLon(measured.getValue("lat_deg").toDouble(), measured.getValue("lon_deg").toDouble())
@@ -50,6 +51,7 @@ class CellsTextTest {
         assertEquals(1, properties.getValue("column").jsonPrimitive.int)
         val ring = feature.getValue("geometry").jsonObject.getValue("coordinates").jsonArray.single().jsonArray
             .map { corner -> corner.jsonArray.map { it.jsonPrimitive.double } }
+        assertEquals("mg/L", properties.getValue("unit").jsonPrimitive.content)
         assertEquals(5, ring.size)
         assertEquals(ring.first(), ring.last())
         val local = ring.map { (longitude, latitude) -> frame().toLocal(LatLon(latitude, longitude)) }

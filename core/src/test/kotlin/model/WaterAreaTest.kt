@@ -109,7 +109,16 @@ class WaterAreaTest {
     fun saysWhatIsWrongWithAnOutline() {
         val bow = ring(0.0 to 0.0, 10.0 to 10.0, 10.0 to 0.0, 0.0 to 10.0)
         assertTrue("the shore crosses or touches itself: edge 1" in refusal(bow + Position(-5.0, 3.0)), refusal(bow))
-        assertEquals("the shore encloses no area", refusal(bow))
+        assertEquals(
+            "the shore crosses or touches itself: edge 1 (0.0 m, 0.0 m) to (10.0 m, 10.0 m) meets edge 3 " +
+                "(10.0 m, 0.0 m) to (0.0 m, 10.0 m)",
+            refusal(bow),
+            "a square whose corners were named in the wrong order",
+        )
+        assertEquals(
+            "the shore encloses no area: its corners lie on one line",
+            refusal(ring(0.0 to 0.0, 10.0 to 5.0, 20.0 to 10.0, 30.0 to 15.0)),
+        )
         assertEquals("the shore has 2 different corners; it needs 3", refusal(ring(0.0 to 0.0, 1.0 to 0.0, 0.0 to 0.0)))
         assertEquals(
             "the shore has a corner that is not finite",

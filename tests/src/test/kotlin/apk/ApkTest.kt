@@ -56,6 +56,28 @@ class ApkTest {
         assertTrue(apk.length() < 8_000_000, "${apk.length()} bytes")
     }
 
+    /**
+     * The packager verifies the signatures themselves; here, that both are there for those who ask.
+     *
+     * Source: Android's documentation of APK Signature Scheme v2, "APK Signing Block": between the entries and the
+     * central directory, pairs of a length (8 bytes) and an identifier (4), the length of all (8), a magic word (16).
+     */
+    @Test
+    fun itIsSignedByTheSchemesTwoAndThree() {
+        val bytes = ByteBuffer.wrap(apk.readBytes()).order(ByteOrder.LITTLE_ENDIAN)
+        val end = (bytes.limit() - END_SIZE downTo 0).first { bytes.getInt(it) == END_MARK }
+        val directory = bytes.getInt(end + 16)
+        assertEquals("APK Sig Block 42", String(bytes.array(), directory - 16, 16))
+        val size = bytes.getLong(directory - 24).toInt()
+        val schemes = mutableSetOf<Int>()
+        var pair = directory - size
+        while (pair < directory - 24) {
+            schemes += bytes.getInt(pair + 8)
+            pair += 8 + bytes.getLong(pair).toInt()
+        }
+        assertTrue(SCHEME_2 in schemes && SCHEME_3 in schemes, "$schemes")
+    }
+
     /** Android maps what is stored into memory, and wants it at a multiple of four. */
     @Test
     fun whatIsStoredIsAligned() {
@@ -113,6 +135,8 @@ class ApkTest {
     private companion object {
         const val END_MARK = 0x06054b50
         const val END_SIZE = 22
+        const val SCHEME_2 = 0x7109871a
+        const val SCHEME_3 = -0xfac9740 // 0xf05368c0
 
         /** What comes with Kotlin's own library, and what D8 marks the classes with that it makes. */
         val ANNOTATIONS =

@@ -9,6 +9,7 @@ import android.os.Build
 import com.hoho.android.usbserial.driver.UsbSerialDriver
 import com.hoho.android.usbserial.driver.UsbSerialPort
 import com.hoho.android.usbserial.driver.UsbSerialProber
+import stillwater.app.R
 import java.io.IOException
 
 /** Finds the serial adapters that are plugged in. A seam, because the library's own prober needs real hardware. */
@@ -20,10 +21,13 @@ internal fun interface SerialDrivers {
         /** CDC-ACM, FTDI, CH34x, CP21xx and what else usb-serial-for-android knows. */
         val LIBRARY = SerialDrivers { UsbSerialProber.getDefaultProber().findAllDrivers(it) }
 
-        /** Whether the library is in this build; the one that Maven makes is without it. */
-        fun areBuiltIn(): Boolean =
+        /** Whether the library is in this build; the one that Maven makes is without it, and a test may be. */
+        @Volatile var areBuiltIn: Boolean = has("com.hoho.android.usbserial.driver.UsbSerialProber")
+
+        /** Whether the program has the class [name]. */
+        fun has(name: String): Boolean =
             try {
-                Class.forName("com.hoho.android.usbserial.driver.UsbSerialProber")
+                Class.forName(name)
                 true
             } catch (_: ClassNotFoundException) {
                 false
@@ -47,18 +51,23 @@ internal class UsbTransport(
     private var askedFor: UsbDevice? = null
 
     override fun connection(): Connection {
-        val manager = this.manager ?: throw IOException("this phone is no USB host")
-        val driver = drivers.find(manager).firstOrNull() ?: throw IOException("no USB serial adapter is plugged in")
+        val manager = this.manager ?: fail(R.string.usb_no_host)
+        // The choice may have been kept by a build that had the library.
+        if (!SerialDrivers.areBuiltIn) fail(R.string.usb_missing)
+        val driver = drivers.find(manager).firstOrNull() ?: fail(R.string.usb_no_adapter)
         val device = driver.device
         if (!manager.hasPermission(device)) {
             // Once for each time it is plugged in: the dialog is not to come back every few seconds.
             if (device != askedFor) manager.requestPermission(device, permissionAnswer(context))
             askedFor = device
-            throw IOException("the USB permission is not given yet")
+            fail(R.string.usb_not_permitted)
         }
         askedFor = null
-        return UsbConnection(manager, device, driver.ports.firstOrNull() ?: throw IOException("no serial port"))
+        val port = driver.ports.firstOrNull() ?: fail(R.string.usb_no_port)
+        return UsbConnection(manager, device, port, context.getString(R.string.usb_not_opened))
     }
+
+    private fun fail(words: Int): Nothing = throw IOException(context.getString(words))
 
     companion object {
         /** What Android tells us when the person has answered; stays within the app. */
@@ -77,19 +86,28 @@ private class UsbConnection(
     private val manager: UsbManager,
     private val device: UsbDevice,
     private val port: UsbSerialPort,
+    private val notOpened: String,
 ) : Connection {
     override fun open() {
-        val opened = manager.openDevice(device) ?: throw IOException("Android does not open the USB device")
+        val opened = manager.openDevice(device) ?: throw IOException(notOpened)
         try {
             port.open(opened)
             port.setParameters(BAUD, DATA_BITS, UsbSerialPort.STOPBITS_1, UsbSerialPort.PARITY_NONE)
-            port.setDTR(true)
-            port.setRTS(true)
+            raise(port::setDTR)
+            raise(port::setRTS)
         } catch (error: IOException) {
             opened.close()
             throw error
         }
     }
+
+    /** The library's drivers for adapters without such a line refuse: their boards do not wait for one. */
+    private fun raise(line: (Boolean) -> Unit) =
+        try {
+            line(true)
+        } catch (_: UnsupportedOperationException) {
+            Unit
+        }
 
     /** The library reads what is there and answers 0 when the time is over. */
     override fun read(into: ByteArray): Int = port.read(into, READ_MILLIS)

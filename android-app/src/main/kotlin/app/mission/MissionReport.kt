@@ -61,6 +61,7 @@ class MissionReport(
  * @property seconds when it was sampled, s on the boat's clock.
  * @property reading the probe's own word, sensor units.
  * @property gradient its change, sensor units/s, over the last readings; null before there are enough.
+ * @property cell of the map that it was taken in; null where that is in none.
  * @property corrected value believed in the cell, sensor units; null where the reading lay in no cell.
  * @property lower bound of it; null likewise.
  * @property upper bound of it; null likewise.
@@ -69,6 +70,7 @@ data class TracePoint(
     val seconds: Double,
     val reading: Double,
     val gradient: Double?,
+    val cell: Int?,
     val corrected: Double?,
     val lower: Double?,
     val upper: Double?,

@@ -21,6 +21,7 @@ internal class Trace {
                 reading.time.seconds,
                 reading.value,
                 if (slope.full) slope.slope() else null,
+                cell,
                 cell?.let(map::value),
                 cell?.let(map::lower),
                 cell?.let(map::upper),

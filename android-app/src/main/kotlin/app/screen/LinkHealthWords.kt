@@ -71,7 +71,7 @@ internal class LinkHealthWords(private val context: Context) {
             if (fix == null || age == null) {
                 HealthLine(text(R.string.no_fix_line))
             } else {
-                HealthLine(fixWords(fix.accuracyMetres, age), isBad = age > OLD_FIX)
+                HealthLine(fixWords(fix.accuracyMetres, age), isBad = snapshot.freshFix == null)
             },
             HealthLine(text(R.string.fix_counts, fixes.received, fixes.jumps, fixes.wide, fixes.refused))
                 .takeIf { fixes.received > 0 },
@@ -124,8 +124,5 @@ internal class LinkHealthWords(private val context: Context) {
 
         /** A board answers several times a second, ms. */
         const val LONG_QUIET = 2_000
-
-        /** As on the checklist, s. */
-        const val OLD_FIX = 3.0
     }
 }

@@ -19,6 +19,9 @@ internal class LinkScreen(private val context: Context, private val host: Screen
     private val choices = context.column()
     private val rates = LinkRates()
     private var offered: List<LinkChoice>? = null
+
+    /** What stood in Bluetooth's way when links were offered; null where nothing did. */
+    private var obstacle: Int? = null
     private val choose = context.heading(context.getString(R.string.choose_link))
     private val another =
         context.largeButton(context.getString(R.string.another_link)) { choices.show(!choices.isShown) }
@@ -38,6 +41,8 @@ internal class LinkScreen(private val context: Context, private val host: Screen
 
     override fun show(snapshot: BoatSnapshot) {
         rates.look(SystemClock.elapsedRealtime(), snapshot)
+        // Permitted or switched on meanwhile.
+        if (BluetoothTransport.obstacle(context) != obstacle) offer()
         fold(snapshot.linkName != null)
         val words = parts.of(snapshot, rates)
         while (lines.size < words.size) {
@@ -64,14 +69,23 @@ internal class LinkScreen(private val context: Context, private val host: Screen
 
     /** Offers what there is to connect to now. */
     private fun offer() {
+        val obstacle = BluetoothTransport.obstacle(context)
         val paired =
             BluetoothTransport.paired(context).map { LinkChoice.Bluetooth(it.address, it.name ?: it.address) }
-        val usb = if (SerialDrivers.areBuiltIn()) listOf(LinkChoice.Usb) else emptyList()
+        val usb = if (SerialDrivers.areBuiltIn) listOf(LinkChoice.Usb) else emptyList()
         val now: List<LinkChoice> = paired + usb + LinkChoice.Demo
-        if (now == offered) return
+        if (now == offered && obstacle == this.obstacle) return
         offered = now
+        this.obstacle = obstacle
         choices.removeAllViews()
-        if (paired.isEmpty()) choices.below(context.line(context.getString(R.string.no_paired)))
+        if (obstacle != null) {
+            val words = context.getString(R.string.problem, context.getString(obstacle))
+            choices.below(context.line(words, R.color.bad))
+        }
+        if (obstacle == R.string.bluetooth_not_permitted) {
+            choices.below(context.largeButton(context.getString(R.string.allow)) { host.allow() })
+        }
+        if (obstacle == null && paired.isEmpty()) choices.below(context.line(context.getString(R.string.no_paired)))
         for (choice in now) {
             val name =
                 when (choice) {

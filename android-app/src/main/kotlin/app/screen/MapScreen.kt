@@ -51,7 +51,7 @@ internal class MapScreen(private val context: Context) : Screen {
 
     override fun show(snapshot: BoatSnapshot) {
         // The same report twice is drawn once.
-        val boat = snapshot.mission?.let { it.position ?: atRest(it, snapshot) }
+        val boat = snapshot.mission?.let { boat(it, snapshot) }
         val now = listOf(snapshot.mission, snapshot.headingDeg, boat)
         if (drawn == now) return
         drawn = now
@@ -78,9 +78,13 @@ internal class MapScreen(private val context: Context) : Screen {
         /** Farther from home, the phone is not on this water, and the map would shrink to a dot beside it, m. */
         const val FAR = 1_000.0
 
-        /** Where the phone is, while no mission under way knows its boat; null where that is not at this water. */
+        /** Where the boat is; a mission that is over knows no more where its boat was led or drifted. */
+        fun boat(report: MissionReport, snapshot: BoatSnapshot): Position? =
+            report.position?.takeIf { !report.isOver } ?: atRest(report, snapshot)
+
+        /** Where the phone is, while no mission under way knows its boat; null where nobody knows, or elsewhere. */
         fun atRest(report: MissionReport, snapshot: BoatSnapshot): Position? {
-            val fix = snapshot.fix ?: return null
+            val fix = snapshot.freshFix ?: return null
             val origin = report.spec.origin
             val place = LocalFrame(LatLon(origin.latitude, origin.longitude)).toLocal(fix.place)
             return place.takeIf { it.distanceTo(report.spec.home.position) < FAR }

@@ -78,8 +78,9 @@ internal class MapView(context: Context) : WaterView(context) {
     }
 
     private fun told(map: FieldMap, cell: Int): String {
+        val bounds = context.boundsWords(map.lower(cell), map.upper(cell), map.prior)
         if (map.readings(cell) == 0) {
-            return resources.getString(R.string.cell_not_measured, map.lower(cell), map.upper(cell), scene.unit).trim()
+            return resources.getString(R.string.cell_not_measured, bounds, scene.unit).trim()
         }
         val said =
             resources.getQuantityString(
@@ -87,8 +88,7 @@ internal class MapView(context: Context) : WaterView(context) {
                 map.readings(cell),
                 map.value(cell),
                 scene.unit,
-                map.lower(cell),
-                map.upper(cell),
+                bounds,
                 map.readings(cell),
             )
         val age = scene.ageOf(cell) ?: return said

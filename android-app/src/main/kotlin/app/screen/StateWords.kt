@@ -12,6 +12,7 @@ import stillwater.app.setup.words
 import stillwater.control.Danger
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
+import stillwater.model.Interval
 
 /** What the boat does and how the link is: two short lines for the top of every screen. */
 internal fun Context.stateWords(snapshot: BoatSnapshot): String {
@@ -76,6 +77,17 @@ internal fun LinkState.words(): Int =
         LinkState.WAITING -> R.string.link_waiting
         LinkState.CLOSED -> R.string.link_closed
     }
+
+/** What is known of a value that lies from [lower] to [upper]: an end that [range], too, has says nothing of it. */
+internal fun Context.boundsWords(lower: Double, upper: Double, range: Interval?): String {
+    val (isLowerKnown, isUpperKnown) = (range == null || lower > range.lower) to (range == null || upper < range.upper)
+    return when {
+        isLowerKnown && isUpperKnown -> getString(R.string.bounds_both, lower, upper)
+        isUpperKnown -> getString(R.string.bounds_upper, upper)
+        isLowerKnown -> getString(R.string.bounds_lower, lower)
+        else -> getString(R.string.bounds_none, range?.lower ?: lower, range?.upper ?: upper)
+    }
+}
 
 /** Why a command was not followed. */
 internal fun Context.answerWords(answer: Answer): String {

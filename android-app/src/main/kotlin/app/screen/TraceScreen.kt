@@ -7,6 +7,8 @@ import stillwater.app.mission.MissionReport
 import stillwater.app.mission.TracePoint
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.setup.words
+import stillwater.model.Grid
+import stillwater.model.Interval
 
 /** The probe's last minutes in numbers and as a curve. */
 internal class TraceScreen(private val context: Context) : Screen {
@@ -53,7 +55,7 @@ internal class TraceScreen(private val context: Context) : Screen {
                 ).trim()
             },
         )
-        corrected.say(last?.let { believed(it, unit) })
+        corrected.say(last?.let { believed(it, unit, probe?.range) })
         gradient.say(
             last?.let { point ->
                 point.gradient?.takeIf { it.isFinite() }?.let { context.getString(R.string.trace_slope, it, unit) }
@@ -63,10 +65,10 @@ internal class TraceScreen(private val context: Context) : Screen {
         trace.scene = TraceScene(report?.trace.orEmpty().map(::moment), unit)
     }
 
-    private fun believed(point: TracePoint, unit: String): String {
+    private fun believed(point: TracePoint, unit: String, range: Interval?): String {
         val value = point.corrected ?: return context.getString(R.string.trace_no_cell)
         val (lower, upper) = (point.lower ?: Double.NaN) to (point.upper ?: Double.NaN)
-        return context.getString(R.string.trace_corrected, value, unit, lower, upper)
+        return context.getString(R.string.trace_corrected, value, unit, context.boundsWords(lower, upper, range))
     }
 
     private fun moment(point: TracePoint) =
@@ -74,6 +76,7 @@ internal class TraceScreen(private val context: Context) : Screen {
             point.seconds,
             point.reading,
             point.gradient ?: Double.NaN,
+            point.cell ?: Grid.OUTSIDE,
             point.corrected ?: Double.NaN,
             point.lower ?: Double.NaN,
             point.upper ?: Double.NaN,

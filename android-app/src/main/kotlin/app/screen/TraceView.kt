@@ -15,7 +15,8 @@ import kotlin.math.log10
 import kotlin.math.pow
 
 /**
- * The last minutes: readings, and what is believed of the water with its bounds; below, the gradient of the readings.
+ * The last minutes: readings, and what is believed of each cell that was crossed, with its bounds; below, the gradient of
+ * the readings.
  *
  * Newest at the right. Confined to the main thread.
  */
@@ -88,7 +89,7 @@ internal class TraceView(context: Context) : View(context) {
         drawFrame(canvas, panel, title)
         canvas.save()
         canvas.clipRect(panel.left, panel.top, panel.right, panel.bottom)
-        val known = moments.filter { it.lower.isFinite() && it.upper.isFinite() }
+        val known = scene.settled.filter { it.lower.isFinite() && it.upper.isFinite() }
         path.rewind()
         known.forEachIndexed { index, moment ->
             val x = panel.x(moment)
@@ -99,7 +100,7 @@ internal class TraceView(context: Context) : View(context) {
         canvas.drawPath(path, fill)
         drawLine(canvas, panel, moments, R.color.text) { it.reading }
         line.pathEffect = dashes
-        drawLine(canvas, panel, moments, R.color.plan) { it.corrected }
+        drawLine(canvas, panel, scene.settled, R.color.plan) { it.corrected }
         line.pathEffect = null
         canvas.restore()
     }

@@ -56,7 +56,10 @@ data class BoatSnapshot(
     val mission: MissionReport? = null,
     val answer: Answer? = null,
     val past: List<PastMission>? = null,
-)
+) {
+    /** [fix] while the phone is still there: as new as the checklist wants it; null otherwise. */
+    val freshFix: PhoneFix? get() = fix?.takeIf { fixAgeSeconds != null && fixAgeSeconds <= Preflight.OLDEST_FIX }
+}
 
 /**
  * What became of the receiver's fixes since the link was taken up.

@@ -23,6 +23,7 @@ import stillwater.app.screen.say
 import stillwater.app.service.BoatSnapshot
 import stillwater.mission.DraftField
 import stillwater.mission.MissionDraft
+import stillwater.mission.PlaceSpec
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
@@ -53,7 +54,12 @@ internal class AreaScreen(
     private val latitude = TextField(context, context.getString(R.string.latitude), isNumber = true) { typed() }
     private val longitude = TextField(context, context.getString(R.string.longitude), isNumber = true) { typed() }
     private var fix: PhoneFix? = null
-    private var fixAge: Double? = null
+
+    /** [fix], while the phone is still there. */
+    private var fresh: PhoneFix? = null
+
+    /** Why the last place was not added; null where it was. */
+    private var refusal: String? = null
 
     override val view: View = laidOut()
 
@@ -61,7 +67,7 @@ internal class AreaScreen(
 
     override fun show(snapshot: BoatSnapshot) {
         fix = snapshot.fix
-        fixAge = snapshot.fixAgeSeconds
+        fresh = snapshot.freshFix
         refresh()
     }
 
@@ -111,22 +117,13 @@ internal class AreaScreen(
 
     /** The draft's frame begins where the phone is, unless something has been drawn. */
     private fun refresh() {
-        val fix = this.fix
-        val isEmpty = desk.draft.run { shore.isEmpty() && keepOuts.isEmpty() && home == null }
-        if (fix != null && isEmpty) {
-            val old = desk.draft.frame()?.toLocal(fix.place)
-            // Not with every breath of the receiver: only for another water.
-            if (old == null || old.distanceTo(ORIGIN) > FAR) {
-                desk.change { it.copy(origin = null).around(fix.place) }
-            }
-        }
+        fix?.let { framed(desk.draft, it.place) }?.let { framed -> if (framed != desk.draft) desk.change { framed } }
         val draft = desk.draft
-        val here = fix?.let { draft.frame()?.toLocal(it.place) }
-        water.show(draft, pen, desk.check?.grid, here, fix?.accuracyMetres ?: 0f)
-        val usable = usable(fix, fixAge)
-        drop.isEnabled = usable != null
+        val here = fresh?.let { draft.frame()?.toLocal(it.place) }
+        water.show(draft, pen, desk.check?.grid, here, fresh?.accuracyMetres ?: 0f)
+        drop.isEnabled = fresh != null
         drop.say(
-            usable?.let { context.getString(R.string.drop_corner_within, it.accuracyMetres ?: Float.NaN) }
+            fresh?.let { context.getString(R.string.drop_corner_within, it.accuracyMetres ?: Float.NaN) }
                 ?: context.getString(R.string.drop_corner_no_fix),
         )
         remove.say(context.getString(if (pen.selected == null) R.string.undo_corner else R.string.remove_corner))
@@ -141,13 +138,12 @@ internal class AreaScreen(
             context.areaSummary(draft, check),
         )
         val wrong = listOf(DraftField.AREA, DraftField.HOME, DraftField.CELL).mapNotNull { check.problems[it] }
-        problem.say(wrong.firstOrNull()?.let { context.getString(R.string.problem, it) })
+        problem.say((refusal ?: wrong.firstOrNull())?.let { context.getString(R.string.problem, it) })
     }
-
-    private fun usable(fix: PhoneFix?, age: Double?) = fix?.takeIf { age != null && age <= OLDEST_FIX }
 
     private fun take(pen: AreaPen) {
         this.pen = pen
+        refusal = null
         onPen(pen)
         refresh()
     }
@@ -160,19 +156,32 @@ internal class AreaScreen(
     private fun place(position: Position) {
         // A touch beside a selected corner lets go of it first: nothing is added by mistake.
         if (pen.selected != null) return take(pen.copy(selected = null))
-        change { pen.add(it, position) }
+        add(desk.draft, position)
     }
 
     private fun dropHere() {
-        val fix = usable(fix, fixAge) ?: return
-        add(fix.place)
+        fresh?.let { add(it.place) }
     }
 
-    private fun add(place: LatLon) =
-        change { draft ->
-            val framed = draft.around(place)
-            framed.frame()?.let { pen.add(framed, it.toLocal(place)) } ?: draft
-        }
+    private fun add(place: LatLon) {
+        val framed = framed(desk.draft, place)
+        framed.frame()?.let { add(framed, it.toLocal(place)) }
+    }
+
+    /** [draft], which begins at [place] where nothing is drawn yet and it began at another water, or nowhere. */
+    private fun framed(draft: MissionDraft, place: LatLon): MissionDraft {
+        if (draft.shore.isNotEmpty() || draft.keepOuts.isNotEmpty() || draft.home != null) return draft
+        val old = draft.frame()?.toLocal(place)
+        // Not with every breath of the receiver.
+        return if (old != null && old.distanceTo(ORIGIN) <= FAR) draft else draft.copy(origin = null).around(place)
+    }
+
+    /** Adds [position] to [draft], unless it is of quite another water: a slip of the sign, or last week's draft. */
+    private fun add(draft: MissionDraft, position: Position) {
+        if (PlaceSpec.reaches(position)) return change { pen.add(draft, position) }
+        refusal = context.getString(R.string.far_place, position.distanceTo(ORIGIN) / METRES_PER_KM)
+        refresh()
+    }
 
     private fun shape(isRectangle: Boolean) = change { it.copy(isRectangle = isRectangle) }
 
@@ -190,6 +199,7 @@ internal class AreaScreen(
         longitude.problem(if (isEast) null else context.getString(R.string.bad_longitude, east))
         if (lat == null || lon == null || !isNorth || !isEast) return
         add(LatLon(lat, lon))
+        if (refusal != null) return
         latitude.fill("")
         longitude.fill("")
     }
@@ -205,11 +215,9 @@ internal class AreaScreen(
         const val CONTROLS_SHARE = 2f
         const val ZOOM = 1.6f
 
-        /** As on the checklist, s. */
-        const val OLDEST_FIX = 3.0
-
         /** Where a frame that nothing is drawn in begins anew, m. */
         const val FAR = 1_000.0
+        const val METRES_PER_KM = 1_000.0
         val ORIGIN = Position(0.0, 0.0)
     }
 }

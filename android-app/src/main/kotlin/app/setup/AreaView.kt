@@ -12,6 +12,7 @@ import stillwater.mission.MissionDraft
 import stillwater.mission.PlaceSpec
 import stillwater.model.Position
 import kotlin.math.floor
+import kotlin.math.hypot
 
 /**
  * The water as it is being drawn: a metric grid, the shore, keep-outs, home and where the phone is. There is no map
@@ -52,7 +53,7 @@ internal class AreaView(
         return listOf(all.single().moved(-FIRST_SPAN, -FIRST_SPAN), all.single().moved(FIRST_SPAN, FIRST_SPAN))
     }
 
-    /** A corner's number stands above it. */
+    /** A corner's number stands beyond it. */
     override fun head() = words.textSize
 
     override fun boat(): Position? = here
@@ -69,9 +70,10 @@ internal class AreaView(
         drawLine(canvas, projection, shore(), LineStyle(R.color.fence, OUTLINE_DP, isClosed = true))
         val keepOut = LineStyle(R.color.fence, OUTLINE_DP, isClosed = true, isDashed = true)
         for (ring in draft.keepOuts) drawLine(canvas, projection, ring.map { it.position }, keepOut)
-        draft.home?.position?.let { drawHome(canvas, projection.x(it), projection.y(it)) }
         drawCorners(canvas, projection, draft.shore, ring = -1)
         draft.keepOuts.forEachIndexed { ring, places -> drawCorners(canvas, projection, places, ring) }
+        drawNumbers(canvas, projection, draft.shore)
+        draft.home?.position?.let { drawHome(canvas, projection.x(it), projection.y(it)) }
         here?.let { drawHere(canvas, projection, it) }
         drawScale(canvas, projection)
     }
@@ -128,10 +130,23 @@ internal class AreaView(
                     else -> SMALL_CORNER_DP
                 }
             canvas.drawCircle(x, y, size * density, fill)
-            // A keep-out is small, and its numbers would hide it.
-            if (ring >= 0) return@forEachIndexed
-            words.textAlign = Paint.Align.CENTER
-            drawWords(canvas, "${index + 1}", x, y - LABEL_DP * density)
+        }
+    }
+
+    /** Of the shore's corners, on land: the water beside them has home, boat and cells. A keep-out's would hide it. */
+    private fun drawNumbers(canvas: Canvas, projection: MapProjection, places: List<PlaceSpec>) {
+        if (places.isEmpty()) return
+        val middleX = projection.x(Position(places.sumOf { it.x } / places.size, 0.0))
+        val middleY = projection.y(Position(0.0, places.sumOf { it.y } / places.size))
+        words.textAlign = Paint.Align.CENTER
+        places.forEachIndexed { index, place ->
+            val (x, y) = projection.x(place.position) to projection.y(place.position)
+            val far = hypot(x - middleX, y - middleY)
+            // A single corner has its number above it.
+            val (right, down) = if (far < 1f) 0f to -1f else (x - middleX) / far to (y - middleY) / far
+            val away = LABEL_DP * density
+            val at = (x + right * away).coerceIn(words.textSize / 2, maxOf(words.textSize, width - words.textSize / 2))
+            drawWords(canvas, "${index + 1}", at, y + down * away + words.textSize / 3)
         }
     }
 
@@ -148,7 +163,7 @@ internal class AreaView(
         const val CORNER_DP = 8f
         const val SMALL_CORNER_DP = 5f
         const val SELECTED_DP = 13f
-        const val LABEL_DP = 14f
+        const val LABEL_DP = 20f
         const val LEAST_CELL_DP = 5f
         const val GRID_SHARE = 0.2f
 

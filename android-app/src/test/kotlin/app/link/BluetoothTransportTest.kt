@@ -43,7 +43,7 @@ class BluetoothTransportTest {
     fun bluetoothThatIsOffIsAFailureToConnect() {
         shadowOf(adapter).setEnabled(false)
         val error = assertFailsWith<IOException> { BluetoothTransport(context, BOARD, "Boat 3").connection() }
-        assertEquals("Bluetooth is off", error.message)
+        assertEquals("Bluetooth is off: switch it on in the phone's settings", error.message)
     }
 
     @Test

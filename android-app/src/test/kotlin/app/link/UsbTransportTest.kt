@@ -7,6 +7,7 @@ import android.hardware.usb.UsbDeviceConnection
 import android.hardware.usb.UsbManager
 import com.hoho.android.usbserial.driver.UsbSerialDriver
 import com.hoho.android.usbserial.driver.UsbSerialPort
+import org.junit.After
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
@@ -19,6 +20,7 @@ import org.robolectric.util.ReflectionHelpers
 import java.io.IOException
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
@@ -29,6 +31,11 @@ class UsbTransportTest {
     private val plugged = mutableListOf<UsbSerialDriver>()
     private var devices = 0
     private val transport = UsbTransport(context, "USB serial") { plugged.toList() }
+
+    @After
+    fun withTheLibrary() {
+        SerialDrivers.areBuiltIn = true
+    }
 
     @Test
     fun withoutAnAdapterItSaysSo() {
@@ -60,6 +67,15 @@ class UsbTransportTest {
         assertEquals("close", driver.port.calls.last())
     }
 
+    /** A modem's driver in the library has no such lines, and says so by an exception that would end the process. */
+    @Test
+    fun anAdapterWithoutControlLinesIsOpenedAllTheSame() {
+        val driver = plugIn(granted = true)
+        driver.port.hasLines = false
+        connect()
+        assertEquals(listOf("open", "115200 8 1 0"), driver.port.calls)
+    }
+
     @Test
     fun aReplugIsAnotherDeviceAndIsFound() {
         plugIn(granted = true)
@@ -82,7 +98,17 @@ class UsbTransportTest {
     @Test
     fun theLibraryIsSeenWhereItIsOnTheClassPath() {
         // In this test its declarations stand for it; in the APK that Maven makes there is nothing (ApkTest).
-        assertTrue(SerialDrivers.areBuiltIn())
+        assertTrue(SerialDrivers.areBuiltIn)
+        assertFalse(SerialDrivers.has("com.hoho.android.usbserial.driver.NoSuchProber"))
+    }
+
+    /** An app that is updated by a build without the library may still hold USB as its link. */
+    @Test
+    fun aBuildWithoutTheLibraryFailsToConnectAndSaysWhy() {
+        SerialDrivers.areBuiltIn = false
+        val real = UsbTransport(context, "USB serial") { throw NoClassDefFoundError("UsbSerialProber") }
+        val error = assertFailsWith<IOException> { real.connection() }
+        assertEquals("this build of the app has no USB serial", error.message)
     }
 
     private fun connect(): Connection = transport.connection().apply { open() }
@@ -106,6 +132,12 @@ class UsbTransportTest {
     private class FakePort : UsbSerialPort {
         val calls = mutableListOf<String>()
         val opened get() = calls.count { it == "open" }
+        var hasLines = true
+
+        private fun line(words: String) {
+            if (!hasLines) throw UnsupportedOperationException()
+            calls += words
+        }
 
         override fun open(connection: UsbDeviceConnection?) {
             calls += "open"
@@ -115,13 +147,9 @@ class UsbTransportTest {
             calls += "$baudRate $dataBits $stopBits $parity"
         }
 
-        override fun setDTR(value: Boolean) {
-            calls += "dtr $value"
-        }
+        override fun setDTR(value: Boolean) = line("dtr $value")
 
-        override fun setRTS(value: Boolean) {
-            calls += "rts $value"
-        }
+        override fun setRTS(value: Boolean) = line("rts $value")
 
         override fun read(into: ByteArray, timeoutMillis: Int): Int = 0
 

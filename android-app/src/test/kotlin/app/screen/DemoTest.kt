@@ -61,7 +61,8 @@ class DemoTest {
             ComponentName(context, BoatService::class.java),
             binder,
         )
-        val activity = Robolectric.buildActivity(MainActivity::class.java).setup().get()
+        val window = Robolectric.buildActivity(MainActivity::class.java).setup()
+        var activity = window.get()
         pass(1.0)
         activity.go(ScreenName.LINK)
         activity.button("Connect to Demo: virtual boat").performClick()
@@ -77,6 +78,11 @@ class DemoTest {
         activity.view<View>(R.id.start).performClick()
         pass(60.0)
         assertTrue("Surveying" in activity.view<TextView>(R.id.state).text, "${activity.wordsShown()}")
+        // The phone is turned under way, and the window is another.
+        window.recreate()
+        activity = window.get()
+        pass(1.0)
+        assertTrue("Surveying" in activity.view<TextView>(R.id.state).text, "${activity.wordsShown()}")
         activity.go(ScreenName.MAP)
         pass(1.0)
         val said = activity.view<View>(R.id.map).contentDescription.toString()
@@ -86,7 +92,8 @@ class DemoTest {
         pass(2.0)
         assertTrue("Holding: you said hold" in activity.view<TextView>(R.id.state).text, "${activity.wordsShown()}")
         activity.view<View>(R.id.stop).performClick()
-        service.get().onStartCommand(shadowOf(context).nextStartedService, 0, 2)
+        // The new window's look at the service is recorded like a start, and comes before.
+        service.get().onStartCommand(generateSequence { shadowOf(context).nextStartedService }.last(), 0, 2)
         pass(12.0)
         assertTrue("Stopped: you stopped it" in activity.view<TextView>(R.id.state).text, "${activity.wordsShown()}")
         activity.go(ScreenName.PAST)

@@ -7,8 +7,10 @@ import android.net.Uri
 import android.view.View
 import android.widget.Button
 import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.double
 import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
@@ -102,8 +104,40 @@ class DocumentsTest {
         assertEquals(1, table.drop(1).count { it[table[0].indexOf("readings")] == "2" })
         out.reset()
         assertEquals("application/geo+json", choose("GeoJSON", document).type)
-        val features = Json.parseToJsonElement(out.toString()).jsonObject.getValue("features").jsonArray
-        assertEquals(1, features.size)
+        val shapes = Json.parseToJsonElement(out.toString()).jsonObject
+        val feature = shapes.getValue("features").jsonArray.single().jsonObject
+        assertEquals("mg/L", feature.getValue("properties").jsonObject.getValue("unit").jsonPrimitive.content)
+        // Longitude first, as the standard has it and no map says: the other way round lies in Antarctica.
+        val ring = feature.getValue("geometry").jsonObject.getValue("coordinates").jsonArray.single().jsonArray
+        for ((longitude, latitude) in ring.map { at -> at.jsonArray.map { it.jsonPrimitive.double } }) {
+            assertEquals(Scenes.spec.origin.longitude, longitude, 0.01)
+            assertEquals(Scenes.spec.origin.latitude, latitude, 0.01)
+        }
+    }
+
+    /** A log of a long day goes through a small buffer, and its map through the reader line by line. */
+    @Test
+    fun aLargeLogIsSharedInSmallPieces() {
+        val body = log.readText().lines()
+        log.bufferedWriter().use { writer ->
+            body.dropLast(1).forEach { writer.appendLine(it) }
+            repeat(LARGE / FILLING.length) { writer.appendLine(FILLING) }
+        }
+        var (whole, largest) = 0L to 0
+        take(
+            object : OutputStream() {
+                override fun write(b: Int) = write(byteArrayOf(b.toByte()), 0, 1)
+
+                override fun write(bytes: ByteArray, from: Int, count: Int) {
+                    whole += count
+                    largest = maxOf(largest, count)
+                }
+            },
+        )
+        openPast()
+        choose("Log", document)
+        assertEquals(log.length(), whole)
+        assertTrue(largest <= LARGE / 100, "$largest bytes at once, of $whole")
     }
 
     @Test
@@ -213,6 +247,8 @@ class DocumentsTest {
         shadowOf(context.contentResolver).registerInputStream(document, text.byteInputStream())
 
     private companion object {
+        const val LARGE = 4_000_000
+        const val FILLING = "2000\tI\t{\"sensor\":{\"channel\":1,\"type\":\"BATTERY\",\"data\":15.2}}"
         const val NAME = "2026-07-13T15-02-05-Mill-bay.log.incomplete"
     }
 }

@@ -29,7 +29,7 @@ import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
-@Config(sdk = [35])
+@Config(sdk = [26, 29, 34, 35])
 class MainActivityTest {
     private val context: Application = RuntimeEnvironment.getApplication()
 
@@ -38,13 +38,13 @@ class MainActivityTest {
         shadowOf(context).denyPermissions(*Preflight.neededPermissions().toTypedArray())
     }
 
-    /** On all Androids: starting a service is another matter on each, and so is asking for permissions. */
     @Test
-    @Config(sdk = [26, 29, 34, 35])
-    fun stopIsOnEveryScreenAndStops() {
+    fun everyScreenHasStopAndWhatCanBePressedIsLargeAndHasAName() {
         val activity = Window().activity
         for (name in ScreenName.entries) {
             activity.open(name)
+            activity.show(Scenes.recovered)
+            checkPressable(activity, name)
             val stop = activity.view<View>(R.id.stop)
             assertTrue(stop.isShown, "$name")
             assertTrue(stop.isEnabled)
@@ -57,7 +57,21 @@ class MainActivityTest {
     }
 
     @Test
-    @Config(sdk = [26, 35])
+    fun aTurnOfThePhoneKeepsTheScreenAndTheWayBack() {
+        val window = Window()
+        window.activity.go(ScreenName.TRACE)
+        window.activity.go(ScreenName.LINK)
+        val before = window.activity
+        window.controller.recreate()
+        assertTrue(before !== window.activity && before.isDestroyed)
+        assertEquals("Link", window.activity.view<TextView>(R.id.menu).text.toString().drop(2))
+        @Suppress("DEPRECATION")
+        window.activity.onBackPressed()
+        assertTrue(window.activity.view<View>(R.id.trace).isShown)
+    }
+
+    @Test
+    @Config(sdk = [35])
     fun theWayThroughTheScreensOutlivesATurnOfThePhoneAndBackLeadsAlongIt() {
         val window = Window()
         window.activity.go(ScreenName.MISSION)
@@ -75,6 +89,7 @@ class MainActivityTest {
     }
 
     @Test
+    @Config(sdk = [35])
     fun theMenuClosesAsItOpens() {
         val activity = Window().activity
         activity.go(ScreenName.TRACE)
@@ -84,7 +99,6 @@ class MainActivityTest {
     }
 
     @Test
-    @Config(sdk = [26, 29, 34, 35])
     fun aRefusalForGoodLeadsToTheSettings() {
         val activity = Window().activity
         val red = PreflightItem(PreflightCheck.PERMISSIONS, ready = false, PreflightReason.NOT_PERMITTED)
@@ -117,9 +131,10 @@ class MainActivityTest {
         assertTrue("All in order" in activity.wordsShown())
     }
 
+    /** Views are the same on all Androids: what comes and goes, and what unfolds, on one. */
     @Test
-    @Config(sdk = [26, 35])
-    fun whatCanBePressedIsLargeAndHasAName() {
+    @Config(sdk = [35])
+    fun whatUnfoldsIsLargeAndHasAName() {
         val activity = Window().activity
         for (name in ScreenName.entries) {
             activity.open(name)
@@ -137,8 +152,12 @@ class MainActivityTest {
         folded.forEach { it.performClick() }
     }
 
+    /** As laid out: 64 dp high and 48 dp wide at least, STOP higher still and across the window. */
     private fun checkPressable(activity: MainActivity, name: ScreenName) {
-        val least = activity.resources.getDimensionPixelSize(R.dimen.button_height)
+        val window = activity.window.decorView
+        window.measure(exactly(window.width), exactly(window.height))
+        window.layout(0, 0, window.width, window.height)
+        val density = activity.resources.displayMetrics.density
         val shown = activity.shown()
         val labelled = shown.map { it.labelFor }.toSet() - View.NO_ID
         val pressed = shown.filter { it.isClickable || it.hasOnClickListeners() || it is WaterView }
@@ -146,12 +165,16 @@ class MainActivityTest {
         for (view in pressed) {
             val said = view.contentDescription ?: (view as? TextView)?.text
             assertTrue(view.id in labelled || !said.isNullOrBlank(), "$name: $view says nothing")
-            assertTrue(view is WaterView || view.minimumHeight >= least, "$name: $said is too small")
+            val (high, wide) = view.height / density to view.width / density
+            assertTrue(high >= LEAST_HEIGHT && wide >= LEAST_WIDTH, "$name: $said is $wide x $high dp")
         }
+        val stop = activity.view<View>(R.id.stop)
+        assertTrue(stop.height / density >= STOP_HEIGHT && stop.width > 0.9 * window.width, "$name")
     }
 
+    private fun exactly(size: Int) = View.MeasureSpec.makeMeasureSpec(size, View.MeasureSpec.EXACTLY)
+
     @Test
-    @Config(sdk = [26, 35])
     fun whatChangesByItselfIsSaid() {
         val activity = Window().activity
         activity.show(Scenes.surveying)
@@ -195,5 +218,10 @@ class MainActivityTest {
 
     private companion object {
         val PAST = Scenes.standingBy.copy(past = Scenes.past)
+
+        /** dp; Android asks for 48 either way, a wet glove for more. */
+        const val LEAST_HEIGHT = 64f
+        const val LEAST_WIDTH = 48f
+        const val STOP_HEIGHT = 88f
     }
 }

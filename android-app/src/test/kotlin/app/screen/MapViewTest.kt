@@ -36,11 +36,28 @@ class MapViewTest {
         val (x, y) = assertNotNull(map.projection()).run { x(field.grid.center(25)) to y(field.grid.center(25)) }
         map.finger(MotionEvent.ACTION_DOWN, x, y, 0)
         map.finger(MotionEvent.ACTION_UP, x, y, 50)
-        val bounds = "%.3f mg/L, between %.3f and %.3f".format(field.value(25), field.lower(25), field.upper(25))
+        val bounds = "%.3f mg/L, at least %.3f".format(field.value(25), field.lower(25))
         assertEquals(listOf("$bounds; 10 readings; 2 min 5 s ago"), said)
         val unmeasured = field.grid.center(field.grid.size - 1)
-        assertEquals("Not measured; between 4.000 and 12.000 mg/L", map.tap(unmeasured))
+        assertEquals("Not measured; anything from 4.000 to 12.000 mg/L", map.tap(unmeasured))
         assertNull(map.tap(Position(-500.0, 0.0)), "no cell there")
+    }
+
+    /** An end of the water's own range says nothing about a cell, and is not told as if it were measured. */
+    @Test
+    fun boundsAreToldAsFarAsTheyAreKnown() {
+        val field = FieldMap(Grid(Position(0.0, 0.0), 4, 1, 10.0), Interval(0.0, 10.0))
+        val known = listOf(2.0 to 3.0, 0.0 to 3.0, 2.0 to 10.0, 0.0 to 10.0)
+        known.forEachIndexed { cell, (lower, upper) ->
+            field.countReading(cell)
+            field.setValue(cell, 2.5)
+            field.setBounds(cell, lower, upper)
+        }
+        map.scene = MapScene(map = field, unit = "m")
+        val said = known.indices.map { map.tap(field.grid.center(it)).orEmpty().substringAfter(", ") }
+        val oneSided = listOf("at most 3.000", "at least 2.000")
+        val expected = listOf("between 2.000 and 3.000") + oneSided + "anything from 0.000 to 10.000"
+        assertEquals(expected.map { "$it; 1 reading" }, said)
     }
 
     /** Two cells of one value: the one that is known less of is nearer to the ground's colour. */

@@ -89,7 +89,7 @@ internal object Scenes {
     val loaded = standingBy.copy(mission = report(MissionState.Idle))
 
     /** On the way. */
-    val surveying = standingBy.copy(mission = report)
+    val surveying = standingBy.copy(mission = report, board = standingBy.board.copy(state = BoardState.ACTIVE))
 
     /** As it looks after the process ended: link lost, checklist red. */
     val recovered =
@@ -120,7 +120,13 @@ internal object Scenes {
             PastMission("2026-07-12T08-15-40-Mill-bay.log", 2_120_560, true, 1_783_844_100_000),
         )
 
-    fun report(state: MissionState, wish: Wish = Wish.GO_ON, isRecovered: Boolean = false, isOver: Boolean = false) =
+    fun report(
+        state: MissionState,
+        wish: Wish = Wish.GO_ON,
+        isRecovered: Boolean = false,
+        isOver: Boolean = false,
+        position: Position? = track.last(),
+    ) =
         MissionReport(
             spec = spec,
             state = state,
@@ -128,7 +134,7 @@ internal object Scenes {
             isRecovered = isRecovered,
             isOver = isOver,
             map = map,
-            position = track.last(),
+            position = position,
             track = track,
             plan = lane(ROWS_DONE).reversed() + lane(ROWS_DONE + 2) + aroundTheIsland,
             used = if (state == MissionState.Idle && !isRecovered) 0.0 else 662.0,
@@ -168,7 +174,7 @@ internal object Scenes {
                     filter.update(BoatTime(time), center.x, center.y, value)
                     val now = filter.map
                     val slope = (value - (trace.lastOrNull()?.reading ?: value))
-                    trace += TracePoint(time, value, slope, now.value(cell), now.lower(cell), now.upper(cell))
+                    trace += TracePoint(time, value, slope, cell, now.value(cell), now.lower(cell), now.upper(cell))
                 }
             }
         }

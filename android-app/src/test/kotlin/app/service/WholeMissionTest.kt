@@ -97,7 +97,6 @@ class WholeMissionTest {
     }
 
     @Test
-    @Config(sdk = [26, 35])
     fun bluetoothThatGoesAndComesBackInterruptsItOnly() {
         desk.start()
         desk.ask { load(ServiceDesk.POND) }

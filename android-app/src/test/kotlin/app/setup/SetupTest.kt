@@ -1,6 +1,8 @@
 package stillwater.app.setup
 
 import android.os.Bundle
+import android.os.Looper
+import android.view.MotionEvent
 import android.view.View
 import android.widget.Button
 import android.widget.EditText
@@ -8,6 +10,7 @@ import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
+import org.robolectric.Shadows.shadowOf
 import stillwater.app.R
 import stillwater.app.screen.MainActivity
 import stillwater.app.screen.Scenes
@@ -24,6 +27,7 @@ import stillwater.mission.MissionSpec
 import stillwater.mission.PlannerName
 import stillwater.model.LatLon
 import stillwater.model.Position
+import java.time.Duration
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
@@ -110,6 +114,82 @@ class SetupTest {
         press(R.id.undo_corner)
         assertEquals(2, activity.desk.draft.shore.size)
         assertTrue("✗ the shore has 2 different corners; it needs 3" in activity.wordsShown())
+    }
+
+    /** By the events that a finger makes, one corner more than wanted, and Undo pressed once too often. */
+    @Test
+    fun aFingerDrawsAndUndoTakesBack() {
+        openArea()
+        standAt(45.33, -73.15)
+        val water = activity.view<AreaView>(R.id.area)
+        assertTrue(water.width > 0 && water.height > 0)
+        val wanted = listOf(0.0 to 0.0, 40.0 to 0.0, 40.0 to 30.0, 0.0 to 30.0)
+        for ((x, y) in wanted + (20.0 to 50.0)) finger(water, Position(x, y))
+        press(R.id.undo_corner)
+        val pixel = 1 / assertNotNull(water.projection()).scale.toDouble()
+        assertEquals(wanted.size, activity.desk.draft.shore.size)
+        wanted.zip(activity.desk.draft.shore).forEach { (meant, drawn) ->
+            assertEquals(meant.first, drawn.x, 2 * pixel)
+            assertEquals(meant.second, drawn.y, 2 * pixel)
+        }
+        repeat(wanted.size + 1) { press(R.id.undo_corner) }
+        assertTrue(activity.desk.draft.shore.isEmpty())
+        assertTrue("✗ no corner is set" in activity.wordsShown())
+    }
+
+    private fun finger(water: AreaView, at: Position) {
+        val projection = assertNotNull(water.projection())
+        for (action in listOf(MotionEvent.ACTION_DOWN, MotionEvent.ACTION_UP)) {
+            val event = MotionEvent.obtain(0, 50, action, projection.x(at), projection.y(at), 0)
+            water.dispatchTouchEvent(event)
+            event.recycle()
+        }
+        // A second touch within a moment would be half of a double one.
+        shadowOf(Looper.getMainLooper()).idleFor(Duration.ofSeconds(1))
+        window.settle()
+    }
+
+    @Test
+    fun aKeepOutThatIsNoneIsRefusedByItsNumber() {
+        openArea()
+        standAt(45.33, -73.15)
+        listOf(0.0 to 0.0, 40.0 to 0.0, 40.0 to 30.0, 0.0 to 30.0).forEach { (x, y) -> touch(x, y) }
+        press(R.id.draw_keep_out)
+        listOf(10.0 to 10.0, 20.0 to 20.0, 20.0 to 10.0, 10.0 to 20.0).forEach { (x, y) -> touch(x, y) }
+        assertTrue(problem().startsWith("✗ keep-out 1 crosses or touches itself"), problem())
+        repeat(4) { press(R.id.undo_corner) }
+        assertTrue(activity.desk.draft.keepOuts.isEmpty())
+        listOf(60.0 to 10.0, 70.0 to 10.0, 65.0 to 20.0).forEach { (x, y) -> touch(x, y) }
+        assertTrue(Regex("✗ keep-out 1, which starts at .*, lies outside the shore").matches(problem()), problem())
+    }
+
+    private fun problem() = activity.wordsShown().first { it.startsWith("✗") }
+
+    /** A slip of the sign, or a draft of last week's water: told, not drawn, and the way out is told as well. */
+    @Test
+    fun aPlaceOfAnotherWaterIsRefusedAndClearAllBeginsThere() {
+        openArea()
+        standAt(45.33, -73.15)
+        touch(0.0, 0.0)
+        val (latitude, longitude) = activity.shown().filterIsInstance<EditText>()
+        latitude.setText("45.33")
+        longitude.setText("73.15")
+        press(R.id.add_coordinates)
+        assertTrue(Regex("✗ this place is \\d+ km from where the drawing began; .*").matches(problem()), problem())
+        assertEquals("73.15", longitude.text.toString(), "to be mended")
+        assertEquals(1, activity.desk.draft.shore.size)
+        longitude.setText("-73.151")
+        press(R.id.add_coordinates)
+        assertEquals(2, activity.desk.draft.shore.size)
+        assertTrue("this place" !in problem(), problem())
+
+        standAt(47.33, -73.15)
+        press(R.id.drop_corner)
+        assertTrue("✗ this place is 222 km" in problem(), problem())
+        press(R.id.clear_area)
+        press(R.id.drop_corner)
+        assertEquals(47.33, activity.desk.draft.origin?.latitude)
+        assertEquals(1, activity.desk.draft.shore.size)
     }
 
     @Test
