@@ -75,7 +75,7 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
 
     /** Whether there is a reading, and all are finite and in order. */
     private fun canAllBeUsed(times: DoubleArray, values: DoubleArray, count: Int): Boolean {
-        if (count == 0 || !times[0].isFinite() || !times[count - 1].isFinite()) return false
+        if (count <= 0 || !times[0].isFinite() || !times[count - 1].isFinite()) return false
         var last = lastSeconds
         for (i in 0 until count) {
             if (!(times[i] >= last && abs(values[i]) <= Double.MAX_VALUE)) return false

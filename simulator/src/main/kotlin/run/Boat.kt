@@ -1,7 +1,5 @@
 package stillwater.run
 
-import kotlin.math.abs
-import kotlin.math.hypot
 import stillwater.estimate.FieldEstimator
 import stillwater.field.CellField
 import stillwater.field.FieldMap
@@ -12,6 +10,8 @@ import stillwater.plan.PlanOutcome
 import stillwater.plan.Planner
 import stillwater.plan.StopCondition
 import stillwater.sensor.SensorModel
+import kotlin.math.abs
+import kotlin.math.hypot
 
 /**
  * One boat of a trial: it goes where its planner says and several estimators read its sensor.
