@@ -184,12 +184,17 @@ def programs():
     shutil.rmtree(scratch)
 
 
+def kilobytes(used):
+    """Of a heap before and after: what was freed in between may be more than a small map takes."""
+    return "%.0f" % (used / 1024) if used > 0 else "not told"
+
+
 def scaling():
     lines = subprocess.run(["java", "-XX:+UseSerialGC", "-cp", BENCHMARKS, "stillwater.speed.DecisionTimesKt"],
                            capture_output=True, text=True, check=True).stdout.strip().split("\n")
     rows = [line.split("\t") for line in lines[1:]]
     write("decisions", table(["cells", "moves", "readings", "first, ms", "mean, ms", "99 %, ms", "longest, ms", "memory, kB"],
-                             [row[:7] + ["%.0f" % (int(row[7]) / 1024)] for row in rows]))
+                             [row[:7] + [kilobytes(int(row[7]))] for row in rows]))
     scratch = tempfile.mkdtemp(prefix="stillwater-")
     out = ["--quiet", "--out", os.path.join(scratch, "out")]
     rows = []
