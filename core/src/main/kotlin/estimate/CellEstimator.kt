@@ -5,6 +5,7 @@ import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
+import kotlin.math.abs
 
 /**
  * What every cell-by-cell estimator does before its own work: refuse what cannot be used, find the cell, notice that
@@ -74,12 +75,13 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
 
     /** Whether there is a reading, and all are finite and in order. */
     private fun canAllBeUsed(times: DoubleArray, values: DoubleArray, count: Int): Boolean {
+        if (count <= 0 || !times[0].isFinite() || !times[count - 1].isFinite()) return false
         var last = lastSeconds
         for (i in 0 until count) {
-            if (!(times[i] >= last && times[i].isFinite() && values[i].isFinite())) return false
+            if (!(times[i] >= last && abs(values[i]) <= Double.MAX_VALUE)) return false
             last = times[i]
         }
-        return count > 0
+        return true
     }
 
     /** A boat that stays, or a fix that is repeated: the same place is the same cell. */

@@ -23,7 +23,10 @@ public class CellField(public val grid: Grid, truths: DoubleArray) : Field {
     /** The truth in the cell with index [cell], sensor units. */
     public fun truth(cell: Int): Double = truths[cell]
 
-    override fun truth(x: Double, y: Double, time: BoatTime): Double {
+    override fun truth(x: Double, y: Double, time: BoatTime): Double = truth(x, y)
+
+    /** The truth at the point ([x], [y]), m in the local frame, at any time, sensor units; NaN outside the grid. */
+    public fun truth(x: Double, y: Double): Double {
         val cell = grid.cellAt(x, y)
         return if (cell == Grid.OUTSIDE) Double.NaN else truths[cell]
     }

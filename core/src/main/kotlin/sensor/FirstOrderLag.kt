@@ -61,5 +61,7 @@ internal fun towards(state: Double, input: Double, gain: Double): Double {
     // In halves, because the difference of two huge numbers overflows.
     val next = 2 * (state / 2 + gain * (input / 2 - state / 2))
     // Rounding must not carry it beyond the truth: bounds rest on the side from which it comes.
-    return if (input > state) minOf(next, input) else maxOf(next, input)
+    // Not minOf and maxOf: they also order 0 and -0, and everything that follows would wait for it.
+    val isBeyond = if (input > state) next > input else next < input
+    return if (isBeyond) input else next
 }

@@ -1,9 +1,8 @@
 package stillwater.run
 
 import stillwater.estimate.FieldEstimator
-import stillwater.field.Field
+import stillwater.field.CellField
 import stillwater.field.FieldMap
-import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.Plan
 import stillwater.model.Position
@@ -11,6 +10,7 @@ import stillwater.plan.PlanOutcome
 import stillwater.plan.Planner
 import stillwater.plan.StopCondition
 import stillwater.sensor.SensorModel
+import kotlin.math.abs
 import kotlin.math.hypot
 
 /**
@@ -50,8 +50,8 @@ class Boat(
     var isDone: Boolean = false
         private set
 
-    /** Called with every place a sample is taken at. */
-    var onSample: (Double, Double) -> Unit = { _, _ -> }
+    /** Called with every place a sample is taken at; null where nobody wants to know. */
+    var onSample: ((Double, Double) -> Unit)? = null
 
     /**
      * Makes a move: from the second on, to the next waypoint or along the waypoints; then or meanwhile, samples.
@@ -59,7 +59,7 @@ class Boat(
      * @param field the truth.
      * @param map what the planner plans on, asked for only where it is about to plan.
      */
-    fun move(field: Field, map: () -> FieldMap) {
+    fun move(field: CellField, map: () -> FieldMap) {
         val isFirst = samples == 0L
         if (travel.speed == null) {
             if (!isFirst) step(map)
@@ -80,11 +80,18 @@ class Boat(
     private fun step(map: () -> FieldMap) {
         if (waypoint == plan.size) ask(map)
         if (waypoint < plan.size) {
-            odometer.metres += hypot(plan.x(waypoint) - x, plan.y(waypoint) - y)
+            odometer.metres += distance(plan.x(waypoint) - x, plan.y(waypoint) - y)
             x = plan.x(waypoint)
             y = plan.y(waypoint)
             waypoint++
         }
+    }
+
+    /** √(east² + north²), m; a way along an axis, as nearly all are, needs no root. */
+    private fun distance(east: Double, north: Double): Double = when {
+        east == 0.0 -> abs(north)
+        north == 0.0 -> abs(east)
+        else -> hypot(east, north)
     }
 
     /** On by [distance] m along the waypoints; it waits at the last one for the time that is left. */
@@ -114,13 +121,13 @@ class Boat(
     }
 
     /** Takes [count] samples where the boat is, then hands them to each estimator. */
-    private fun sample(field: Field, count: Int) {
+    private fun sample(field: CellField, count: Int) {
+        val truth = field.truth(x, y)
         for (i in 0 until count) {
-            val time = BoatTime(++samples * travel.period)
-            times[i] = time.seconds
-            readings[i] = sensor.step(field.truth(x, y, time), travel.period, Conditions.NONE)
-            onSample(x, y)
+            times[i] = ++samples * travel.period
+            readings[i] = sensor.step(truth, travel.period, Conditions.NONE)
         }
+        onSample?.let { told -> repeat(count) { told(x, y) } }
         reading = readings[count - 1]
         odometer.seconds = times[count - 1]
         for (estimator in estimators) estimator.updateAll(times, x, y, readings, count)
