@@ -48,9 +48,8 @@ public class BayesianMap(
     private val source: FieldMap = cells.map
     private val covariances = FieldCovariances(grid)
     private val blocks = CellBlocks(grid)
-    private val regression = CellRegression(grid, covariances, blocks.capacity)
-    private val precisions = DoubleArray(blocks.capacity)
-    private val fit = CovarianceFit(covariances, blocks, regression)
+    private val prediction = BlockPrediction(grid, covariances, blocks)
+    private val fit = CovarianceFit(grid, covariances, blocks)
     private val cut = TruncatedNormal()
 
     private var visited = IntArray(FIRST_CELLS)
@@ -73,8 +72,12 @@ public class BayesianMap(
     private val surprises = DoubleArray(grid.size)
     private val tellings = DoubleArray(grid.size)
 
+    /** Whether the map has what is known of a visited cell. */
+    private val isWritten = BooleanArray(grid.size)
+    private val work = if (blocks.size == 1) Double.POSITIVE_INFINITY else System.getProperty("W", "1e6").toDouble()
+
     private var lastCell = 0
-    private var entries = 0
+    private var fresh = 0
     private var isCurrent = true
 
     init {
@@ -134,6 +137,7 @@ public class BayesianMap(
 
     private fun count(cell: Int) {
         isCurrent = false
+        fresh++
         lastCell = cell
         if (believed.readings(cell) == 0) {
             if (visitedCount == visited.size) visited = visited.copyOf(minOf(2 * visitedCount, grid.size))
@@ -142,35 +146,56 @@ public class BayesianMap(
         believed.countReading(cell)
         if (source.visits(cell) > believed.visits(cell)) {
             believed.countVisit(cell)
-            entries++
         }
         if (source.conflicts(cell) > believed.conflicts(cell)) believed.countConflict(cell)
     }
 
     private fun refresh() {
-        isCurrent = true
         explain()
         for (k in 0 until visitedCount) read(visited[k])
-        val isFitting = fit.go(visited, visitedCount, values, variances, maxOf(1, entries))
-        if (isFitting && fit.isComplete) blocks.allStale()
+        val most = work * maxOf(1, fresh)
+        fresh = 0
+        var done = learn(most / 2)
         val reach = 1 + (covariances.length(covariances.kept[0]) / REACH).toInt()
         for (k in 0 until visitedCount) note(visited[k], reach)
-        var budget = MOST_BLOCKS * (entries + if (isFitting) 0L else 1L)
-        entries = 0
-        while (budget-- > 0) {
-            val block = blocks.take(lastCell)
-            if (block < 0) break
-            predict(block)
+        while (done < most) {
+            if (prediction.block < 0 && !begin()) break
+            done += prediction.go()
+            if (prediction.isComplete) install()
         }
-        isCurrent = blocks.staleCount == 0 && fit.isComplete
+        isCurrent = blocks.staleCount == 0 && prediction.block < 0 && fit.isComplete
         for (k in 0 until visitedCount) write(visited[k])
+    }
+
+    /** Learns the covariance where it is time, [most] of it. Answers how much. */
+    private fun learn(most: Double): Double {
+        fit.beginIfDue(visitedCount)
+        if (fit.isComplete) return 0.0
+        var done = 0.0
+        while (!fit.isComplete && done < most) done += fit.go(visited, visitedCount, values, variances)
+        if (fit.isComplete) forget()
+        return done
+    }
+
+    /** Nothing that was predicted holds any longer. */
+    private fun forget() {
+        blocks.allStale()
+        prediction.drop()
+    }
+
+    /** Begins the next block that is out of date; answers whether there was one. */
+    private fun begin(): Boolean {
+        val block = blocks.take(lastCell)
+        if (block < 0) return false
+        prediction.begin(block, visited, visitedCount, values, variances)
+        return true
     }
 
     private fun explain() {
         var open = 0
         for (k in 0 until visitedCount) if (isOpen(visited[k])) open++
         val isSo = (cells as? SelfCalibratingEstimator)?.isExplained != false && 2 * open <= visitedCount
-        if (isSo != isExplained) blocks.allStale()
+        if (isSo != isExplained) forget()
         isExplained = isSo
     }
 
@@ -180,8 +205,12 @@ public class BayesianMap(
         val reach = maxOf(source.upper(cell) - source.value(cell), source.value(cell) - source.lower(cell))
         val deviation = reach / scale / TruncatedNormal.NORMAL
         if (!value.isFinite() || !deviation.isFinite()) return
-        values[cell] = value.coerceIn(-LARGEST, LARGEST)
-        variances[cell] = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
+        val scaled = value.coerceIn(-LARGEST, LARGEST)
+        val variance = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
+        if (scaled == values[cell] && variance == variances[cell]) return
+        values[cell] = scaled
+        variances[cell] = variance
+        isWritten[cell] = false
     }
 
     /** Whether the bounds of [cell] by itself are the prior's. */
@@ -202,45 +231,21 @@ public class BayesianMap(
         blocks.stale(cell, reach)
     }
 
-    /** What the cells with data near [block] say of each of its cells: the candidates' moments pooled, eqs. (3), (4). */
-    private fun predict(block: Int) {
-        blocks.gather(block, visited, visitedCount, values, variances, regression)
-        forEachCell(block) { cell ->
-            outer[cell] = 0.0
-            outerVariances[cell] = 0.0
-        }
-        var solved = 0.0
-        for (k in 0 until covariances.keptCount) {
-            val candidate = covariances.kept[k]
-            val amplitude = covariances.amplitudes[candidate]
-            if (!regression.solve(candidate, amplitude)) continue
-            regression.invert()
-            regression.precisions(precisions)
-            val weight = covariances.weights[candidate]
-            solved += weight
-            for (i in 0 until regression.size) {
-                val cell = regression.cell(i)
-                if (blocks.blockOf(cell) != block) continue
-                val variance = regression.varianceLeftOut(i, precisions[i], amplitude)
-                pool(cell, weight, regression.meanLeftOut(i, precisions[i]), amplitude * variance)
-            }
-            forEachCell(block) { cell ->
-                if (variances[cell].isNaN()) {
-                    val mean = regression.mean(cell)
-                    pool(cell, weight, mean, amplitude * regression.variance())
-                }
-            }
-        }
-        forEachCell(block) { cell ->
-            val mean = outer[cell] / solved
+    /** The prediction is complete: what the cells with data near its block say of each of its cells. */
+    private fun install() {
+        val block = prediction.block
+        blocks.forEachCell(block) { cell, place ->
+            val mean = prediction.mean(place)
             outer[cell] = mean
-            raw[cell] = maxOf(outerVariances[cell] / solved - mean * mean, LEAST_VARIANCE) * fit.widening * fit.widening
+            raw[cell] = maxOf(prediction.variance(place, mean), LEAST_VARIANCE) * fit.widening * fit.widening
             judge(cell)
         }
-        forEachCell(block) { cell ->
+        blocks.forEachCell(block) { cell, _ ->
             outerVariances[cell] = raw[cell] * unevenness(cell)
+            isWritten[cell] = false
             if (variances[cell].isNaN()) write(cell, outer[cell], outerVariances[cell])
         }
+        prediction.drop()
     }
 
     /** How far off the others' word on a visited cell was: its square over its variance, and how much that says. */
@@ -270,32 +275,21 @@ public class BayesianMap(
         return if (variances[cell].isNaN()) maxOf(1.0, sum / count) else sum / count
     }
 
-    private inline fun forEachCell(block: Int, action: (Int) -> Unit) {
-        for (row in blocks.firstRow(block) until blocks.endRow(block)) {
-            for (column in blocks.firstColumn(block) until blocks.endColumn(block)) {
-                action(row * grid.columns + column)
-            }
-        }
-    }
-
-    /** Adds a candidate's mean and variance of [cell] to the first two moments. */
-    private fun pool(cell: Int, weight: Double, mean: Double, variance: Double) {
-        outer[cell] += weight * mean
-        outerVariances[cell] += weight * (maxOf(variance, 0.0) + mean * mean)
-    }
-
     /** Writes what is believed of a visited cell: its own data and what the others say of it, eq. (2). */
     private fun write(cell: Int) {
         val own = variances[cell]
         val other = outerVariances[cell]
         val isPlain = !(abs(values[cell]) < LARGEST) || !(own < LARGEST) || !other.isFinite()
         if (!isExplained) {
+            isWritten[cell] = false
             believed.setValue(cell, source.value(cell))
             believed.setBounds(cell, believed.prior.lower, believed.prior.upper)
         } else if (isPlain) {
+            isWritten[cell] = false
             believed.setValue(cell, source.value(cell))
             believed.setBounds(cell, source.lower(cell), source.upper(cell))
-        } else {
+        } else if (!isWritten[cell]) {
+            isWritten[cell] = true
             val mean = (other * values[cell] + own * outer[cell]) / (other + own)
             write(cell, mean, maxOf(other * own / (other + own), LEAST_VARIANCE))
         }
@@ -319,9 +313,6 @@ public class BayesianMap(
 
     private companion object {
         const val FIRST_CELLS = 128
-
-        /** Blocks done at a time, and for each cell entered since the last time: a block and those around it. */
-        const val MOST_BLOCKS = 9
 
         /** Correlation length, sides of a cell, for which data matter one block farther. */
         const val REACH = 4.0
