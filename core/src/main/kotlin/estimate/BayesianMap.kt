@@ -22,12 +22,13 @@ import kotlin.math.sqrt
  * model of the sensor does not explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure
  * it is: then its values are taken as they are and all bounds here are the prior's, see [isExplained].
  *
- * The posterior is brought up to date when [map] is asked for, not at a reading: ask for it after updates rather than
- * keeping it. When it was asked for before matters a little: that is when the covariance is learned anew. It costs O(1)
- * for each cell entered since, apart from a look at every visited cell; the work of a longer way is left for later times,
- * and so is the learning, which begins anew each time a quarter more are visited. Grids of up to 144 cells are done at once; larger
- * ones in blocks of 8 x 8 cells, each from the 96 visited cells nearest. Memory: O(cells), whatever the readings. No call
- * allocates once tables of correlations are there. Confined to one thread.
+ * The posterior is worked on when [map] is asked for, not at a reading: ask for it after updates rather than keeping it.
+ * When it was asked for before matters a little. A look at every visited cell apart, it does [work] for each reading since
+ * the last time and leaves the rest for later times: first the learning of the covariance, which begins anew each time a
+ * quarter more cells are visited and takes half of the work at most, then predictions. Grids of more than 144 cells are
+ * predicted in blocks of 8 x 8, each from the 96 visited cells nearest, the boat's own block first among others; a block's
+ * cells change together, when its prediction is complete. Memory: O(cells), whatever the readings. No call allocates once
+ * tables of correlations are there. Confined to one thread.
  *
  * Source: own composition, core/docs/BayesianMap.md; Rasmussen and Williams 2006, Gaussian Processes for Machine
  * Learning.
@@ -35,12 +36,15 @@ import kotlin.math.sqrt
  * @param grid the cells.
  * @param prior the range of the field, sensor units.
  * @property cells reads the visited cells; over the same grid and prior, used by nobody else. Retained.
- * @throws IllegalArgumentException if [cells] has another grid or prior.
+ * @property work most to be done for a reading, multiplications and additions, above 0; but one covariance's look at one
+ *   block, up to a million, is not cut. By default [AT_ONCE] for grids of up to 144 cells, else [AFLOAT].
+ * @throws IllegalArgumentException if [cells] has another grid or prior, or [work] is not above 0.
  */
 public class BayesianMap(
     private val grid: Grid,
     prior: Interval,
     public val cells: FieldEstimator = SelfCalibratingEstimator(grid, prior),
+    public val work: Double = if (grid.size <= CellBlocks.WHOLE) AT_ONCE else AFLOAT,
 ) : FieldEstimator {
     private val middle = prior.midpoint
     private val scale = if (prior.width > 0 && prior.width.isFinite()) prior.width else 1.0
@@ -74,13 +78,13 @@ public class BayesianMap(
 
     /** Whether the map has what is known of a visited cell. */
     private val isWritten = BooleanArray(grid.size)
-    private val work = if (blocks.size == 1) Double.POSITIVE_INFINITY else System.getProperty("W", "1e6").toDouble()
 
     private var lastCell = 0
     private var fresh = 0
     private var isCurrent = true
 
     init {
+        require(work > 0) { "work ($work multiplications and additions a reading) must be above 0" }
         require(source.grid == grid) { "cells' grid (${source.grid}) must be the same as grid ($grid)" }
         require(source.prior == prior) { "cells' prior (${source.prior}) must be the same as prior ($prior)" }
         believed.correlation = SpatialCorrelation { columns, rows -> correlation(columns, rows) }
@@ -311,28 +315,34 @@ public class BayesianMap(
         }
     }
 
-    private companion object {
-        const val FIRST_CELLS = 128
+    public companion object {
+        /** [work] of a map that is always up to date. */
+        public const val AT_ONCE: Double = Double.POSITIVE_INFINITY
+
+        /** [work] of about a millisecond on a desk's core. */
+        public const val AFLOAT: Double = 1e6
+
+        private const val FIRST_CELLS = 128
 
         /** Correlation length, sides of a cell, for which data matter one block farther. */
-        const val REACH = 4.0
+        private const val REACH = 4.0
 
         /** A cell's error matters to others where its variance is above this part of what they say of it themselves. */
-        const val COUNTS = 0.01
+        private const val COUNTS = 0.01
 
         /** Scaled numbers that no sensor gives: nothing is computed with them. */
-        const val LARGEST = 1e6
-        const val LEAST_VARIANCE = 1e-16
+        private const val LARGEST = 1e6
+        private const val LEAST_VARIANCE = 1e-16
 
         /** Cells either way that tell how much the field varies around a cell, and for how many the average counts. */
-        const val AROUND = 2
-        const val UNSURPRISED = 2.0
-        const val MOST_SURPRISE = 1e3
+        private const val AROUND = 2
+        private const val UNSURPRISED = 2.0
+        private const val MOST_SURPRISE = 1e3
 
         /** One over the variance of a value that may be anywhere in the prior's range, scaled. */
-        const val RANGE = 12.0
+        private const val RANGE = 12.0
 
         /** Least precision of what is left, in parts of the variance's own: a width of 10 ranges. */
-        const val LEAST_PRECISION = 1e-3
+        private const val LEAST_PRECISION = 1e-3
     }
 }

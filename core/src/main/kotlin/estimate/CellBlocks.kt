@@ -186,7 +186,7 @@ internal class CellBlocks(private val grid: Grid) {
         private const val AROUND = SPAN * SPAN
 
         /** Cells of the largest grid that is one block. */
-        private const val WHOLE = 144
+        const val WHOLE = 144
         private const val SIDE = 8
 
         /** Cells with data that a block of a larger one is predicted from at most. */
