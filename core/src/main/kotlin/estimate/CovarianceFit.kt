@@ -23,7 +23,6 @@ internal class CovarianceFit(
     private var done = 0
     private var count = 0
     private var candidate = 0
-    private var isBetweenBlocks = true
 
     init {
         covariances.weigh(logLikelihoods)
@@ -56,8 +55,7 @@ internal class CovarianceFit(
      * @return how much work that was, multiplications and additions.
      */
     fun go(cells: IntArray, visited: Int, values: DoubleArray, variances: DoubleArray): Double {
-        if (isBetweenBlocks) {
-            isBetweenBlocks = false
+        if (candidate == 0) {
             val block = blocks.blockOf(cells[done * visited / parts])
             blocks.gather(block, cells, visited, values, variances, regression)
             count += regression.size
@@ -66,59 +64,32 @@ internal class CovarianceFit(
         if (!regression.solve(candidate, level)) logLikelihoods[candidate] = Double.NEGATIVE_INFINITY
         logLikelihoods[candidate] -= regression.logDeterminant / 2
         misfits[candidate] += regression.misfit
-        do candidate++ while (candidate < covariances.size && logLikelihoods[candidate] == Double.NEGATIVE_INFINITY)
-        if (candidate == covariances.size) endBlock(visited)
+        if (++candidate == covariances.size) {
+            candidate = 0
+            if (++done == parts) weigh(visited)
+        }
         return regression.solving
-    }
-
-    private fun endBlock(visited: Int) {
-        candidate = 0
-        isBetweenBlocks = true
-        done++
-        if (done == parts) {
-            weigh(visited)
-            return
-        }
-        if (done < FEWEST_TO_JUDGE) return
-        var best = Double.NEGATIVE_INFINITY
-        for (k in 0 until covariances.size) best = maxOf(best, logLikelihood(k, visited))
-        for (k in 0 until covariances.size) {
-            if (logLikelihood(k, visited) < best - HOPELESS) logLikelihoods[k] = Double.NEGATIVE_INFINITY
-        }
-        while (candidate < covariances.size - 1 && logLikelihoods[candidate] == Double.NEGATIVE_INFINITY) candidate++
     }
 
     private fun begin(wanted: Int) {
         parts = wanted
         done = 0
         count = 0
-        candidate = 0
-        isBetweenBlocks = true
         logLikelihoods.fill(0.0)
         misfits.fill(0.0)
     }
 
-    /** Of [candidate], by the blocks so far: the marginal likelihood's logarithm, eq. (5). */
-    private fun logLikelihood(candidate: Int, visited: Int): Double {
-        val evidence = evidence(visited)
-        // ln p = −κ ln|A|/2 − (κn + n₀)/2 · ln(κ yᵀA⁻¹y + n₀s₀²)
-        return evidence * logLikelihoods[candidate] - freedom(evidence) / 2 * ln(sum(candidate, evidence))
-    }
-
-    /** κ; blocks may share cells, which are evidence once. */
-    private fun evidence(visited: Int) = FieldCovariances.EVIDENCE * minOf(1.0, visited.toDouble() / count)
-
-    private fun freedom(evidence: Double) = evidence * count + FieldCovariances.FIRST_CELLS
-
-    private fun sum(candidate: Int, evidence: Double) =
-        evidence * misfits[candidate] + FieldCovariances.FIRST_CELLS * FieldCovariances.FIRST_AMPLITUDE
-
+    /** By the marginal likelihood, eq. (5). */
     private fun weigh(visited: Int) {
-        val evidence = evidence(visited)
-        val freedom = freedom(evidence)
+        val first = FieldCovariances.FIRST_CELLS
+        // Blocks may share cells, which are evidence once.
+        val evidence = FieldCovariances.EVIDENCE * minOf(1.0, visited.toDouble() / count)
+        val freedom = evidence * count + first
         for (candidate in 0 until covariances.size) {
-            logLikelihoods[candidate] = logLikelihood(candidate, visited)
-            covariances.amplitudes[candidate] = sum(candidate, evidence) / freedom
+            // ln p = −κ ln|A|/2 − (κn + n₀)/2 · ln(κ yᵀA⁻¹y + n₀s₀²)
+            val sum = evidence * misfits[candidate] + first * FieldCovariances.FIRST_AMPLITUDE
+            logLikelihoods[candidate] = evidence * logLikelihoods[candidate] - freedom / 2 * ln(sum)
+            covariances.amplitudes[candidate] = sum / freedom
         }
         covariances.weigh(logLikelihoods)
         val normal = TruncatedNormal.NORMAL
@@ -128,9 +99,5 @@ internal class CovarianceFit(
     private companion object {
         /** Blocks whose data the covariance is learned from, at most. */
         const val MOST_FITTED = 6
-
-        /** After so many a candidate is dropped that is so much less likely, on a logarithm's scale, than the best. */
-        const val FEWEST_TO_JUDGE = 2
-        const val HOPELESS = 12.0
     }
 }
