@@ -55,9 +55,6 @@ internal class StepTime(
     private val mission = Mission(spec, boat.phone, log)
     private val clock = ManagementFactory.getThreadMXBean()
 
-    /** Cells with a reading. */
-    val visited: Int get() = (0 until mission.map.grid.size).count { mission.map.readings(it) > 0 }
-
     /** Processor times of the mission's first [steps] steps, ns, sorted. */
     fun run(steps: Int): LongArray {
         mission.start()
@@ -78,10 +75,9 @@ internal class StepTime(
         const val WARM = 10_000
         const val SEED = 20_261_121L
 
-        fun text(times: LongArray): String = listOf(times.size / 2, times.size * 99 / 100, times.size * 999 / 1000)
-            .map { times[it] }
-            .plus(times.last())
-            .joinToString(" | ") { "%.3f".format(Locale.ROOT, it / NANOS) }
+        /** Median, 99th percentile and longest, ms. */
+        fun text(times: LongArray): String = listOf(times[times.size / 2], times[times.size * 99 / 100], times.last())
+            .joinToString(", ") { "%.3f".format(Locale.ROOT, it / NANOS) }
 
         private const val NANOS = 1e6
     }
@@ -91,22 +87,24 @@ private const val LAG = """{"type":"first-order-lag","time_constant_s":6.0}"""
 
 /**
  * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES]]]`: prints a table of the times of a mission's first so many steps, ms of
- * processor time: of all planners and estimators, or of the two that are named (`all` for each), with a probe that reads
- * each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s).
+ * processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
+ * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s).
  */
 fun main(arguments: Array<String>) {
     val steps = arguments[0].toInt()
-    val named = arguments.drop(1).map { it.uppercase().replace('-', '_') }
+    val planners = PlannerName.entries.filter { arguments.getOrElse(1) { "all" } in listOf(word(it), "all") }
+    val estimators = EstimatorName.entries.filter { arguments.getOrElse(2) { "all" } in listOf(word(it), "all") }
     val period = arguments.getOrNull(3)?.toDouble() ?: 1.0
     val stages = arguments.getOrNull(4) ?: LAG
-    println("| estimator | planner | cells read | median | 99 % | 99.9 % | longest |\n|---|---|---|---|---|---|---|")
-    for (estimator in EstimatorName.entries.filter { named.getOrElse(1) { "ALL" } in listOf(it.name, "ALL") }) {
-        for (planner in PlannerName.entries.filter { named.getOrElse(0) { "ALL" } in listOf(it.name, "ALL") }) {
+    println("| |" + planners.joinToString("") { " ${word(it)} |" })
+    println("|---|" + "---|".repeat(planners.size))
+    for (estimator in estimators) {
+        print("| ${word(estimator)} |")
+        for (planner in planners) {
             StepTime(planner, estimator, stages, period, StepTime.SEED + 1).run(StepTime.WARM)
-            val timed = StepTime(planner, estimator, stages, period, StepTime.SEED)
-            val times = StepTime.text(timed.run(steps))
-            println("| ${word(estimator)} | ${word(planner)} | ${timed.visited} | $times |")
+            print(" ${StepTime.text(StepTime(planner, estimator, stages, period, StepTime.SEED).run(steps))} |")
         }
+        println()
     }
 }
 
