@@ -148,9 +148,7 @@ public class BayesianMap(
             visited[visitedCount++] = cell
         }
         believed.countReading(cell)
-        if (source.visits(cell) > believed.visits(cell)) {
-            believed.countVisit(cell)
-        }
+        if (source.visits(cell) > believed.visits(cell)) believed.countVisit(cell)
         if (source.conflicts(cell) > believed.conflicts(cell)) believed.countConflict(cell)
     }
 
@@ -164,7 +162,7 @@ public class BayesianMap(
         for (k in 0 until visitedCount) note(visited[k], reach)
         while (done < most) {
             if (prediction.block < 0 && !begin()) break
-            done += prediction.go()
+            if (!prediction.isComplete) done += prediction.go()
             if (prediction.isComplete) install()
         }
         isCurrent = blocks.staleCount == 0 && prediction.block < 0 && fit.isComplete

@@ -30,7 +30,7 @@ internal class BlockPrediction(
         private set
 
     /** Whether all candidates are in. */
-    val isComplete: Boolean get() = block != NONE && next == covariances.keptCount
+    val isComplete: Boolean get() = block != NONE && next >= covariances.keptCount
 
     /**
      * Begins the prediction of [block].
@@ -58,7 +58,7 @@ internal class BlockPrediction(
         block = NONE
     }
 
-    /** Takes the next candidate in. Answers how much work that was, multiplications and additions. */
+    /** Takes the next candidate in, where not all are. Answers how much work that was, multiplications and additions. */
     fun go(): Double {
         val candidate = covariances.kept[next++]
         val amplitude = covariances.amplitudes[candidate]
