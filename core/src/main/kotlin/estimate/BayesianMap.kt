@@ -22,12 +22,13 @@ import kotlin.math.sqrt
  * model of the sensor does not explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure
  * it is: then its values are taken as they are and all bounds here are the prior's, see [isExplained].
  *
- * The posterior is brought up to date when [map] is asked for, not at a reading: ask for it after updates rather than
- * keeping it. When it was asked for before matters a little: that is when the covariance is learned anew. It costs O(1)
- * for each cell entered since, apart from a look at every visited cell; the work of a longer way is left for later times,
- * and so is the learning, which begins anew each time a quarter more are visited. Grids of up to 144 cells are done at once; larger
- * ones in blocks of 8 x 8 cells, each from the 96 visited cells nearest. Memory: O(cells), whatever the readings. No call
- * allocates once tables of correlations are there. Confined to one thread.
+ * The posterior is worked on when [map] is asked for, not at a reading: ask for it after updates rather than keeping it.
+ * When it was asked for before matters a little. A look at every visited cell apart, it does [work] for each reading since
+ * the last time and leaves the rest for later times: first the learning of the covariance, which begins anew each time a
+ * quarter more cells are visited and takes half of the work at most, then predictions. Grids of more than 144 cells are
+ * predicted in blocks of 8 x 8, each from the 96 visited cells nearest, the boat's own block first among others; a block's
+ * cells change together, when its prediction is complete. Memory: O(cells), whatever the readings. No call allocates once
+ * tables of correlations are there. Confined to one thread.
  *
  * Source: own composition, core/docs/BayesianMap.md; Rasmussen and Williams 2006, Gaussian Processes for Machine
  * Learning.
@@ -35,12 +36,15 @@ import kotlin.math.sqrt
  * @param grid the cells.
  * @param prior the range of the field, sensor units.
  * @property cells reads the visited cells; over the same grid and prior, used by nobody else. Retained.
- * @throws IllegalArgumentException if [cells] has another grid or prior.
+ * @property work most to be done for a reading, multiplications and additions, above 0; but one covariance's look at one
+ *   block, up to a million, is not cut. By default [AT_ONCE] for grids of up to 144 cells, else [ASHORE].
+ * @throws IllegalArgumentException if [cells] has another grid or prior, or [work] is not above 0.
  */
 public class BayesianMap(
     private val grid: Grid,
     prior: Interval,
     public val cells: FieldEstimator = SelfCalibratingEstimator(grid, prior),
+    public val work: Double = if (grid.size <= CellBlocks.WHOLE) AT_ONCE else ASHORE,
 ) : FieldEstimator {
     private val middle = prior.midpoint
     private val scale = if (prior.width > 0 && prior.width.isFinite()) prior.width else 1.0
@@ -48,9 +52,8 @@ public class BayesianMap(
     private val source: FieldMap = cells.map
     private val covariances = FieldCovariances(grid)
     private val blocks = CellBlocks(grid)
-    private val regression = CellRegression(grid, covariances, blocks.capacity)
-    private val precisions = DoubleArray(blocks.capacity)
-    private val fit = CovarianceFit(covariances, blocks, regression)
+    private val prediction = BlockPrediction(grid, covariances, blocks)
+    private val fit = CovarianceFit(grid, covariances, blocks)
     private val cut = TruncatedNormal()
 
     private var visited = IntArray(FIRST_CELLS)
@@ -73,11 +76,15 @@ public class BayesianMap(
     private val surprises = DoubleArray(grid.size)
     private val tellings = DoubleArray(grid.size)
 
+    /** Whether the map has what is known of a visited cell. */
+    private val isWritten = BooleanArray(grid.size)
+
     private var lastCell = 0
-    private var entries = 0
+    private var fresh = 0
     private var isCurrent = true
 
     init {
+        require(work > 0) { "work ($work multiplications and additions a reading) must be above 0" }
         require(source.grid == grid) { "cells' grid (${source.grid}) must be the same as grid ($grid)" }
         require(source.prior == prior) { "cells' prior (${source.prior}) must be the same as prior ($prior)" }
         believed.correlation = SpatialCorrelation { columns, rows -> correlation(columns, rows) }
@@ -134,43 +141,63 @@ public class BayesianMap(
 
     private fun count(cell: Int) {
         isCurrent = false
+        fresh++
         lastCell = cell
         if (believed.readings(cell) == 0) {
             if (visitedCount == visited.size) visited = visited.copyOf(minOf(2 * visitedCount, grid.size))
             visited[visitedCount++] = cell
         }
         believed.countReading(cell)
-        if (source.visits(cell) > believed.visits(cell)) {
-            believed.countVisit(cell)
-            entries++
-        }
+        if (source.visits(cell) > believed.visits(cell)) believed.countVisit(cell)
         if (source.conflicts(cell) > believed.conflicts(cell)) believed.countConflict(cell)
     }
 
     private fun refresh() {
-        isCurrent = true
         explain()
         for (k in 0 until visitedCount) read(visited[k])
-        val isFitting = fit.go(visited, visitedCount, values, variances, maxOf(1, entries))
-        if (isFitting && fit.isComplete) blocks.allStale()
+        val most = work * maxOf(1, fresh)
+        fresh = 0
+        var done = learn(most / 2)
         val reach = 1 + (covariances.length(covariances.kept[0]) / REACH).toInt()
         for (k in 0 until visitedCount) note(visited[k], reach)
-        var budget = MOST_BLOCKS * (entries + if (isFitting) 0L else 1L)
-        entries = 0
-        while (budget-- > 0) {
-            val block = blocks.take(lastCell)
-            if (block < 0) break
-            predict(block)
+        while (done < most) {
+            if (prediction.block < 0 && !begin()) break
+            if (!prediction.isComplete) done += prediction.go()
+            if (prediction.isComplete) install()
         }
-        isCurrent = blocks.staleCount == 0 && fit.isComplete
+        isCurrent = blocks.staleCount == 0 && prediction.block < 0 && fit.isComplete
         for (k in 0 until visitedCount) write(visited[k])
+    }
+
+    /** Learns the covariance where it is time, [most] of it. Answers how much. */
+    private fun learn(most: Double): Double {
+        fit.beginIfDue(visitedCount)
+        if (fit.isComplete) return 0.0
+        var done = 0.0
+        while (!fit.isComplete && done < most) done += fit.go(visited, visitedCount, values, variances)
+        if (fit.isComplete) forget()
+        return done
+    }
+
+    /** Nothing that was predicted holds any longer. */
+    private fun forget() {
+        blocks.allStale()
+        prediction.drop()
+    }
+
+    /** Begins the next block that is out of date; answers whether there was one. */
+    private fun begin(): Boolean {
+        val block = blocks.take(lastCell)
+        if (block < 0) return false
+        prediction.begin(block, visited, visitedCount, values, variances)
+        return true
     }
 
     private fun explain() {
         var open = 0
         for (k in 0 until visitedCount) if (isOpen(visited[k])) open++
         val isSo = (cells as? SelfCalibratingEstimator)?.isExplained != false && 2 * open <= visitedCount
-        if (isSo != isExplained) blocks.allStale()
+        if (isSo != isExplained) forget()
         isExplained = isSo
     }
 
@@ -180,8 +207,12 @@ public class BayesianMap(
         val reach = maxOf(source.upper(cell) - source.value(cell), source.value(cell) - source.lower(cell))
         val deviation = reach / scale / TruncatedNormal.NORMAL
         if (!value.isFinite() || !deviation.isFinite()) return
-        values[cell] = value.coerceIn(-LARGEST, LARGEST)
-        variances[cell] = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
+        val scaled = value.coerceIn(-LARGEST, LARGEST)
+        val variance = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
+        if (scaled == values[cell] && variance == variances[cell]) return
+        values[cell] = scaled
+        variances[cell] = variance
+        isWritten[cell] = false
     }
 
     /** Whether the bounds of [cell] by itself are the prior's. */
@@ -202,45 +233,21 @@ public class BayesianMap(
         blocks.stale(cell, reach)
     }
 
-    /** What the cells with data near [block] say of each of its cells: the candidates' moments pooled, eqs. (3), (4). */
-    private fun predict(block: Int) {
-        blocks.gather(block, visited, visitedCount, values, variances, regression)
-        forEachCell(block) { cell ->
-            outer[cell] = 0.0
-            outerVariances[cell] = 0.0
-        }
-        var solved = 0.0
-        for (k in 0 until covariances.keptCount) {
-            val candidate = covariances.kept[k]
-            val amplitude = covariances.amplitudes[candidate]
-            if (!regression.solve(candidate, amplitude)) continue
-            regression.invert()
-            regression.precisions(precisions)
-            val weight = covariances.weights[candidate]
-            solved += weight
-            for (i in 0 until regression.size) {
-                val cell = regression.cell(i)
-                if (blocks.blockOf(cell) != block) continue
-                val variance = regression.varianceLeftOut(i, precisions[i], amplitude)
-                pool(cell, weight, regression.meanLeftOut(i, precisions[i]), amplitude * variance)
-            }
-            forEachCell(block) { cell ->
-                if (variances[cell].isNaN()) {
-                    val mean = regression.mean(cell)
-                    pool(cell, weight, mean, amplitude * regression.variance())
-                }
-            }
-        }
-        forEachCell(block) { cell ->
-            val mean = outer[cell] / solved
+    /** The prediction is complete: what the cells with data near its block say of each of its cells. */
+    private fun install() {
+        val block = prediction.block
+        blocks.forEachCell(block) { cell, place ->
+            val mean = prediction.mean(place)
             outer[cell] = mean
-            raw[cell] = maxOf(outerVariances[cell] / solved - mean * mean, LEAST_VARIANCE) * fit.widening * fit.widening
+            raw[cell] = maxOf(prediction.variance(place, mean), LEAST_VARIANCE) * fit.widening * fit.widening
             judge(cell)
         }
-        forEachCell(block) { cell ->
+        blocks.forEachCell(block) { cell, _ ->
             outerVariances[cell] = raw[cell] * unevenness(cell)
+            isWritten[cell] = false
             if (variances[cell].isNaN()) write(cell, outer[cell], outerVariances[cell])
         }
+        prediction.drop()
     }
 
     /** How far off the others' word on a visited cell was: its square over its variance, and how much that says. */
@@ -270,32 +277,21 @@ public class BayesianMap(
         return if (variances[cell].isNaN()) maxOf(1.0, sum / count) else sum / count
     }
 
-    private inline fun forEachCell(block: Int, action: (Int) -> Unit) {
-        for (row in blocks.firstRow(block) until blocks.endRow(block)) {
-            for (column in blocks.firstColumn(block) until blocks.endColumn(block)) {
-                action(row * grid.columns + column)
-            }
-        }
-    }
-
-    /** Adds a candidate's mean and variance of [cell] to the first two moments. */
-    private fun pool(cell: Int, weight: Double, mean: Double, variance: Double) {
-        outer[cell] += weight * mean
-        outerVariances[cell] += weight * (maxOf(variance, 0.0) + mean * mean)
-    }
-
     /** Writes what is believed of a visited cell: its own data and what the others say of it, eq. (2). */
     private fun write(cell: Int) {
         val own = variances[cell]
         val other = outerVariances[cell]
         val isPlain = !(abs(values[cell]) < LARGEST) || !(own < LARGEST) || !other.isFinite()
         if (!isExplained) {
+            isWritten[cell] = false
             believed.setValue(cell, source.value(cell))
             believed.setBounds(cell, believed.prior.lower, believed.prior.upper)
         } else if (isPlain) {
+            isWritten[cell] = false
             believed.setValue(cell, source.value(cell))
             believed.setBounds(cell, source.lower(cell), source.upper(cell))
-        } else {
+        } else if (!isWritten[cell]) {
+            isWritten[cell] = true
             val mean = (other * values[cell] + own * outer[cell]) / (other + own)
             write(cell, mean, maxOf(other * own / (other + own), LEAST_VARIANCE))
         }
@@ -317,31 +313,37 @@ public class BayesianMap(
         }
     }
 
-    private companion object {
-        const val FIRST_CELLS = 128
+    public companion object {
+        /** [work] of a map that is always up to date. */
+        public const val AT_ONCE: Double = Double.POSITIVE_INFINITY
 
-        /** Blocks done at a time, and for each cell entered since the last time: a block and those around it. */
-        const val MOST_BLOCKS = 9
+        /** [work] of large grids where nobody is waiting: some 30 ms on a desk's core for a move of ten readings. */
+        public const val ASHORE: Double = 3e6
+
+        /** [work] of about a millisecond on a desk's core. */
+        public const val AFLOAT: Double = 1e6
+
+        private const val FIRST_CELLS = 128
 
         /** Correlation length, sides of a cell, for which data matter one block farther. */
-        const val REACH = 4.0
+        private const val REACH = 4.0
 
         /** A cell's error matters to others where its variance is above this part of what they say of it themselves. */
-        const val COUNTS = 0.01
+        private const val COUNTS = 0.01
 
         /** Scaled numbers that no sensor gives: nothing is computed with them. */
-        const val LARGEST = 1e6
-        const val LEAST_VARIANCE = 1e-16
+        private const val LARGEST = 1e6
+        private const val LEAST_VARIANCE = 1e-16
 
         /** Cells either way that tell how much the field varies around a cell, and for how many the average counts. */
-        const val AROUND = 2
-        const val UNSURPRISED = 2.0
-        const val MOST_SURPRISE = 1e3
+        private const val AROUND = 2
+        private const val UNSURPRISED = 2.0
+        private const val MOST_SURPRISE = 1e3
 
         /** One over the variance of a value that may be anywhere in the prior's range, scaled. */
-        const val RANGE = 12.0
+        private const val RANGE = 12.0
 
         /** Least precision of what is left, in parts of the variance's own: a width of 10 ranges. */
-        const val LEAST_PRECISION = 1e-3
+        private const val LEAST_PRECISION = 1e-3
     }
 }

@@ -1,26 +1,28 @@
 package stillwater.estimate
 
+import stillwater.model.Grid
 import kotlin.math.ln
-import kotlin.math.pow
 
 /**
  * Learns which of the [covariances] the field has, from the cells around some of the [blocks]: begun anew each time a
- * quarter more cells are visited, and so many blocks at a time that a decision can wait for them. Until the last of
- * them the weights of before hold. No call allocates but for the covariances' tables.
+ * quarter more cells are visited, and one candidate's look at one block at a time, so that a decision can wait for it.
+ * Until the last of them the weights of before hold. No call allocates but for the covariances' tables.
  */
 internal class CovarianceFit(
+    grid: Grid,
     private val covariances: FieldCovariances,
     private val blocks: CellBlocks,
-    private val regression: CellRegression,
 ) {
+    private val regression = CellRegression(grid, covariances, blocks.capacity)
     private val logLikelihoods = DoubleArray(covariances.size)
     private val misfits = DoubleArray(covariances.size)
     private var nextFit = 1
 
-    // Of the fit under way, or the last: how many blocks it takes, how many are done, and their cells.
+    // Of the fit under way, or the last: how many blocks it takes, how many are done, their cells, and the next candidate.
     private var parts = 0
     private var done = 0
     private var count = 0
+    private var candidate = 0
 
     init {
         covariances.weigh(logLikelihoods)
@@ -34,30 +36,39 @@ internal class CovarianceFit(
         private set
 
     /**
-     * Goes on with the fit, or begins one if it is time.
+     * Begins a fit if it is time.
+     *
+     * @param visited how many cells have data.
+     */
+    fun beginIfDue(visited: Int) {
+        if (!isComplete || visited < nextFit) return
+        nextFit = visited + maxOf(1, visited / 4)
+        begin(minOf(blocks.size, visited, MOST_FITTED))
+    }
+
+    /**
+     * Goes on with the fit that is under way: one candidate's look at one block.
      *
      * @param cells the cells with data, the first [visited] of it. Not modified.
      * @param values their scaled values, by cell. Not modified.
      * @param variances their error variances, by cell. Not modified.
-     * @param pace how much to do: so many full blocks, and at least one.
-     * @return whether it did anything.
+     * @return how much work that was, multiplications and additions.
      */
-    fun go(cells: IntArray, visited: Int, values: DoubleArray, variances: DoubleArray, pace: Int): Boolean {
-        if (isComplete) {
-            if (visited < nextFit) return false
-            nextFit = visited + maxOf(1, visited / 4)
-            begin(minOf(blocks.size, visited, MOST_FITTED))
-        }
-        // Work is the cube of the number of cells.
-        var left = pace * CellBlocks.NEAREST.toDouble().pow(3)
-        while (!isComplete && left > 0) {
-            val block = blocks.blockOf(cells[done++ * visited / parts])
+    fun go(cells: IntArray, visited: Int, values: DoubleArray, variances: DoubleArray): Double {
+        if (candidate == 0) {
+            val block = blocks.blockOf(cells[done * visited / parts])
             blocks.gather(block, cells, visited, values, variances, regression)
-            add()
-            left -= regression.size.toDouble().pow(3)
+            count += regression.size
         }
-        if (isComplete) weigh(visited)
-        return true
+        val level = covariances.amplitudes[covariances.kept[0]]
+        if (!regression.solve(candidate, level)) logLikelihoods[candidate] = Double.NEGATIVE_INFINITY
+        logLikelihoods[candidate] -= regression.logDeterminant / 2
+        misfits[candidate] += regression.misfit
+        if (++candidate == covariances.size) {
+            candidate = 0
+            if (++done == parts) weigh(visited)
+        }
+        return regression.solving
     }
 
     private fun begin(wanted: Int) {
@@ -66,16 +77,6 @@ internal class CovarianceFit(
         count = 0
         logLikelihoods.fill(0.0)
         misfits.fill(0.0)
-    }
-
-    private fun add() {
-        val level = covariances.amplitudes[covariances.kept[0]]
-        count += regression.size
-        for (candidate in 0 until covariances.size) {
-            if (!regression.solve(candidate, level)) logLikelihoods[candidate] = Double.NEGATIVE_INFINITY
-            logLikelihoods[candidate] -= regression.logDeterminant / 2
-            misfits[candidate] += regression.misfit
-        }
     }
 
     /** By the marginal likelihood, eq. (5). */

@@ -45,6 +45,9 @@ public class BoardPort(
     private var heardAt = Double.NEGATIVE_INFINITY
     private var toldAt = Double.NEGATIVE_INFINITY
     private var askedAt = Double.NEGATIVE_INFINITY
+    private var restedFrom = Double.POSITIVE_INFINITY
+    private var echoedAt = Double.NEGATIVE_INFINITY
+    private var ranAt = Double.NEGATIVE_INFINITY
 
     /** What the board last said of itself; null before it said anything. */
     public var state: BoardState? = null
@@ -87,16 +90,27 @@ public class BoardPort(
         }
     }
 
-    /** Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. */
-    public fun tell(now: BoatTime, drive: Drive) {
+    /**
+     * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. Where
+     * [isCalm] a rest that the board has obeyed for a while is only repeated before it disarms itself: each line may be
+     * spoilt on the way and become a drive.
+     */
+    public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false) {
         val actuation = mixing.mix(drive)
         val isNewRest = actuation.isAtRest && !sent.isAtRest
-        if (!isNewRest && now.seconds - toldAt < HEARTBEAT) return
+        restedFrom = if (actuation.isAtRest) minOf(restedFrom, now.seconds) else Double.POSITIVE_INFINITY
+        val pause = if (isCalm && isRestKept(now)) REMINDER else HEARTBEAT
+        if (!isNewRest && now.seconds - toldAt < pause) return
         toldAt = now.seconds
         sent = actuation
         // A line that is hit on the way is not heard, and of a first rest that must not happen.
         repeat(if (isNewRest) REST_COPIES else 1) { send(Command.Move(actuation)) }
     }
+
+    /** Whether rest was said for long enough, and the board says that its motors rest. */
+    private fun isRestKept(now: BoatTime) = now.seconds - restedFrom >= RESTING &&
+        now.seconds - echoedAt < ECHO &&
+        now.seconds - ranAt > ECHO
 
     /** Sends [command] at once. */
     public fun order(command: Command) {
@@ -122,6 +136,10 @@ public class BoardPort(
             is Message.State -> state = message.state
             is Message.Battery -> volts = message.volts
             is Message.Refused -> refusals++
+            is Message.Motor -> {
+                echoedAt = now.seconds
+                if (message.velocity != 0.0) ranAt = now.seconds
+            }
             else -> Unit
         }
         sink.message(message)
@@ -134,6 +152,14 @@ public class BoardPort(
         /** Time between questions, s. */
         public const val PATIENCE: Double = 1.0
 
+        /** Silence after which nothing more is said of drives, s: rest was said four times. */
+        internal const val RESTING: Double = 0.5
+
+        /** Time between rests that are kept, s: boards disarm themselves 5 s after their watchdog. */
+        private const val REMINDER = 2.0
+
+        /** Boards say ten times a second what their motors get; older than this it is not known, s. */
+        private const val ECHO = 0.35
         private const val REST_COPIES = 3
         private const val BUFFER = 4096
 

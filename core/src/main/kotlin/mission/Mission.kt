@@ -224,7 +224,7 @@ public class Mission(
             }
             else -> {
                 if (state == MissionState.Arming) arm(before)
-                if (!isDeaf()) port.tell(now, drive)
+                if (!isDeaf()) port.tell(now, drive, isCalm = state != MissionState.Arming)
                 port.askState(now)
             }
         }
@@ -259,13 +259,10 @@ public class Mission(
      */
     private fun isDeaf(): Boolean {
         val isAtRest = state == MissionState.Arming || state == MissionState.Holding(Danger.LINK_LOST)
-        return isAtRest && port.silence(now) > RESTING
+        return isAtRest && port.silence(now) > BoardPort.RESTING
     }
 
     private companion object {
         const val LONGEST_ARMING = 20.0
-
-        /** Silence after which nothing more is said of drives, s: rest was said four times. */
-        const val RESTING = 0.5
     }
 }

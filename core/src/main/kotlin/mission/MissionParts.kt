@@ -89,7 +89,7 @@ public enum class EstimatorName {
         )
         SELF_CALIBRATING -> selfCalibrating(grid, probe)
         BOUNDED_EXTENDED -> BoundedExtendedFilter(grid, probe.range)
-        BAYESIAN -> UpToDate(BayesianMap(grid, probe.range, selfCalibrating(grid, probe)))
+        BAYESIAN -> UpToDate(BayesianMap(grid, probe.range, selfCalibrating(grid, probe), BayesianMap.AFLOAT))
     }
 
     private fun selfCalibrating(grid: Grid, probe: ProbeSpec) =
@@ -97,7 +97,7 @@ public enum class EstimatorName {
 }
 
 /**
- * A Bayesian map that is brought up to date once at each reading, however often it is looked at, so that the same readings
+ * A Bayesian map that is worked on once at each reading, however often it is looked at, so that the same readings
  * give the same map when a log is read back.
  */
 private class UpToDate(val bayesian: BayesianMap) : FieldEstimator {

@@ -119,6 +119,55 @@ class BayesianMapTest {
     }
 
     @Test
+    fun aMapMadeInPartsIsInTheEndTheOneMadeAtOnceAndNeverHalfOfIt() {
+        val grid = Grid.unit(10, 10)
+        val whole = BayesianMap(grid, Interval.UNIT, Oracle(grid, 1e-3))
+        val parts = BayesianMap(grid, Interval.UNIT, Oracle(grid, 1e-3), work = 1.0)
+        val seen = (0 until grid.size).filter { it % 3 == 0 }
+        for (estimator in listOf(whole, parts)) for (cell in seen) estimator.see(cell, smooth(grid, cell))
+        val unseen = (0 until grid.size) - seen.toSet()
+        val expected = unseen.map { Triple(whole.map.value(it), whole.map.lower(it), whole.map.upper(it)) }
+        var asked = 0
+        var found = unseen.map { Triple(0.5, 0.0, 1.0) }
+        while (found != expected && asked++ < 2000) {
+            // Each time it is asked for it goes on.
+            val map = parts.map
+            val now = unseen.map { Triple(map.value(it), map.lower(it), map.upper(it)) }
+            assertTrue(now == found || now == expected, "half a map when asked $asked times")
+            found = now
+        }
+        // A candidate at a time: there are 85 to be learned, and up to five to predict by.
+        assertTrue(asked in 80..1999, "$asked")
+        for (cell in seen) assertEquals(whole.map.value(cell), parts.map.value(cell))
+    }
+
+    @Test
+    fun readingsThatComeWhileABlockIsUnderWayAreTakenIn() {
+        val grid = Grid.unit(20, 20)
+        val estimator = BayesianMap(grid, Interval.UNIT, Oracle(grid, 1e-3), work = 1e4)
+        // Rows in turn, every other cell: blocks are under way while cells of theirs are seen.
+        for (cell in 0 until grid.size step 2) repeat(5) {
+            estimator.see(cell, smooth(grid, cell))
+            estimator.map
+        }
+        repeat(10_000) { estimator.map }
+        for (cell in 0 until grid.size) {
+            val error = abs(estimator.map.value(cell) - smooth(grid, cell))
+            // Seen to 1e-3; between two of them the field bends by 0.3/6 a cell squared.
+            assertTrue(error < if (cell % 2 == 0) 3e-3 else 0.02, "$cell: $error")
+            assertTrue(cell % 2 == 0 || estimator.map.visits(cell) == 0)
+        }
+    }
+
+    @Test
+    fun workMustBeAboveNothing() {
+        val grid = Grid.unit(3, 4)
+        for (work in listOf(0.0, -1.0, Double.NaN)) {
+            assertFailsWith<IllegalArgumentException> { BayesianMap(grid, Interval.UNIT, Oracle(grid, 1.0), work) }
+        }
+    }
+
+    @Test
     fun theMapIsTheSameObjectAndCountsWhatTheCellsCount() {
         val grid = Grid.unit(3, 3)
         val estimator = BayesianMap(grid, Interval.UNIT)

@@ -87,15 +87,19 @@ internal object FaultCampaign {
     ).joinToString("; ")
 }
 
-/** `FIRST COUNT [all]`: prints the table; on the other stream each run in which something is wrong, or all. */
+/**
+ * `FIRST COUNT [EVERY [all]]`: prints the table of COUNT seeds, each EVERY-th (1) from FIRST on; on the other stream each run
+ * in which something is wrong, or all.
+ */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
     val results = ArrayList<RunResult>()
-    for (seed in first until first + arguments[1].toLong()) {
+    val every = arguments.getOrNull(2)?.toLong() ?: 1
+    for (seed in List(arguments[1].toInt()) { first + it * every }) {
         val run = FaultCampaign.run(seed)
         results += run
         val found = FaultCampaign.faultsFound(run)
-        if (found.isNotEmpty() || arguments.size > 2) System.err.println("${FaultCampaign.summary(run)}: $found")
+        if (found.isNotEmpty() || arguments.size > 3) System.err.println("${FaultCampaign.summary(run)}: $found")
         if (results.size % HUNDRED == 0) System.err.println(FaultCampaign.table(results))
     }
     print(FaultCampaign.table(results))

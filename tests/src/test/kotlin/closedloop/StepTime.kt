@@ -19,8 +19,19 @@ import java.util.Locale
 import kotlin.math.cos
 import kotlin.math.sin
 
-/** How long Mission.step takes on a grid of 50 by 50 cells, planner, estimator and log included. */
-internal class StepTime(private val planner: PlannerName, private val estimator: EstimatorName) {
+/**
+ * How long Mission.step takes on a grid of 50 by 50 cells, planner, estimator and log included.
+ *
+ * @param stages of the probe, as in a sensor's file.
+ * @param period from one reading to the next, s.
+ */
+internal class StepTime(
+    private val planner: PlannerName,
+    private val estimator: EstimatorName,
+    private val stages: String,
+    private val period: Double,
+    private val seed: Long,
+) {
     private val spec = MissionSpec.fromJson(
         """{"name":"large","origin":{"lat_deg":45.5,"lon_deg":-73.6},
             "area":{"south_west":{"x_m":-20,"y_m":-20},"north_east":{"x_m":270,"y_m":270}},
@@ -31,70 +42,70 @@ internal class StepTime(private val planner: PlannerName, private val estimator:
     )
     private val boat = VirtualBoat(
         VirtualBoatSpec(
-            SensorSpec.fromJson(
-                """{"name":"probe","stages":[{"type":"first-order-lag","time_constant_s":6.0},""" +
-                    """{"type":"noise","standard_deviation":0.02}]}""",
-            ),
-            board = BoardSpec(oxygenPeriod = 1.0),
+            SensorSpec.fromJson("""{"name":"probe","stages":[$stages,{"type":"noise","standard_deviation":0.02}]}"""),
+            board = BoardSpec(oxygenPeriod = period),
             start = Position(2.5, 2.5),
         ),
         Field { x, y, _ -> 8 + sin(x / 40) + cos(y / 30) },
         LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)),
-        SEED,
+        seed,
     )
     private var characters = 0L
     private val log = MissionLog({ characters += it.length }, LogStart(0, "step time"), spec)
     private val mission = Mission(spec, boat.phone, log)
     private val clock = ManagementFactory.getThreadMXBean()
 
-    /** Processor times of [steps] steps, ns, sorted; the first [WARM] are not among them. */
+    /** Processor times of the mission's first [steps] steps, ns, sorted. */
     fun run(steps: Int): LongArray {
         mission.start()
         val times = LongArray(steps)
-        for (step in -WARM until steps) {
+        for (step in 0 until steps) {
             boat.advance(0.1)
             boat.takeFix()?.let { mission.fix(it.time, it.place) }
             mission.compass(boat.time, boat.heading(), boat.yawRate)
             val begun = clock.currentThreadCpuTime
             mission.step(boat.time)
-            if (step >= 0) times[step] = clock.currentThreadCpuTime - begun
+            times[step] = clock.currentThreadCpuTime - begun
         }
         return times.also { it.sort() }
     }
 
-    private fun word(name: Enum<*>) = name.name.lowercase().replace('_', '-')
-
     companion object {
-        /** Steps until the code is compiled and the boat has been on its way for a while. */
-        const val WARM = 5000
-        private const val SEED = 20_261_121L
+        /** Steps of another mission before, until the code is compiled. */
+        const val WARM = 10_000
+        const val SEED = 20_261_121L
 
-        fun text(times: LongArray): String = listOf(times.size / 2, times.size * 99 / 100, times.size * 999 / 1000)
-            .map { times[it] }
-            .plus(times.last())
-            .joinToString(" | ") { "%.3f".format(Locale.ROOT, it / NANOS) }
+        /** Median, 99th percentile and longest, ms. */
+        fun text(times: LongArray): String = listOf(times[times.size / 2], times[times.size * 99 / 100], times.last())
+            .joinToString(", ") { "%.3f".format(Locale.ROOT, it / NANOS) }
 
         private const val NANOS = 1e6
     }
 }
 
+private const val LAG = """{"type":"first-order-lag","time_constant_s":6.0}"""
+
 /**
- * `STEPS [PLANNER ESTIMATOR]`: prints a table of the times of so many steps, ms of processor time: of the two that are
- * named, or of each planner with one estimator and each estimator with one planner.
+ * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES]]]`: prints a table of the times of a mission's first so many steps, ms of
+ * processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
+ * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s).
  */
 fun main(arguments: Array<String>) {
     val steps = arguments[0].toInt()
-    val named = arguments.drop(1).map { it.uppercase().replace('-', '_') }
-    println("| planner | estimator | median | 99 % | 99.9 % | longest |\n|---|---|---|---|---|---|")
-    for (estimator in EstimatorName.entries) {
-        for (planner in PlannerName.entries) {
-            val isAsked = if (named.isEmpty()) {
-                estimator == EstimatorName.BOUNDED_EXTENDED || planner == PlannerName.BOUNDED_EXTENDED
-            } else {
-                named == listOf(planner.name, estimator.name)
-            }
-            if (!isAsked) continue
-            println("| $planner | $estimator | ${StepTime.text(StepTime(planner, estimator).run(steps))} |")
+    val planners = PlannerName.entries.filter { arguments.getOrElse(1) { "all" } in listOf(word(it), "all") }
+    val estimators = EstimatorName.entries.filter { arguments.getOrElse(2) { "all" } in listOf(word(it), "all") }
+    val period = arguments.getOrNull(3)?.toDouble() ?: 1.0
+    val stages = arguments.getOrNull(4) ?: LAG
+    println("| |" + planners.joinToString("") { " ${word(it)} |" })
+    println("|---|" + "---|".repeat(planners.size))
+    for (estimator in estimators) {
+        print("| ${word(estimator)} |")
+        for (planner in planners) {
+            StepTime(planner, estimator, stages, period, StepTime.SEED + 1).run(StepTime.WARM)
+            print(" ${StepTime.text(StepTime(planner, estimator, stages, period, StepTime.SEED).run(steps))} |")
         }
+        println()
     }
 }
+
+private fun word(name: Enum<*>) = name.name.lowercase().replace('_', '-')
