@@ -182,6 +182,10 @@ public enum class ResponseKind(public val label: String, public val parameters: 
         return -(ratio * ratio + part * part) / 2
     }
 
+    /** Largest value of parameter [index] that [response] tells from larger ones, in its unit. */
+    internal fun most(index: Int): Double =
+        if (parameters[index] == TWO_PATH.parameters.last()) LARGEST_SHARE else Double.POSITIVE_INFINITY
+
     /** Whether parameter [index] is the time of a slow path, whose length is limited by [belief] alone. */
     internal fun isSlow(index: Int): Boolean = parameters[index] == TWO_PATH.parameters[1]
 

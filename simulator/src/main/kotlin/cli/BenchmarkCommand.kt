@@ -84,7 +84,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         metavar = "COLSxROWS",
         help = "size of the fields in cells; 10x10 unless given",
     )
-        .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
+        .numberPair('x', "COLSxROWS such as 10x10, whole numbers above 0, $MILLION cells at most") { columns, rows ->
             columns >= 1 && rows >= 1 && columns % 1 == 0.0 && rows % 1 == 0.0 && columns * rows <= MILLION
         }
     private val samples by option(

@@ -9,6 +9,9 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import com.github.ajalt.clikt.parameters.options.required
+import java.nio.file.Path
+import java.time.ZonedDateTime
+import java.time.format.DateTimeFormatter
 import stillwater.control.Mixing
 import stillwater.drive.BoardPhone
 import stillwater.drive.DriveRun
@@ -32,9 +35,7 @@ import stillwater.mission.MissionSpec
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
-import java.nio.file.Path
-import java.time.ZonedDateTime
-import java.time.format.DateTimeFormatter
+import stillwater.run.withUnit
 
 /** `stillwater drive`: a mission on a real wire, with a real boat or a virtual one at its other end. */
 class DriveCommand : WorkCommand("drive") {
@@ -71,7 +72,7 @@ class DriveCommand : WorkCommand("drive") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the " +
             "log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
-            "code 0 when the mission was completed, 1 when it ended otherwise.",
+            "code 0 when the mission was completed, 1 when it ended otherwise or surveyed nothing.",
         listOf(
             "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
             "stillwater drive pond.json --port /dev/pts/3 --phone tcp:127.0.0.1:4002 --yes",
@@ -125,7 +126,8 @@ class DriveCommand : WorkCommand("drive") {
             val reason = run.sail()
             status.wipe()
             sayWhereTimeWasLost(phone, prompt)
-            finish(mission, file, directory, reason)
+            val isEmpty = !run.hasSurveyed && (resumed == null || resumed.mission.readings == 0L)
+            finish(mission, file, directory, Ending(reason, isEmpty))
         }
     }
 
@@ -154,20 +156,24 @@ class DriveCommand : WorkCommand("drive") {
         listener.start()
     }
 
-    private fun finish(mission: Mission, file: LogOnDisk, directory: Path, reason: StopReason?) {
+    /** Why the mission is over, null where it was stopped before it began, and whether nothing was surveyed in it. */
+    private class Ending(val reason: StopReason?, val isEmpty: Boolean)
+
+    private fun finish(mission: Mission, file: LogOnDisk, directory: Path, ending: Ending) {
         // The map comes first: a log that claims to be complete without it would not be gone on with.
         val warnings = OutputDirectory(directory).use {
             val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)
             it.commit()
-            MapCautions.of(mission) + missing
+            MapCautions.of(mission, ending.isEmpty) + missing
         }
         val log = file.complete()
         for (warning in warnings) echo("warning: $warning", err = true)
-        val why = reason?.name?.lowercase() ?: "stopped before it began"
+        val why = ending.reason?.name?.lowercase() ?: "stopped before it began"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
-        val readings = counted(mission.readings.passed, "reading") + borders
+        val quantity = mission.spec.probe.quantity.withUnit
+        val readings = "${counted(mission.readings.passed, "reading")} of $quantity$borders"
         tell("$why; $readings, ${mission.readings.leftOut} left out; log $log")
-        if (reason != StopReason.COMPLETED) throw ProgramResult(1)
+        if (ending.reason != StopReason.COMPLETED || ending.isEmpty) throw ProgramResult(1)
     }
 
     /** Readings that the mission took for earlier or later than they were make its map worse. */

@@ -14,7 +14,7 @@ import stillwater.report.SignificantDigits
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
  * @property channels how late other channels of the boat are, or null. @param isGiven whether the base is a sensor that
- * was given.
+ * was given. @param unit of the readings, or null.
  */
 class Diagnosed(
     val log: DiagnosisLog,
@@ -22,7 +22,14 @@ class Diagnosed(
     val worth: MapWorth?,
     private val isGiven: Boolean = false,
     val channels: ChannelLags? = null,
+    private val unit: String? = null,
 ) {
+    /** The quantity with its unit. */
+    val quantity: String = if (unit == null) log.quantity else "${log.quantity} ($unit)"
+
+    /** The unit after a number, with a blank before it; empty without one. */
+    val unitAfter: String = unit?.let { " $it" }.orEmpty()
+
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
      * `unexplained`.
@@ -83,10 +90,13 @@ class Diagnosed(
     fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { estimate ->
         val three = SignificantDigits(3)
         val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
-        val unit = if (estimate.unit.isEmpty()) "" else " ${estimate.unit}"
+        val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
         val name = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
         "$name ${three.format(estimate.value)}$reach$unit"
     }
+
+    /** [words] of a unit, with the readings' own in it where it is known. */
+    fun inUnit(words: String): String = if (unit == null) words else words.replace(SENSOR_UNITS, unit)
 
     /** Five lines for the terminal. */
     fun lines(): List<String> {
@@ -100,7 +110,7 @@ class Diagnosed(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
             "base: $sensor; residuals " +
-                three.format(base.trainRmse) + heldOut(base, three) + " (root mean square)",
+                three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)",
             if (after != null) {
                 extension(base, after, three)
             } else {
@@ -116,13 +126,18 @@ class Diagnosed(
 
     /** Where too little was there nothing is held out. */
     private fun heldOut(model: ModelAssessment, three: SignificantDigits) =
-        if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}"
+        if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}$unitAfter"
 
     private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String =
         if (after === base) {
             "extended: the base, whose lag is what was named"
         } else {
-            "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
+            "extended: held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
                 "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
         }
+
+    private companion object {
+        /** What numbers are in whose unit nobody said. */
+        const val SENSOR_UNITS = "sensor units"
+    }
 }

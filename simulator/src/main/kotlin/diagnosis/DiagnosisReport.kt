@@ -18,7 +18,7 @@ internal class DiagnosisReport(
     private val result = diagnosed.result
     private val three = SignificantDigits(3)
     private val page = HtmlReport(
-        title = "Diagnosis of ${diagnosed.log.quantity}",
+        title = "Diagnosis of ${diagnosed.quantity}",
         subtitle = "${diagnosed.log.file.fileName}, ${diagnosed.log.format}",
         provenance = Provenance(Program.VERSION, command),
     )
@@ -30,7 +30,8 @@ internal class DiagnosisReport(
         page.summary("Rows", "${diagnosed.log.series.size}")
         val isHeldOut = !result.baseline.heldOutRmse.isNaN()
         val residuals = if (isHeldOut) "Residuals on held-out blocks" else "Residuals, nothing held out"
-        fun shown(model: ModelAssessment) = three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse)
+        fun shown(model: ModelAssessment) =
+            three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse) + diagnosed.unitAfter
         page.summary("$residuals, base", shown(result.baseline))
         result.extended?.let { page.summary("The same, extended", shown(it)) }
         diagnosed.warnings.forEach(page::warning)
@@ -67,15 +68,19 @@ internal class DiagnosisReport(
                     "${three.format(worth.error)}).",
             )
         }
-        keyValues(after.parameters.map { it.name.replace('_', ' ') to "${three.format(it.value)} ${it.unit}" })
+        keyValues(
+            after.parameters.map {
+                it.name.replace('_', ' ') to "${three.format(it.value)} ${diagnosed.inUnit(it.unit)}"
+            },
+        )
     }
 
     private fun stillwater.report.ReportSection.heldOut(before: ModelAssessment, after: ModelAssessment) {
         val gain = three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)
         paragraph(
             "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
-                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}, and the log-likelihood " +
-                "rises by $gain.",
+                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}${diagnosed.unitAfter}, and " +
+                "the log-likelihood rises by $gain.",
         )
     }
 

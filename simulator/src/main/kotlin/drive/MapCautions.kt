@@ -4,6 +4,8 @@ import stillwater.estimate.SensorBelief
 import stillwater.field.FieldMap
 import stillwater.mission.EstimatorName
 import stillwater.mission.Mission
+import stillwater.mission.MissionState
+import stillwater.mission.StopReason
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
 
@@ -19,10 +21,13 @@ internal object MapCautions {
         EstimatorName.INTERVAL,
         EstimatorName.SELF_CALIBRATING,
     )
+    /** A mission that was over before it was under way. */
+    const val NOTHING = "nothing was surveyed: the budget was spent before the boat could set out; give it more"
     private val THREE = SignificantDigits(3)
 
-    /** One line each; of [mission]'s map as it is now. */
-    fun of(mission: Mission): List<String> = listOfNotNull(
+    /** One line each; of [mission]'s map as it is now, and of the mission itself where it [isEmpty]. */
+    fun of(mission: Mission, isEmpty: Boolean = false): List<String> = listOfNotNull(
+        NOTHING.takeIf { isEmpty && mission.state == MissionState.Stopped(StopReason.COMPLETED) },
         unexplained(mission.spec.estimator, mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
         "no cell has a reading".takeIf { (0 until mission.map.grid.size).none { mission.map.readings(it) > 0 } },

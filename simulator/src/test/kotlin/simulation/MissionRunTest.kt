@@ -1,17 +1,18 @@
 package stillwater.simulation
 
+import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
 import org.junit.jupiter.api.Test
 import stillwater.mission.EstimatorName
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
+import stillwater.run.label
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 import stillwater.world.WaterKind
 import stillwater.world.WorldSettings
-import kotlin.test.assertEquals
-import kotlin.test.assertNotNull
-import kotlin.test.assertTrue
 
 /** Seeds fixed before the first run. */
 class MissionRunTest {
