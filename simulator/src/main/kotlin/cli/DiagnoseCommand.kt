@@ -116,7 +116,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private fun isGiven(given: SensorSpec?, result: DiagnosisResult) = given != null && result.baseSensor == given
 
     private fun worth(read: DiagnosisLog, result: DiagnosisResult): MapWorth? {
-        val extended = result.extendedSensor?.takeIf { !numbersOnly } ?: return null
+        // Where the base itself was named there are no two models to compare.
+        val isOther = result.extended !== result.baseline
+        val extended = result.extendedSensor?.takeIf { isOther && !numbersOnly } ?: return null
         val truth = if (reference != null) read.columns.reference else read.columns.values
         val threads = Runtime.getRuntime().availableProcessors()
         return runBlocking { MapWorth.of(result.baseSensor, extended, truth.min(), truth.max(), threads) }

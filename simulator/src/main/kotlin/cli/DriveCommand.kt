@@ -126,8 +126,7 @@ class DriveCommand : WorkCommand("drive") {
             val reason = run.sail()
             status.wipe()
             sayWhereTimeWasLost(phone, prompt)
-            val isEmpty = !run.hasSurveyed && (resumed == null || resumed.mission.readings == 0L)
-            finish(mission, file, directory, Ending(reason, isEmpty))
+            finish(mission, file, directory, reason)
         }
     }
 
@@ -156,24 +155,21 @@ class DriveCommand : WorkCommand("drive") {
         listener.start()
     }
 
-    /** Why the mission is over, null where it was stopped before it began, and whether nothing was surveyed in it. */
-    private class Ending(val reason: StopReason?, val isEmpty: Boolean)
-
-    private fun finish(mission: Mission, file: LogOnDisk, directory: Path, ending: Ending) {
+    private fun finish(mission: Mission, file: LogOnDisk, directory: Path, reason: StopReason?) {
         // The map comes first: a log that claims to be complete without it would not be gone on with.
         val warnings = OutputDirectory(directory).use {
             val missing = MissionMapFiles.write(it, mission.spec, mission.map, !numbersOnly)
             it.commit()
-            MapCautions.of(mission, ending.isEmpty) + missing
+            MapCautions.of(mission) + missing
         }
         val log = file.complete()
         for (warning in warnings) echo("warning: $warning", err = true)
-        val why = ending.reason?.name?.lowercase() ?: "stopped before it began"
+        val why = reason?.name?.lowercase() ?: "stopped before it began"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
         val quantity = mission.spec.probe.quantity.withUnit
         val readings = "${counted(mission.readings.passed, "reading")} of $quantity$borders"
         tell("$why; $readings, ${mission.readings.leftOut} left out; log $log")
-        if (ending.reason != StopReason.COMPLETED || ending.isEmpty) throw ProgramResult(1)
+        if (reason != StopReason.COMPLETED || MapCautions.hasSurveyedNothing(mission)) throw ProgramResult(1)
     }
 
     /** Readings that the mission took for earlier or later than they were make its map worse. */

@@ -1,5 +1,6 @@
 package stillwater.diagnosis
 
+import kotlin.math.abs
 import stillwater.diagnose.Cause
 import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.DiagnosisResult
@@ -86,13 +87,22 @@ class Diagnosed(
         return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
     }
 
+    /** Whether what was named is the base model's own lag, so that there is nothing to extend it by. */
+    val isBaseNamed: Boolean get() = result.extended === result.baseline
+
     /** [parameters] in words. */
-    fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { estimate ->
+    fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { "${name(it)} ${number(it)}" }
+
+    /** What [estimate] is of, in words. */
+    fun name(estimate: Estimate): String = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
+
+    /** The number of [estimate] with its interval and unit. */
+    fun number(estimate: Estimate): String {
+        if (abs(estimate.value) >= NO_END) return "none"
         val three = SignificantDigits(3)
         val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
         val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
-        val name = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
-        "$name ${three.format(estimate.value)}$reach$unit"
+        return "${three.format(estimate.value)}$reach$unit"
     }
 
     /** [words] of a unit, with the readings' own in it where it is known. */
@@ -105,7 +115,7 @@ class Diagnosed(
         val after = result.extended
         val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
         val best = result.candidates.firstOrNull()
-        val sensor = if (isGiven) "the sensor given" else "lag of ${three.format(tau?.value ?: Double.NaN)} s"
+        val sensor = if (isGiven) "the sensor given" else "lag of ${tau?.let(::number) ?: "unknown length"}"
         return listOf(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
@@ -139,5 +149,8 @@ class Diagnosed(
     private companion object {
         /** What numbers are in whose unit nobody said. */
         const val SENSOR_UNITS = "sensor units"
+
+        /** The end of a range that was not found stands beyond this. */
+        const val NO_END = 1e11
     }
 }

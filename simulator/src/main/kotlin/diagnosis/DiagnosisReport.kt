@@ -17,6 +17,11 @@ internal class DiagnosisReport(
 ) {
     private val result = diagnosed.result
     private val three = SignificantDigits(3)
+    private val checks: List<ResidualCheck> = ResidualChecks.of(
+        (result.extended ?: result.baseline).whitened,
+        ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 },
+        result.baseline.noiseSpread,
+    )
     private val page = HtmlReport(
         title = "Diagnosis of ${diagnosed.quantity}",
         subtitle = "${diagnosed.log.file.fileName}, ${diagnosed.log.format}",
@@ -33,7 +38,7 @@ internal class DiagnosisReport(
         fun shown(model: ModelAssessment) =
             three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse) + diagnosed.unitAfter
         page.summary("$residuals, base", shown(result.baseline))
-        result.extended?.let { page.summary("The same, extended", shown(it)) }
+        if (!diagnosed.isBaseNamed) result.extended?.let { page.summary("The same, extended", shown(it)) }
         diagnosed.warnings.forEach(page::warning)
         page.section("The answer") { answer() }
         page.section("Measured and predicted") { show("predicted") }
@@ -57,6 +62,13 @@ internal class DiagnosisReport(
         result.separatingManoeuvre?.let { paragraph("What would tell the causes apart: $it.") }
         val after = result.extended ?: return
         val before = result.baseline
+        if (diagnosed.isBaseNamed) {
+            paragraph(
+                "What is at work is the lag of the base model itself: ${diagnosed.numbers(after.parameters)}. There is " +
+                    "nothing to extend it by.",
+            )
+            return leftOver()
+        }
         if (!before.heldOutRmse.isNaN()) heldOut(before, after)
         diagnosed.worth?.let { worth ->
             paragraph(
@@ -68,10 +80,18 @@ internal class DiagnosisReport(
                     "${three.format(worth.error)}).",
             )
         }
-        keyValues(
-            after.parameters.map {
-                it.name.replace('_', ' ') to "${three.format(it.value)} ${diagnosed.inUnit(it.unit)}"
-            },
+        keyValues(after.parameters.map { diagnosed.name(it) to diagnosed.number(it) })
+        leftOver()
+    }
+
+    /** Intervals are worth what the model is: where more than chance is left, the reader must know. */
+    private fun stillwater.report.ReportSection.leftOver() {
+        val outside = checks.filter { it.value !in it.lower..it.upper }
+        if (outside.size < 2) return
+        paragraph(
+            "What is left is more than noise: ${outside.size} of the ${checks.size} checks of the residuals below are " +
+                "outside of what noise alone gives. The model is not all of the truth, and the intervals, which hold " +
+                "if it is, are rather too narrow.",
         )
     }
 
@@ -85,6 +105,14 @@ internal class DiagnosisReport(
     }
 
     private fun stillwater.report.ReportSection.tried() {
+        if (diagnosed.log.reference == null && result.candidates.isNotEmpty()) {
+            paragraph(
+                "Each row is a cause beside a lag; where a time constant cannot be told from a dead time, beside " +
+                    "both, and the time constant is then what the dead time leaves of the lag, less than the " +
+                    "answer's. Residuals can be held against each other within this table only. The lag itself is " +
+                    "not among the rows: whether it is at work the answer says.",
+            )
+        }
         table(
             Table.of(result.candidates) {
                 text("Cause") { candidate: Candidate ->
@@ -103,10 +131,8 @@ internal class DiagnosisReport(
         figures.filter {
             it.name.startsWith("residuals-") || it.name == "correlation"
         }.forEach { figure(it.figure, it.caption) }
-        val resolution = ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 }
-        val z = (result.extended ?: result.baseline).whitened
         table(
-            Table.of(ResidualChecks.of(z, resolution, result.baseline.noiseSpread)) {
+            Table.of(checks) {
                 text("Whitened residuals of the best model") { it.name }
                 number("Value") { it.value }
                 number("Noise alone, from") { it.lower }

@@ -42,10 +42,6 @@ internal class DriveRun(
     @Volatile
     private var stopWanted = false
     private var startTold = false
-
-    /** Whether the boat was ever on its way through the cells. */
-    var hasSurveyed = false
-        private set
     private var stopTold = false
 
     /** A person wants the mission to begin. */
@@ -89,7 +85,6 @@ internal class DriveRun(
         val before = mission.state.word
         mission.step(moment.time)
         phone.done()
-        if (mission.state == MissionState.Surveying) hasSurveyed = true
         if (mission.state.word != before) watcher.changed(mission, moment.time)
         watcher.stepped(mission, moment.time)
         flush(moment.time)

@@ -21,17 +21,29 @@ internal object MapCautions {
         EstimatorName.INTERVAL,
         EstimatorName.SELF_CALIBRATING,
     )
-    /** A mission that was over before it was under way. */
-    const val NOTHING = "nothing was surveyed: the budget was spent before the boat could set out; give it more"
     private val THREE = SignificantDigits(3)
 
-    /** One line each; of [mission]'s map as it is now, and of the mission itself where it [isEmpty]. */
-    fun of(mission: Mission, isEmpty: Boolean = false): List<String> = listOfNotNull(
-        NOTHING.takeIf { isEmpty && mission.state == MissionState.Stopped(StopReason.COMPLETED) },
+    /** One line each; of [mission]'s map as it is now. */
+    fun of(mission: Mission): List<String> = listOfNotNull(
+        nothing(mission),
         unexplained(mission.spec.estimator, mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
-        "no cell has a reading".takeIf { (0 until mission.map.grid.size).none { mission.map.readings(it) > 0 } },
+        "no cell has a reading".takeIf { visited(mission) == 0 },
     )
+
+    /** Whether [mission] says that it did all it was to do and knows of no cell, or of none but that where the boat lay. */
+    fun hasSurveyedNothing(mission: Mission): Boolean =
+        mission.state == MissionState.Stopped(StopReason.COMPLETED) && mission.map.grid.size > 1 && visited(mission) <= 1
+
+    /** What to say of a [mission] that [hasSurveyedNothing]; null for others. */
+    fun nothing(mission: Mission): String? =
+        if (hasSurveyedNothing(mission)) {
+            "nothing was surveyed: the budget was spent before the boat came to a second cell; give it more"
+        } else {
+            null
+        }
+
+    private fun visited(mission: Mission) = (0 until mission.map.grid.size).count { mission.map.readings(it) > 0 }
 
     /** Where no model of a sensor fits; [where] says why that may be, after a comma. */
     fun unexplained(estimator: EstimatorName, belief: SensorBelief?, where: String = ""): String? {

@@ -119,9 +119,11 @@ internal class ColourScale private constructor(
 
         /** The scale for [values] that are differences, to the largest of them either way. */
         fun ofDifferences(values: List<Double>): ColourScale {
-            val largest = values.map { abs(it) }.filter { it <= LARGEST }.maxOrNull() ?: 0.0
-            // All zero: a millionth either way would be shown as if it were something.
-            val end = if (largest > 0) largest else 1.0
+            val finite = values.filter { abs(it) <= LARGEST }
+            val largest = finite.maxOfOrNull { abs(it) } ?: 0.0
+            // The plot library's constants: see aroundConstant.
+            val isConstant = finite.isEmpty() || finite.max() - finite.min() <= largest * SMALLEST_SHARE
+            val end = if (isConstant) largest + CONSTANT_MARGIN else largest
             return ColourScale(-end, end, isDifference = true)
         }
 

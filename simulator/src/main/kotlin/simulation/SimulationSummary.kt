@@ -1,8 +1,6 @@
 package stillwater.simulation
 
 import stillwater.drive.MapCautions
-import stillwater.mission.MissionState
-import stillwater.mission.StopReason
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
 
@@ -14,12 +12,11 @@ import stillwater.report.counted
 class SimulationSummary(private val result: SimulationResult, val unit: String) {
     private val run = result.run
     private val three = SignificantDigits(3)
-    private val hasSurveyed = run.history.spans.any { it.state == MissionState.Surveying }
 
     /** Names and sentences, the most important first. */
     val facts: List<Pair<String, String>> = buildList {
         val end = run.history.spans.last()
-        val nothing = if (hasSurveyed) "" else ", nothing surveyed"
+        val nothing = if (MapCautions.hasSurveyedNothing(run.mission)) ", nothing surveyed" else ""
         add("mission" to "${run.spec.name}: ${end.label} after ${clock(end.from)}$nothing")
         add("map error" to mapError())
         add("in process" to inProcess())
@@ -47,7 +44,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         if (!result.isOver) {
             add("the mission was not over after ${clock(result.longest)}; --longest gives it more time")
         }
-        if (!hasSurveyed && run.mission.state == MissionState.Stopped(StopReason.COMPLETED)) add(MapCautions.NOTHING)
+        MapCautions.nothing(run.mission)?.let { add(it) }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
         val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
         MapCautions.unexplained(run.spec.estimator, result.belief, where)?.let { add(it) }

@@ -58,7 +58,9 @@ class MapsTest {
         // Seen from its middle the scale does not move where all are above.
         val above = shapes(CellMap("t", "", cells(3) { it + 0.0 }, "u", isDifference = true).draw())
         assertEquals("rgb(247,247,247)", above.first().getAttribute("fill"))
-        assertEquals(1, shapes(CellMap("t", "", cells(1) { 0.0 }, "u", isDifference = true).draw()).size)
+        for (only in listOf(0.0, -1e-5, 3.0)) {
+            assertEquals(1, shapes(CellMap("t", "", cells(1) { only }, "u", isDifference = true).draw()).size, "$only")
+        }
     }
 
     @Test
