@@ -115,31 +115,32 @@ class CorrectFiles(
                                 val interval = standing.candidate.interval(i)
                                 putJsonObject(name) {
                                     put("value", standing.candidate.parameter(i))
-                                    put("low", interval.start)
-                                    put("high", interval.endInclusive)
+                                    put("low", finite(interval.start))
+                                    // Null where the log does not say how large it may be.
+                                    put("high", finite(interval.endInclusive))
                                 }
                             }
                         }
-                        put("mean_delay_s", standing.candidate.response.meanDelay)
-                        put("held_out_score", standing.candidate.heldOutScore)
-                        put("behind", standing.behind)
-                        put("behind_error", standing.error.takeIf { it.isFinite() })
+                        put("mean_delay_s", finite(standing.candidate.response.meanDelay))
+                        put("held_out_score", finite(standing.candidate.heldOutScore))
+                        put("behind", finite(standing.behind))
+                        put("behind_error", finite(standing.error))
                         put("open", standing.isOpen)
-                        put("weight", standing.weight)
+                        put("weight", finite(standing.weight))
                     },
                 )
             }
         }
-        result.before?.let { put("opposite_legs_before", it.opposite.mean) }
-        result.after?.let { put("opposite_legs_after", it.opposite.mean) }
+        result.before?.let { put("opposite_legs_before", finite(it.opposite.mean)) }
+        result.after?.let { put("opposite_legs_after", finite(it.opposite.mean)) }
         heldOut?.let { scores ->
             putJsonArray("held_out") {
                 for (score in scores) {
                     addJsonObject {
                         put("learned_on", score.learnedOn)
                         put("legs", score.legs)
-                        put("opposite_legs_before", score.before)
-                        put("opposite_legs_after", score.after)
+                        put("opposite_legs_before", finite(score.before))
+                        put("opposite_legs_after", finite(score.after))
                         score.passes?.let {
                             put("pairs_of_passes", it.pairs)
                             put("passes_rms_before", it.before)
@@ -149,10 +150,13 @@ class CorrectFiles(
                 }
             }
         }
-        put("mean_half_width", summary.halfWidth)
+        put("mean_half_width", finite(summary.halfWidth))
         put("learned_on", result.learnedOn)
         put("blocks", result.blocks)
     }
+
+    /** JSON has no other numbers. */
+    private fun finite(number: Double): Double? = number.takeIf { it.isFinite() }
 
     private fun page(figures: List<CorrectFigure>): String {
         val page = HtmlReport(
