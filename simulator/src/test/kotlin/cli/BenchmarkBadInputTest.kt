@@ -253,11 +253,6 @@ class BenchmarkBadInputTest {
                 """{"type": "Polygon", "coordinates": [[[0, 0], [4, 4], [4, 0], [0, 3]]]}""".toByteArray(),
             ),
             Case(
-                "--planner: expected with --area one that keeps to the water (polygon-rrt), found random-walk",
-                listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt,random-walk"),
-                """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
-            ),
-            Case(
                 "--grid: expected --cell with --area, found --grid",
                 listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt", "--grid", "4x4"),
                 """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
