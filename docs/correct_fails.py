@@ -123,7 +123,7 @@ def run(values, sensor, stages, seeds):
 
 def draw(means):
     """Coverage over the rate limit, as SVG."""
-    wide, high, left, top, right, low = 640, 380, 70, 50, 20, 60
+    wide, high, left, top, right, low = 640, 380, 70, 50, 30, 60
     ends = [math.log(means[0][0]), math.log(means[-1][0])]
     x = lambda rate: left + (math.log(rate) - ends[0]) / (ends[1] - ends[0]) * (wide - left - right)
     y = lambda share: top + (1 - share) * (high - top - low)

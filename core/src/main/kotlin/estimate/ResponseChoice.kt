@@ -25,8 +25,9 @@ public class CandidateStanding internal constructor(
  * Which responses a log leaves open, by scores on data that they were not fitted to.
  *
  * A candidate is ruled out if it is behind any other by more than [RULED_OUT] standard errors and by more than
- * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open: two time constants
- * fit noise better than one, and nothing is lost.
+ * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open, unless they are
+ * ahead of it by more than [AHEAD] standard errors: two time constants fit noise better than one, and nothing is lost;
+ * but where they foretell what they were not fitted to better, what is simpler alone would be too sure of itself.
  *
  * @property standings all candidates, the most likely first.
  */
@@ -51,6 +52,9 @@ public class ResponseChoice private constructor(public val standings: List<Candi
         /** Loss in log score that is none. */
         public const val SMALLEST_LOSS: Double = 2.0
 
+        /** Standard errors by which a richer response is ahead of a simpler one beside which it stays open. */
+        public const val AHEAD: Double = 1.0
+
         private const val DRAWS = 2000
 
         /** Kinds that give way to an open one that they contain. */
@@ -70,7 +74,9 @@ public class ResponseChoice private constructor(public val standings: List<Candi
             val notRuledOut = candidates.indices.filterNot { i -> candidates.any { rulesOut(it, candidates[i]) } }
             val open = notRuledOut.filterNot { rich ->
                 val kind = candidates[rich].kind
-                kind in RICH && notRuledOut.any { kind.contains(candidates[it].kind) }
+                kind in RICH && notRuledOut.any {
+                    kind.contains(candidates[it].kind) && !isAhead(candidates[rich], candidates[it], AHEAD)
+                }
             }
             val weights = weights(open.map { candidates[it] }, random)
             val standings = candidates.indices.map { i ->
@@ -93,9 +99,12 @@ public class ResponseChoice private constructor(public val standings: List<Candi
         }
 
         /** Not the best alone: how far it is behind that may be told less well than how far behind another. */
-        private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean {
-            val behind = better.heldOutScore - other.heldOutScore
-            return behind > SMALLEST_LOSS && behind > RULED_OUT * error(better, other)
+        private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean =
+            isAhead(better, other, RULED_OUT)
+
+        private fun isAhead(one: CandidateResponse, other: CandidateResponse, errors: Double): Boolean {
+            val ahead = one.heldOutScore - other.heldOutScore
+            return ahead > SMALLEST_LOSS && ahead > errors * error(one, other)
         }
 
         private fun error(best: CandidateResponse, other: CandidateResponse): Double {
