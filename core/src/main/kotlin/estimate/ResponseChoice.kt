@@ -25,9 +25,10 @@ public class CandidateStanding internal constructor(
  * Which responses a log leaves open, by scores on data that they were not fitted to.
  *
  * A candidate is ruled out if it is behind any other by more than [RULED_OUT] standard errors and by more than
- * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open, unless they are
- * ahead of it by more than [AHEAD] standard errors: two time constants fit noise better than one, and nothing is lost;
- * but where they foretell what they were not fitted to better, what is simpler alone would be too sure of itself.
+ * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open: two time constants
+ * fit noise better than one, and nothing is lost. But a slow path hides from a single lag, which alone would be far too
+ * sure of itself: two paths stay open beside what they contain where they are ahead of it by more than [AHEAD] standard
+ * errors and the log says more of the slow path than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
  */
@@ -52,7 +53,7 @@ public class ResponseChoice private constructor(public val standings: List<Candi
         /** Loss in log score that is none. */
         public const val SMALLEST_LOSS: Double = 2.0
 
-        /** Standard errors by which a richer response is ahead of a simpler one beside which it stays open. */
+        /** Standard errors by which two paths are ahead of something simpler beside which they stay open. */
         public const val AHEAD: Double = 1.0
 
         private const val DRAWS = 2000
@@ -75,7 +76,7 @@ public class ResponseChoice private constructor(public val standings: List<Candi
             val open = notRuledOut.filterNot { rich ->
                 val kind = candidates[rich].kind
                 kind in RICH && notRuledOut.any {
-                    kind.contains(candidates[it].kind) && !isAhead(candidates[rich], candidates[it], AHEAD)
+                    kind.contains(candidates[it].kind) && !isToldFrom(candidates[rich], candidates[it])
                 }
             }
             val weights = weights(open.map { candidates[it] }, random)
@@ -101,6 +102,12 @@ public class ResponseChoice private constructor(public val standings: List<Candi
         /** Not the best alone: how far it is behind that may be told less well than how far behind another. */
         private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean =
             isAhead(better, other, RULED_OUT)
+
+        private fun isToldFrom(rich: CandidateResponse, other: CandidateResponse): Boolean {
+            val ofSlowPath = rich.kind.parameters.indices.filter { rich.kind.isBelieved(it) }
+            return ofSlowPath.isNotEmpty() && ofSlowPath.all { rich.relativeErrors[it] < ResponseKind.BELIEVED } &&
+                isAhead(rich, other, AHEAD)
+        }
 
         private fun isAhead(one: CandidateResponse, other: CandidateResponse, errors: Double): Boolean {
             val ahead = one.heldOutScore - other.heldOutScore
