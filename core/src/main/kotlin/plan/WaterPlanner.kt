@@ -10,9 +10,9 @@ import stillwater.model.Position
  * routes' margin.
  *
  * The planner plans on a map in which cells whose centre is on land or within the margin have nothing to be learned. Of
- * its waypoints these are left out; to each of the others leads the straight leg, or where that is not clear the shortest
- * way through the water. Where nothing of a plan is left, the planner is asked again from where the plan ended, as if it
- * had gone there, until it comes back to the water or was asked [MOST_ASKED] times.
+ * its waypoints these are left out; to each of the others leads the straight leg, or where that is not clear the
+ * shortest way through the water. Where nothing of a plan is left, the planner is asked again from where the plan ended,
+ * as if it had gone there, until it comes back to the water or was asked [MOST_ASKED] times.
  *
  * Allocates when the map's grid has changed, otherwise as the other planner. Confined to one thread.
  *
@@ -80,7 +80,8 @@ public class WaterPlanner(private val planner: Planner, private val routes: Wate
         for (cell in 0 until own.grid.size) {
             val value = map.value(cell)
             own.setValue(cell, value)
-            if (water[cell]) own.setBounds(cell, map.lower(cell), map.upper(cell)) else own.setBounds(cell, value, value)
+            val isWater = water[cell]
+            own.setBounds(cell, if (isWater) map.lower(cell) else value, if (isWater) map.upper(cell) else value)
             while (own.visits(cell) < map.visits(cell)) own.countVisit(cell)
         }
         return own

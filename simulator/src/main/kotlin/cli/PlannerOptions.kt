@@ -81,8 +81,8 @@ class PlannerOptions : OptionGroup(name = "Planners") {
     private val resolution by option(
         "--resolution",
         metavar = "METRES",
-        help = "with --area, and polygon-rrt: distance of the points among which ways through narrow water are sought; half a cell " +
-            "unless given",
+        help = "with --area, and polygon-rrt: distance of the points among which ways through narrow water are " +
+            "sought; half a cell unless given",
     ).number("a number of metres above 0") { it > 0 }
     private val settling by option(
         "--settling",

@@ -16,7 +16,8 @@ class CorrectOutput(private val parts: List<CorrectFiles>) {
 
     /** Writes all files into [directory], which the caller commits. */
     fun write(directory: OutputDirectory) {
-        val others = directory.stream("corrected.csv") { out -> AnnotatedLog(parts.map { it.addedColumns() }).write(out) }
+        val log = AnnotatedLog(parts.map { it.addedColumns() })
+        val others = directory.stream("corrected.csv") { log.write(it) }
         drawing = parts.mapIndexed { i, part -> part.write(directory, others[i]) }
     }
 

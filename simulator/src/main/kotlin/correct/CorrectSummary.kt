@@ -170,7 +170,7 @@ internal class CorrectSummary(
                 )
             }
             if (result.series.values.all { it == result.series.values[0] }) {
-                add("the readings are all the same, as a stuck sensor's: intervals are half of the last digit either way")
+                add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }
             slowest()?.let(::add)
             val silent = result.track.silent.count { it }

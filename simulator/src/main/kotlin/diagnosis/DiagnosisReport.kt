@@ -64,8 +64,8 @@ internal class DiagnosisReport(
         val before = result.baseline
         if (diagnosed.isBaseNamed) {
             paragraph(
-                "What is at work is the lag of the base model itself: ${diagnosed.numbers(after.parameters)}. There is " +
-                    "nothing to extend it by.",
+                "What is at work is the lag of the base model itself: ${diagnosed.numbers(after.parameters)}. There " +
+                    "is nothing to extend it by.",
             )
             return leftOver()
         }
@@ -89,8 +89,8 @@ internal class DiagnosisReport(
         val outside = checks.filter { it.value !in it.lower..it.upper }
         if (outside.size < 2) return
         paragraph(
-            "What is left is more than noise: ${outside.size} of the ${checks.size} checks of the residuals below are " +
-                "outside of what noise alone gives. The model is not all of the truth, and the intervals, which hold " +
+            "What is left is more than noise: ${outside.size} of the ${checks.size} checks of the residuals below " +
+                "are outside of what noise alone gives. The model is not all of the truth, and the intervals, which hold " +
                 "if it is, are rather too narrow.",
         )
     }
@@ -99,8 +99,8 @@ internal class DiagnosisReport(
         val gain = three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)
         paragraph(
             "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
-                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}${diagnosed.unitAfter}, and " +
-                "the log-likelihood rises by $gain.",
+                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}${diagnosed.unitAfter}, " +
+                "and the log-likelihood rises by $gain.",
         )
     }
 

@@ -31,9 +31,11 @@ internal object MapCautions {
         "no cell has a reading".takeIf { visited(mission) == 0 },
     )
 
-    /** Whether [mission] says that it did all it was to do and knows of no cell, or of none but that where the boat lay. */
-    fun hasSurveyedNothing(mission: Mission): Boolean =
-        mission.state == MissionState.Stopped(StopReason.COMPLETED) && mission.map.grid.size > 1 && visited(mission) <= 1
+    /** Whether [mission] did all it was to do, by its own word, and knows of no cell but that where the boat lay. */
+    fun hasSurveyedNothing(mission: Mission): Boolean {
+        val isCompleted = mission.state == MissionState.Stopped(StopReason.COMPLETED)
+        return isCompleted && mission.map.grid.size > 1 && visited(mission) <= 1
+    }
 
     /** What to say of a [mission] that [hasSurveyedNothing]; null for others. */
     fun nothing(mission: Mission): String? =

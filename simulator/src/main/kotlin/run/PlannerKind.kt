@@ -73,8 +73,8 @@ enum class PlannerKind(
     ;
 
     /**
-     * A fresh planner of this kind that draws from [random] and is asked [asked] times a move at most; [area] is the water,
-     * null where all of the map is.
+     * A fresh planner of this kind that draws from [random] and is asked [asked] times a move at most; [area] is the
+     * water, null where all of the map is.
      */
     fun planner(
         random: Random,

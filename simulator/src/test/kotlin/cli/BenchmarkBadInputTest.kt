@@ -118,7 +118,8 @@ class BenchmarkBadInputTest {
             "--planner: expected some of random-walk, lawnmower, bounded, polygon-rrt, " +
                 "bounded-extended, information, settling-lawnmower, separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
-        private const val GRID = "--grid: expected COLSxROWS such as 10x10, whole numbers above 0, 1000000 cells at most"
+        private const val GRID =
+            "--grid: expected COLSxROWS such as 10x10, whole numbers above 0, 1000000 cells at most"
         private const val CYCLE =
             "--grid: expected an even number of rows or columns and two of each at least for the " +
                 "lawnmower's hamiltonian-cycle, or another --pattern"

@@ -67,8 +67,8 @@ class BenchmarkFleetTest {
         val file = out.resolve("lake.geojson").apply { writeText(lake) }
         val flags = arrayOf("--area", "$file", "--area-units", "metres", "--cell", "1", "--margin", "0.2")
         val names = "random-walk,lawnmower,bounded,bounded-extended,information,settling-lawnmower"
-        val more = arrayOf("--filter", "self-calibrating", "--field", "gaussian", "--moves", "150", "--lawnmower", "back-and-forth")
-        runSmallBenchmark(out, *flags, "--planner", names, *more)
+        val more = arrayOf("--filter", "self-calibrating", "--field", "gaussian", "--moves", "150")
+        runSmallBenchmark(out, *flags, "--planner", names, *more, "--lawnmower", "back-and-forth")
         for (name in names.split(',')) {
             assertTrue(out.resolve("voyage-gaussian-$name.svg").exists(), name)
             val last = results(out).last { it.getValue("planner") == name }
