@@ -1,14 +1,14 @@
 package stillwater.plan
 
-import kotlin.random.Random
-import kotlin.test.Test
-import kotlin.test.assertEquals
-import kotlin.test.assertTrue
 import stillwater.field.FieldMap
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.model.Position
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
 
 class WaterPlannerTest {
     private fun sail(lake: Lake, planner: WaterPlanner, start: Position, plans: Int): List<Position> {

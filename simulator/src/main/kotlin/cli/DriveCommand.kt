@@ -9,9 +9,6 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import com.github.ajalt.clikt.parameters.options.required
-import java.nio.file.Path
-import java.time.ZonedDateTime
-import java.time.format.DateTimeFormatter
 import stillwater.control.Mixing
 import stillwater.drive.BoardPhone
 import stillwater.drive.DriveRun
@@ -36,6 +33,9 @@ import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
 import stillwater.run.withUnit
+import java.nio.file.Path
+import java.time.ZonedDateTime
+import java.time.format.DateTimeFormatter
 
 /** `stillwater drive`: a mission on a real wire, with a real boat or a virtual one at its other end. */
 class DriveCommand : WorkCommand("drive") {

@@ -7,7 +7,6 @@ import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
-import java.nio.file.Path
 import stillwater.drive.MapCautions
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
@@ -20,6 +19,7 @@ import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
 import stillwater.replay.Replayed
 import stillwater.report.OutputDirectory
+import java.nio.file.Path
 
 /** `stillwater replay`: a recorded log through the mission once more. */
 class ReplayCommand : WorkCommand("replay") {

@@ -9,8 +9,8 @@ import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonArray
 import kotlinx.serialization.json.putJsonObject
-import stillwater.io.AnnotatedLog
 import stillwater.io.AddedColumns
+import stillwater.io.AnnotatedLog
 import stillwater.io.SurveyLog
 import stillwater.report.HtmlReport
 import stillwater.report.OutputDirectory

@@ -1,6 +1,5 @@
 package stillwater.diagnosis
 
-import kotlin.math.abs
 import stillwater.diagnose.Cause
 import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.DiagnosisResult
@@ -8,6 +7,7 @@ import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
+import kotlin.math.abs
 
 /**
  * A log and what the diagnosis says about it, in words.

@@ -1,9 +1,5 @@
 package stillwater.replay
 
-import kotlin.math.abs
-import kotlin.math.ceil
-import kotlin.math.floor
-import kotlin.math.max
 import stillwater.io.BoundedLines
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
@@ -27,6 +23,10 @@ import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.report.counted
 import stillwater.run.withUnit
+import kotlin.math.abs
+import kotlin.math.ceil
+import kotlin.math.floor
+import kotlin.math.max
 
 /**
  * A mission around a Platypus log that came without one: cells over where the boat was, the probe that the log has most

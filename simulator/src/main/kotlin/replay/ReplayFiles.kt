@@ -1,6 +1,5 @@
 package stillwater.replay
 
-import java.util.Locale
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonObject
@@ -14,6 +13,7 @@ import stillwater.report.OutputDirectory
 import stillwater.report.counted
 import stillwater.run.label
 import stillwater.wire.Malformed
+import java.util.Locale
 
 /**
  * Writes what a replay came to: `cells.csv`, `decisions.csv`, `replay.json`, `mission.json`, `mission.txt` and the

@@ -1,6 +1,5 @@
 package stillwater.run
 
-import kotlin.math.sqrt
 import stillwater.field.CellField
 import stillwater.model.Grid
 import stillwater.model.Position
@@ -15,6 +14,7 @@ import stillwater.plan.WaterHome
 import stillwater.plan.WaterPlanner
 import stillwater.plan.WayHome
 import stillwater.world.Seeds
+import kotlin.math.sqrt
 
 /**
  * Builds the boats of each trial of an experiment.

@@ -1,8 +1,5 @@
 package stillwater.simulation
 
-import kotlin.test.assertEquals
-import kotlin.test.assertNotNull
-import kotlin.test.assertTrue
 import org.junit.jupiter.api.Test
 import stillwater.mission.EstimatorName
 import stillwater.mission.MissionState
@@ -13,6 +10,9 @@ import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 import stillwater.world.WaterKind
 import stillwater.world.WorldSettings
+import kotlin.test.assertEquals
+import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
 
 /** Seeds fixed before the first run. */
 class MissionRunTest {
