@@ -25,10 +25,14 @@ public class CandidateResponse internal constructor(
     /** The response at the best parameters. */
     public val response: Response get() = kind.response(*parameters.toDoubleArray())
 
+    /** Parameter [index] as [response] takes it, in its unit: a share is none above [ResponseKind.LARGEST_SHARE]. */
+    public fun parameter(index: Int): Double = minOf(parameters[index], kind.most(index))
+
     /** The 95 % interval of parameter [index], lower to upper end, in its unit. */
     public fun interval(index: Int): ClosedFloatingPointRange<Double> {
         val factor = exp(TWO_SIDED * relativeErrors[index])
-        return parameters[index] / factor..parameters[index] * factor
+        val most = kind.most(index)
+        return minOf(parameters[index] / factor, most)..minOf(parameters[index] * factor, most)
     }
 
     /** Sum of [heldOut]. */

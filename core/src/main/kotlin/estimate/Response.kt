@@ -179,13 +179,23 @@ public enum class ResponseKind(public val label: String, public val parameters: 
         val (fast, slow, share) = logs.takeLast(TWO_PATH.parameters.size)
         val ratio = slow - fast - ln(USUAL_RATIO)
         val part = share - ln(USUAL_SHARE)
-        return -(ratio * ratio + part * part) / 2
+        return -(ratio * ratio + part * part) / (2 * BELIEVED * BELIEVED)
     }
+
+    /** Largest value of parameter [index] that [response] tells from larger ones, in its unit. */
+    internal fun most(index: Int): Double =
+        if (parameters[index] == TWO_PATH.parameters.last()) LARGEST_SHARE else Double.POSITIVE_INFINITY
 
     /** Whether parameter [index] is the time of a slow path, whose length is limited by [belief] alone. */
     internal fun isSlow(index: Int): Boolean = parameters[index] == TWO_PATH.parameters[1]
 
+    /** Whether something is believed of parameter [index] beforehand: of the slow path's time and share. */
+    internal fun isBelieved(index: Int): Boolean = isSlow(index) || most(index).isFinite()
+
     public companion object {
+        /** Standard deviation of what is believed beforehand of the logarithm of a slow path's ratio and share. */
+        internal const val BELIEVED: Double = 1.0
+
         /** Largest share of a slow path, dimensionless: beyond it the fast one is not seen. */
         public const val LARGEST_SHARE: Double = 0.9
 

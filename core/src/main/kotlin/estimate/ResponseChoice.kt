@@ -26,7 +26,9 @@ public class CandidateStanding internal constructor(
  *
  * A candidate is ruled out if it is behind any other by more than [RULED_OUT] standard errors and by more than
  * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open: two time constants
- * fit noise better than one, and nothing is lost.
+ * fit noise better than one, and nothing is lost. But a slow path hides from a single lag, which alone would be far too
+ * sure of itself: two paths stay open beside what they contain where they are ahead of it by more than [AHEAD] standard
+ * errors and the log says more of the slow path than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
  */
@@ -51,6 +53,9 @@ public class ResponseChoice private constructor(public val standings: List<Candi
         /** Loss in log score that is none. */
         public const val SMALLEST_LOSS: Double = 2.0
 
+        /** Standard errors by which two paths are ahead of something simpler beside which they stay open. */
+        public const val AHEAD: Double = 1.0
+
         private const val DRAWS = 2000
 
         /** Kinds that give way to an open one that they contain. */
@@ -70,7 +75,9 @@ public class ResponseChoice private constructor(public val standings: List<Candi
             val notRuledOut = candidates.indices.filterNot { i -> candidates.any { rulesOut(it, candidates[i]) } }
             val open = notRuledOut.filterNot { rich ->
                 val kind = candidates[rich].kind
-                kind in RICH && notRuledOut.any { kind.contains(candidates[it].kind) }
+                kind in RICH && notRuledOut.any {
+                    kind.contains(candidates[it].kind) && !isToldFrom(candidates[rich], candidates[it])
+                }
             }
             val weights = weights(open.map { candidates[it] }, random)
             val standings = candidates.indices.map { i ->
@@ -93,9 +100,18 @@ public class ResponseChoice private constructor(public val standings: List<Candi
         }
 
         /** Not the best alone: how far it is behind that may be told less well than how far behind another. */
-        private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean {
-            val behind = better.heldOutScore - other.heldOutScore
-            return behind > SMALLEST_LOSS && behind > RULED_OUT * error(better, other)
+        private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean =
+            isAhead(better, other, RULED_OUT)
+
+        private fun isToldFrom(rich: CandidateResponse, other: CandidateResponse): Boolean {
+            val ofSlowPath = rich.kind.parameters.indices.filter { rich.kind.isBelieved(it) }
+            return ofSlowPath.isNotEmpty() && ofSlowPath.all { rich.relativeErrors[it] < ResponseKind.BELIEVED } &&
+                isAhead(rich, other, AHEAD)
+        }
+
+        private fun isAhead(one: CandidateResponse, other: CandidateResponse, errors: Double): Boolean {
+            val ahead = one.heldOutScore - other.heldOutScore
+            return ahead > SMALLEST_LOSS && ahead > errors * error(one, other)
         }
 
         private fun error(best: CandidateResponse, other: CandidateResponse): Double {

@@ -70,6 +70,7 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             val mixture = NormalMixture(to - from)
             for (part in parts) run(part, rows, from, to, mixture, track.outlying)
             mixture.write(track, from)
+            if (isConstant) for (row in from until to) widen(track, row)
             for (row in from until to) {
                 if (!track.outlying[row]) continue
                 track.lower[row] = minOf(track.lower[row], series.values[row])
@@ -77,6 +78,17 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             }
         }
         return track
+    }
+
+    private val isConstant = series.values.all { it == series.values[0] }
+
+    /**
+     * Readings that differ in nothing do not get better by being many: the water is anywhere within the step to which
+     * they are rounded.
+     */
+    private fun widen(track: CorrectedTrack, row: Int) {
+        track.lower[row] = minOf(track.lower[row], series.values[row] - resolution / 2)
+        track.upper[row] = maxOf(track.upper[row], series.values[row] + resolution / 2)
     }
 
     private fun stretch(rows: IntRange, sides: SensorSides) = Stretch(

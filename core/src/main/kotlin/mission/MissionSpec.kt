@@ -352,8 +352,8 @@ public data class MissionSpec(
         val isFree = water.isClear(x, y, cells.centerX(right), cells.centerY(right), 0.0) &&
             water.isClear(x, y, cells.centerX(up), cells.centerY(up), 0.0)
         require(isFree) {
-            "land lies at or beside the cell at ($x, $y), where this planner goes from cell to cell; " +
-                "use polygon-rrt or a grid that is all water"
+            "this planner goes from cell to cell, but the cell at ($x, $y) or the way from it to the next is not all " +
+                "within the area or touches a keep-out; take a grid within the area, or polygon-rrt"
         }
     }
 

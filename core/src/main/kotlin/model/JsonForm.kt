@@ -69,7 +69,14 @@ public class JsonForm<T>(private val serializer: DeserializationStrategy<T>, pri
             val name = word.value.replace('-', '_').replace(CAPITAL) { "_" + it.value.lowercase() }
             members.entries.find { it.key == name || it.key.startsWith(name + "_") || it.key == name + "s" }
         }
-        return problem(text, named?.value ?: place.of(path), path.removePrefix("$").removePrefix("."), words, refused)
+        val field = path.removePrefix("$").removePrefix(".")
+        return problem(text, named?.value ?: place.of(path), field, inWords(words, members.keys), refused)
+    }
+
+    /** [words] with the names that the text has, of its [members] where it has them, in place of the program's own. */
+    private fun inWords(words: String, members: Set<String>) = OWN_NAME.replace(words) { match ->
+        val name = match.value.replace(CAPITAL) { "_" + it.value.lowercase() }
+        members.find { it == name || it.startsWith(name + "_") } ?: name
     }
 
     /** Goes through a text and what is expected of it at once. */
@@ -177,6 +184,9 @@ public class JsonForm<T>(private val serializer: DeserializationStrategy<T>, pri
         private val PATH = Regex("""at path:? (\$\S*)""")
         private val WORD = Regex("""[A-Za-z][A-Za-z_-]*""")
         private val CAPITAL = Regex("[A-Z]")
+
+        /** A name as the program writes it, `timeConstant`, which no word of a sentence looks like. */
+        private val OWN_NAME = Regex("""\b[a-z]+(?:[A-Z][a-z]+)+\b""")
 
         /**
          * Whether [text] can be parsed without fear for the stack: at most [JsonScanner.DEEPEST] brackets one within the

@@ -2,6 +2,10 @@ package stillwater.sensor
 
 import kotlinx.serialization.Serializable
 import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.double
+import kotlinx.serialization.json.jsonArray
+import kotlinx.serialization.json.jsonObject
+import kotlinx.serialization.json.jsonPrimitive
 import stillwater.model.JsonForm
 import kotlin.random.Random
 
@@ -41,6 +45,12 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
     public fun toJson(): String = FORMAT.encodeToString(serializer(), this)
 
     public companion object {
+        /**
+         * Longest time constant or dead time that a spec may be read with, s: 32 years. No log is as long, so that a
+         * larger one is a slip of the pen; and what is computed with it stays within what numbers can hold.
+         */
+        public const val LONGEST_TIME: Double = 1e9
+
         private val FORMAT = Json {
             prettyPrint = true
             prettyPrintIndent = "  "
@@ -54,6 +64,17 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
          * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the message
          *   is one line that says where and what was expected.
          */
-        public fun fromJson(json: String): SensorSpec = FORM.read(json)
+        public fun fromJson(json: String): SensorSpec = FORM.read(json).also { requireTimes(json, it) }
+
+        private fun requireTimes(json: String, spec: SensorSpec) {
+            val stages = Json.encodeToJsonElement(serializer(), spec).jsonObject.getValue("stages").jsonArray
+            stages.forEachIndexed { index, stage ->
+                val times = stage.jsonObject.filterKeys { it.endsWith("time_constant_s") || it == "dead_time_s" }
+                val (name, time) = times.mapValues { it.value.jsonPrimitive.double }.entries
+                    .firstOrNull { it.value > LONGEST_TIME } ?: return@forEachIndexed
+                val words = "expected at most $LONGEST_TIME s (32 years, longer than any log), found $time"
+                throw FORM.problem(json, "$.stages[$index].$name", words)
+            }
+        }
     }
 }

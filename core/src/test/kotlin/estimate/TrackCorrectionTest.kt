@@ -116,6 +116,20 @@ class TrackCorrectionTest {
     }
 
     @Test
+    fun slowRateLimitIsFoundByLongLines() {
+        val found = (36..41).map { seed ->
+            LawnmowerLog(seed, listOf(SensorStage.Slew(0.01)), noise = 0.02).series.rateLimit()
+        }.filter { it.isFinite() }
+        // Where hardly a run ends by itself the rate does not stand out; what is found must be right.
+        assertTrue(found.size >= 3, "$found of six")
+        for (rate in found) assertEquals(0.01, rate, 0.0005)
+        for (seed in 42..44) {
+            val slow = listOf(SensorStage.Lag(60.0))
+            assertTrue(LawnmowerLog(seed, slow, noise = 0.02).series.rateLimit().isNaN(), "seed $seed")
+        }
+    }
+
+    @Test
     fun noLagNoTrendAndNoWaveIsTakenForARateLimit() {
         for ((seed, stages) in listOf(33 to lag, 34 to emptyList(), 35 to listOf(SensorStage.Delay(8.0)))) {
             assertTrue(LawnmowerLog(seed, stages, noise = 0.02).series.rateLimit().isNaN(), "$stages")

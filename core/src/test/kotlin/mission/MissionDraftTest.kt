@@ -43,7 +43,7 @@ class MissionDraftTest {
             Triple(triangle.copy(keepOuts = listOf(crossing.take(1))), DraftField.AREA, "keep-out 1 has 1"),
             Triple(triangle.copy(home = null), DraftField.HOME, "not set"),
             Triple(triangle.copy(home = place(60, 40)), DraftField.HOME, "must lie on the water"),
-            Triple(triangle.copy(planner = PlannerName.LAWNMOWER), DraftField.PLANNER, "land lies"),
+            Triple(triangle.copy(planner = PlannerName.LAWNMOWER), DraftField.PLANNER, "from cell to cell"),
             Triple(triangle.with(DraftField.CELL, "0"), DraftField.CELL, "larger than 0"),
             Triple(triangle.with(DraftField.CELL, "1e-9"), DraftField.CELL, "too many"),
             Triple(triangle.with(DraftField.CELL, ""), DraftField.CELL, "a number is needed"),

@@ -39,7 +39,7 @@ class MissionSpecTest {
             Triple("{\"seconds\":900}", "{}", listOf("either metres or seconds", ": budget: ")),
             Triple("\"x_m\":80", "\"x_m\":-80", listOf("north_east", ": area: ")),
             Triple("\"home\":{\"x_m\":5", "\"home\":{\"x_m\":500", listOf("home (500.0, 5.0)", "water")),
-            Triple("\"cell_m\":10", "\"cell_m\":30", listOf("land lies", "polygon-rrt")),
+            Triple("\"cell_m\":10", "\"cell_m\":30", listOf("from cell to cell", "polygon-rrt")),
             Triple("\"budget\"", "\"bugdet\"", listOf("bugdet")),
             Triple(
                 "\"home\":{",

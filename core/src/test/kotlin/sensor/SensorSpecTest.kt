@@ -163,7 +163,9 @@ class SensorSpecTest {
                     "stages[1]",
                 ),
             stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to
-                listOf("timeConstant (-2.0 s) must be above 0", "stages[1]"),
+                listOf("time_constant_s (-2.0 s) must be above 0", "stages[1]"),
+            stage("""{"type": "dead-time", "dead_time_s": 1e300}""") to
+                listOf("stages[1].dead_time_s: expected at most 1.0E9 s (32 years"),
             stage("""{"type": "first-order-lag"}""") to listOf("time_constant_s", "stages[1]"),
             stage("""{"type": "first-order-lag", "time_constant_s": NaN}""") to listOf("time_constant_s"),
             stage("""{"type": "first-order-lag", "time_constant_s": "ten"}""") to listOf("time_constant_s", "ten"),

@@ -84,7 +84,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         metavar = "COLSxROWS",
         help = "size of the fields in cells; 10x10 unless given",
     )
-        .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
+        .numberPair('x', "COLSxROWS such as 10x10, whole numbers above 0, $MILLION cells at most") { columns, rows ->
             columns >= 1 && rows >= 1 && columns % 1 == 0.0 && rows % 1 == 0.0 && columns * rows <= MILLION
         }
     private val samples by option(
@@ -127,8 +127,8 @@ class BenchmarkCommand : WorkCommand("benchmark") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes results.csv, extremes.csv (how much of the error lies in the field's local extremes), bounds.csv " +
             "(how often bounds hold the truth, how wide they are), figure-6 and figure-7 (SVG and PNG), sensor.json " +
-            "and report.html into DIR; with several --boats boats-FIELD, with polygon-rrt voyage-FIELD (SVG and " +
-            "PNG), with a budget budget.csv; nothing at all when something is wrong.",
+            "and report.html into DIR; with several --boats boats-FIELD, with an --area or polygon-rrt voyage-FIELD " +
+            "or voyage-FIELD-PLANNER (SVG and PNG), with a budget budget.csv; nothing at all when something is wrong.",
         listOf(
             "stillwater benchmark",
             "stillwater benchmark --preset noisy --out noisy",
@@ -250,14 +250,9 @@ class BenchmarkCommand : WorkCommand("benchmark") {
             ?: size?.let { (columns, rows) -> Grid.unit(columns.toInt(), rows.toInt()) }
     }
 
-    /** With an area only planners that keep to the water can be compared, and all of them are unless some are named. */
-    private fun comparedPlanners(ofPreset: List<PlannerKind>): List<PlannerKind> {
-        if (!fleetOptions.hasArea) return planners ?: ofPreset
-        val inPlane = PlannerKind.entries.filter { it.inPlane }
-        val other = planners?.firstOrNull { !it.inPlane } ?: return planners ?: inPlane
-        val expected = "with --area one that keeps to the water (${inPlane.joinToString(", ") { it.label }})"
-        throw BadFlag("--planner", expected, other.label)
-    }
+    /** With an area those that plan in the plane, unless some are named. */
+    private fun comparedPlanners(ofPreset: List<PlannerKind>): List<PlannerKind> =
+        planners ?: if (fleetOptions.hasArea) PlannerKind.entries.filter { it.inPlane } else ofPreset
 
     private fun commandLine(): String {
         val own = listOf(

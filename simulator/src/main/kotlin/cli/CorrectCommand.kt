@@ -8,11 +8,15 @@ import com.github.ajalt.clikt.parameters.groups.provideDelegate
 import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.correct.CorrectFiles
+import stillwater.correct.CorrectOutput
 import stillwater.correct.CorrectedLog
+import stillwater.io.LogChoice
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
+import stillwater.sensor.SensorSpec
 import java.nio.file.Files
 import java.nio.file.Path
 
@@ -39,8 +43,11 @@ class CorrectCommand : WorkCommand("correct") {
         "quantity on which a given sensor depends: temperature (degrees Celsius), salinity or what its file names; " +
             "speed (m/s) is taken from the positions without it. Repeatable",
     )
-    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
-        .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
+    private val units by option(
+        "--unit",
+        metavar = "TEXT",
+        help = "unit of the readings, for figures and tables; with several --value one for each, in their order",
+    ).convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }.multiple()
     private val heldOut by option(
         "--held-out",
         help = "also learn on some legs and score the correction on the others; takes five times as long",
@@ -64,9 +71,12 @@ class CorrectCommand : WorkCommand("correct") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Writes corrected.csv (every row of the log and corrected, corrected_low, corrected_high), sensor.json " +
             "(the sensor, for --sensor), summary.json, figures as SVG and PNG, and report.html into DIR; nothing at " +
-            "all when something is wrong with the log.",
+            "all when something is wrong with the log. With --value several times each column is corrected by " +
+            "itself: corrected.csv has COLUMN_corrected, COLUMN_corrected_low and COLUMN_corrected_high of each, " +
+            "the other files of each are in DIR/COLUMN.",
         listOf(
             "stillwater correct survey.csv --value odo_percent_sat --unit %sat",
+            "stillwater correct survey.csv --value odo_percent_sat --value temp_c",
             "stillwater correct profiles.csv --x pres_dbar --value doxy_umol",
             "stillwater correct survey.csv --value slow --reference fast --out corrected",
             "stillwater correct survey.csv --value odo_percent_sat --sensor sensor.json",
@@ -78,9 +88,51 @@ class CorrectCommand : WorkCommand("correct") {
         if (sensor != null && reference != null) {
             throw failure("--sensor: expected either --sensor or --reference, found both")
         }
+        val choices = logOptions.choices()
+        requireFitting(choices.size)
         val spec = sensor?.let(SensorFile::read)
         val file = Path.of(log)
-        val choice = logOptions.choice()
+        val logs = choices.map { open(file, it) }
+        if (logs.size > 1 && logs[0].format.startsWith("Platypus")) {
+            val why = "one sensor of a Platypus log, whose sensors each have lines and times of their own"
+            throw BadFlag("--value", why, "${logs.size}")
+        }
+        if (between != null && !(heldOut && logs[0].oneDimensional)) {
+            throw failure("--between: expected --held-out and a transect (--x without --y), found none")
+        }
+        for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
+        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
+            val files = CorrectOutput(
+                logs.mapIndexed { i, opened ->
+                    val result = corrected(opened, spec)
+                    val scores = if (heldOut) result.heldOut(between) else null
+                    CorrectFiles(result, units.getOrNull(i), commandLine(), scores, logs.size == 1)
+                },
+            )
+            files.write(directory)
+            val written = directory.commit()
+            when {
+                json -> echo(files.json())
+                !quiet -> {
+                    files.lines().forEach { echo(it) }
+                    for (warning in files.warnings) echo("warning: $warning", err = true)
+                    echo(wrote(written, out, if (logs.size == 1) "report.html" else "corrected.csv"))
+                }
+            }
+        }
+    }
+
+    /** Refuses what cannot be said of [count] columns of readings at once. */
+    private fun requireFitting(count: Int) {
+        if (units.isNotEmpty() && units.size != count) {
+            throw BadFlag("--unit", "one unit for each --value, in their order", "${units.size} for $count")
+        }
+        for ((flag, given) in listOf("--sensor" to sensor, "--reference" to reference)) {
+            if (given != null && count > 1) throw BadFlag(flag, "one --value to go with it", "$count")
+        }
+    }
+
+    private fun open(file: Path, choice: LogChoice): SurveyLog {
         val wanted = conditions.toMap() + reference?.let { mapOf(CorrectedLog.REFERENCE to it) }.orEmpty()
         val opened = SurveyLog.open(file, choice.copy(conditions = wanted))
         if (reference != null && opened.format.startsWith("Platypus")) {
@@ -89,31 +141,18 @@ class CorrectCommand : WorkCommand("correct") {
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
-        if (between != null && !(heldOut && opened.oneDimensional)) {
-            throw failure("--between: expected --held-out and a transect (--x without --y), found none")
-        }
-        CorrectFiles.requireNewColumns(opened)
-        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
-            val bytes = Files.size(file)
-            val shown = !quiet && bytes >= WORTH_SHOWING
-            val result = WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
-                try {
-                    CorrectedLog.of(opened, spec, reference != null, conditions.map { it.first }, progress::advance)
-                } catch (wrong: IllegalArgumentException) {
-                    if (spec == null) throw wrong
-                    throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
-                }
-            }
-            val files = CorrectFiles(result, unit, commandLine(), if (heldOut) result.heldOut(between) else null)
-            val drawing = files.write(directory)
-            val written = directory.commit()
-            when {
-                json -> echo(files.json(drawing).trimEnd())
-                !quiet -> {
-                    files.lines().forEach { echo(it) }
-                    for (warning in files.warnings + drawing) echo("warning: $warning", err = true)
-                    echo(wrote(written, out, "report.html"))
-                }
+        return opened
+    }
+
+    private fun corrected(opened: SurveyLog, spec: SensorSpec?): CorrectedLog {
+        val bytes = Files.size(opened.file)
+        val shown = !quiet && bytes >= WORTH_SHOWING
+        return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
+            try {
+                CorrectedLog.of(opened, spec, reference != null, conditions.map { it.first }, progress::advance)
+            } catch (wrong: IllegalArgumentException) {
+                if (spec == null) throw wrong
+                throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
             }
         }
     }
@@ -122,11 +161,11 @@ class CorrectCommand : WorkCommand("correct") {
         "stillwater correct",
         log,
         logOptions.flags() + conditions.map { (name, column) -> "--condition" to "$name=$column" } +
+            units.map { "--unit" to it } +
             listOf(
                 "--out" to out,
                 "--reference" to reference,
                 "--sensor" to sensor,
-                "--unit" to unit,
                 "--held-out" to heldOut,
                 "--between" to between?.let { "${it.start}:${it.endInclusive}" },
             ),

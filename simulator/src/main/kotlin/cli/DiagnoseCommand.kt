@@ -5,6 +5,7 @@ import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
+import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.multiple
@@ -50,6 +51,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         help = "sensor spec (JSON) as it is believed to be, taken as given; without a --reference its time constant " +
             "alone is looked at. Without this a first-order lag is fitted",
     )
+    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
+        .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
     private val numbersOnly by option(
         "--numbers-only",
         help = "no figures, no report and no comparison of maps",
@@ -95,7 +98,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             val channels = WorkProgress(terminal, "comparing channels", unit = "%", WHOLE, isShown).use { progress ->
                 read.channels(result) { progress.advance((it * WHOLE).toLong()) }
             }
-            val diagnosed = Diagnosed(read, result, worth(read, result), isGiven(given, result), channels)
+            val diagnosed = Diagnosed(read, result, worth(read, result), isGiven(given, result), channels, unit)
             val drawing = DiagnosisFiles(diagnosed, commandLine(), numbersOnly).write(directory)
             val written = directory.commit()
             when {
@@ -113,7 +116,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private fun isGiven(given: SensorSpec?, result: DiagnosisResult) = given != null && result.baseSensor == given
 
     private fun worth(read: DiagnosisLog, result: DiagnosisResult): MapWorth? {
-        val extended = result.extendedSensor?.takeIf { !numbersOnly } ?: return null
+        // Where the base itself was named there are no two models to compare.
+        val isOther = result.extended !== result.baseline
+        val extended = result.extendedSensor?.takeIf { isOther && !numbersOnly } ?: return null
         val truth = if (reference != null) read.columns.reference else read.columns.values
         val threads = Runtime.getRuntime().availableProcessors()
         return runBlocking { MapWorth.of(result.baseSensor, extended, truth.min(), truth.max(), threads) }
@@ -123,7 +128,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         val own = listOf("--reference" to reference) +
             conditions.map { (name, column) -> "--condition" to "$name=$column" } +
             compare.map { "--compare" to it } +
-            listOf("--sensor" to sensor, "--out" to out, "--numbers-only" to numbersOnly)
+            listOf("--sensor" to sensor, "--unit" to unit, "--out" to out, "--numbers-only" to numbersOnly)
         return commandLineText("stillwater diagnose", log, logOptions.flags() + own)
     }
 

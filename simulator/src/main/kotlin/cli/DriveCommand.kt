@@ -32,6 +32,7 @@ import stillwater.mission.MissionSpec
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
+import stillwater.run.withUnit
 import java.nio.file.Path
 import java.time.ZonedDateTime
 import java.time.format.DateTimeFormatter
@@ -71,7 +72,7 @@ class DriveCommand : WorkCommand("drive") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the " +
             "log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
-            "code 0 when the mission was completed, 1 when it ended otherwise.",
+            "code 0 when the mission was completed, 1 when it ended otherwise or surveyed nothing.",
         listOf(
             "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
             "stillwater drive pond.json --port /dev/pts/3 --phone tcp:127.0.0.1:4002 --yes",
@@ -165,9 +166,10 @@ class DriveCommand : WorkCommand("drive") {
         for (warning in warnings) echo("warning: $warning", err = true)
         val why = reason?.name?.lowercase() ?: "stopped before it began"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
-        val readings = counted(mission.readings.passed, "reading") + borders
+        val quantity = mission.spec.probe.quantity.withUnit
+        val readings = "${counted(mission.readings.passed, "reading")} of $quantity$borders"
         tell("$why; $readings, ${mission.readings.leftOut} left out; log $log")
-        if (reason != StopReason.COMPLETED) throw ProgramResult(1)
+        if (reason != StopReason.COMPLETED || MapCautions.hasSurveyedNothing(mission)) throw ProgramResult(1)
     }
 
     /** Readings that the mission took for earlier or later than they were make its map worse. */

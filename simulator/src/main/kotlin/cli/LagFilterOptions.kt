@@ -3,6 +3,7 @@ package stillwater.cli
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.run.LagFilterSettings
+import stillwater.sensor.SensorSpec
 
 /** The options of the filters that reckon with a lag; the same for every command that runs them. */
 class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating estimator, extended bounded filter") {
@@ -10,7 +11,7 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
         "--slowest",
         metavar = "SECONDS",
         help = "interval: the longest time constant that the sensor may have",
-    ).number("a time in seconds above 0") { it > 0 }
+    ).number(TIME) { it > 0 && it <= SensorSpec.LONGEST_TIME }
     private val readingError by option(
         "--reading-error",
         metavar = "NUMBER",
@@ -20,7 +21,7 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
         "--time-constant",
         metavar = "SECONDS",
         help = "self-calibrating: a first guess at the sensor's time constant",
-    ).number("a time in seconds above 0") { it > 0 }
+    ).number(TIME) { it > 0 && it <= SensorSpec.LONGEST_TIME }
     private val factor by option(
         "--factor",
         metavar = "NUMBER",
@@ -56,6 +57,7 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
     )
 
     private companion object {
+        const val TIME = "a time in seconds above 0, and at most ${SensorSpec.LONGEST_TIME} (32 years)"
         val RESPONSES = mapOf("learned" to true, "none" to false)
     }
 }

@@ -3,6 +3,7 @@ package stillwater.cli
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
+import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.io.LogChoice
 
@@ -25,12 +26,12 @@ class LogOptions : OptionGroup(
         help = "column with metres east; without --y, the place along a transect or profile in any unit",
     )
     private val y by option("--y", metavar = "COLUMN", help = "column with metres north")
-    private val value by option(
+    private val values by option(
         "--value",
         metavar = "COLUMN",
         help = "column with the readings; in a Platypus log the sensor, TYPE[#CHANNEL][.FIELD], such as ATLAS_DO " +
             "or ES2.temp. Not needed where there is only one",
-    )
+    ).multiple()
     private val skipBadRows by option(
         "--skip-bad-rows",
         help = "leave out rows that cannot be used and count them by reason; without it the first is an error",
@@ -48,13 +49,26 @@ class LogOptions : OptionGroup(
         "--lon" to longitude,
         "--x" to x,
         "--y" to y,
-        "--value" to value,
+    ) + values.map { "--value" to it } + listOf(
         "--skip-bad-rows" to skipBadRows,
         "--max-pose-age" to maxPoseAge.takeIf { it != LogChoice().maxPoseAge },
     )
 
     /** The options as the readers take them. */
-    fun choice(): LogChoice = LogChoice(
+    fun choice(): LogChoice {
+        if (values.size > 1) throw BadFlag("--value", "one column", values.joinToString(" and "))
+        return choices().single()
+    }
+
+    /** As [choice], one for each column of readings that is named; one where none is. */
+    fun choices(): List<LogChoice> {
+        if (values.distinct().size != values.size) {
+            throw BadFlag("--value", "each column once", values.joinToString(" and "))
+        }
+        return values.ifEmpty { listOf(null) }.map(::choiceOf)
+    }
+
+    private fun choiceOf(value: String?) = LogChoice(
         time = time,
         latitude = latitude,
         longitude = longitude,

@@ -12,6 +12,7 @@ import com.github.ajalt.clikt.parameters.options.option
 import stillwater.correct.CorrectedLog
 import stillwater.io.DecimalText
 import stillwater.io.SurveyLog
+import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.report.OutputDirectory
 import stillwater.run.FilterKind
@@ -54,8 +55,8 @@ class MapCommand : WorkCommand("map") {
     private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
         .number("a length in metres above 0") { it > 0 }
     private val gridSize by option("--grid", metavar = "COLSxROWS", help = "number of cells instead of their size")
-        .numberPair('x', "COLSxROWS such as 10x10, both whole numbers above 0") { columns, rows ->
-            columns >= 1 && rows >= 1 && columns % 1 == 0.0 && rows % 1 == 0.0 && columns * rows <= MOST_CELLS
+        .numberPair('x', GRID) { cols, rows ->
+            cols >= 1 && rows >= 1 && cols % 1 == 0.0 && rows % 1 == 0.0 && cols * rows <= Grid.MAX_CELLS
         }
     private val rotation by option(
         "--rotation",
@@ -186,6 +187,6 @@ class MapCommand : WorkCommand("map") {
     private companion object {
         /** Smaller files are done before a bar can be read, bytes. */
         const val WORTH_SHOWING = 8_000_000L
-        const val MOST_CELLS = 16e6
+        const val GRID = "COLSxROWS such as 10x10, whole numbers above 0, ${Grid.MAX_CELLS} cells at most"
     }
 }

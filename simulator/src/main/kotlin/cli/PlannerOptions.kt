@@ -76,13 +76,13 @@ class PlannerOptions : OptionGroup(name = "Planners") {
     private val margin by option(
         "--margin",
         metavar = "METRES",
-        help = "polygon-rrt: smallest distance from land and keep-outs",
+        help = "with --area, and polygon-rrt: smallest distance from land and keep-outs",
     ).number("a number of metres of at least 0") { it >= 0 }
     private val resolution by option(
         "--resolution",
         metavar = "METRES",
-        help = "polygon-rrt: distance of the points among which ways through narrow water are sought; half a cell " +
-            "unless given",
+        help = "with --area, and polygon-rrt: distance of the points among which ways through narrow water are " +
+            "sought; half a cell unless given",
     ).number("a number of metres above 0") { it > 0 }
     private val settling by option(
         "--settling",

@@ -3,6 +3,7 @@ package stillwater.cli
 import com.github.ajalt.clikt.core.Context
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
+import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
@@ -11,6 +12,7 @@ import stillwater.io.LogContent
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
 import stillwater.io.PlatypusVersion
+import stillwater.io.SensorChoice
 import stillwater.replay.LineSpool
 import stillwater.replay.OwnLogReplay
 import stillwater.replay.PlatypusReplay
@@ -28,6 +30,12 @@ class ReplayCommand : WorkCommand("replay") {
         help = "mission (JSON) to replay in place of the log's own; a Platypus log has none, and without this flag " +
             "one is made around it",
     )
+    private val value by option(
+        "--value",
+        metavar = "SENSOR",
+        help = "Platypus logs: the sensor whose readings become the map, TYPE[#CHANNEL][.FIELD], such as ATLAS_DO or " +
+            "ES2.temp; the one with the most without it",
+    ).convert { text -> SensorChoice.parse(text) ?: throw BadFlag(name, "TYPE[#CHANNEL][.FIELD]", "'$text'") }
     private val out by option("--out", metavar = "DIR", help = "directory for the results").default("stillwater-replay")
     private val numbersOnly by option("--numbers-only", help = "no figure").flag()
     private val quiet by option("--quiet", help = "no summary").flag()
@@ -43,6 +51,7 @@ class ReplayCommand : WorkCommand("replay") {
             "stillwater replay stillwater-drive/mission.txt",
             "stillwater replay pond/mission.txt --mission other-estimator.json --out what-if",
             "stillwater replay platypus_20160519_013623.txt --out platypus",
+            "stillwater replay platypus_20160519_013623.txt --value ES2.temp",
         ),
     )
 
@@ -56,14 +65,17 @@ class ReplayCommand : WorkCommand("replay") {
             "a mission's log or a Platypus log",
             "neither",
         )
+        val isOwn = version == PlatypusVersion.LEVEL_JSON && content.head.any { SPEC in it }
+        if (value != null && (isOwn || spec != null)) {
+            throw BadFlag("--value", "it with a Platypus log and without --mission, whose probe counts", "'$value'")
+        }
         requireNoOtherMission(Path.of(out), "replay.json")
         OutputDirectory(Path.of(out), listOfNotNull(log, mission).map { Path.of(it) }).use { directory ->
-            val isOwn = version == PlatypusVersion.LEVEL_JSON && content.head.any { SPEC in it }
             LineSpool().use { own ->
                 val replayed = if (isOwn) {
                     OwnLogReplay(content, spec, own).run()
                 } else {
-                    PlatypusReplay(content, version, spec, own).run()
+                    PlatypusReplay(content, version, spec, own, value).run()
                 }
                 write(replayed, directory)
             }

@@ -9,6 +9,7 @@ import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonArray
 import kotlinx.serialization.json.putJsonObject
+import stillwater.io.AddedColumns
 import stillwater.io.AnnotatedLog
 import stillwater.io.SurveyLog
 import stillwater.report.HtmlReport
@@ -19,20 +20,21 @@ import stillwater.report.Table
 import stillwater.report.writeFigures
 
 /**
- * Writes what a [CorrectedLog] gives: corrected.csv, sensor.json, summary.json, figures and report.html.
+ * Writes what a [CorrectedLog] gives: its columns of corrected.csv, sensor.json, summary.json, figures and report.html.
  *
- * corrected.csv has every row of the log with its own columns and corrected, corrected_low, corrected_high; rows that
- * are no
- * reading have these empty.
+ * Its columns stand in every row of the log behind the log's own; in rows that are no reading they are empty.
  *
  * @param result what to write. @param unit unit of the quantity, or null. @param command the command as typed.
  * @param heldOut scores of legs that the sensor was not learned on, or null where they were not asked for.
+ * @param isAlone whether no other quantity of the log is corrected beside it: if not, its columns have its name before
+ *   theirs, and its files but corrected.csv lie in a directory of that name.
  */
 class CorrectFiles(
     private val result: CorrectedLog,
     unit: String?,
     private val command: String,
     private val heldOut: List<HeldOutScore>? = null,
+    private val isAlone: Boolean = true,
 ) {
     private val summary = CorrectSummary(result, unit, heldOut)
 
@@ -48,21 +50,39 @@ class CorrectFiles(
     fun lines(): List<String> =
         summary.facts.take(TERMINAL_LINES + if (heldOut == null) 0 else 1).map { (name, value) -> "$name: $value" }
 
-    /** Writes all files into [directory], which the caller commits; returns warnings about the figures. */
-    fun write(directory: OutputDirectory): List<String> {
-        directory.retire(CorrectFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") })
+    /** The column that is corrected. */
+    val quantity: String get() = result.log.quantity
+
+    /** Names of the columns added to the log's. */
+    val columns: List<String> = columns(result.log, isAlone)
+
+    /** Directory of the files but corrected.csv, within the results': empty or with a slash behind it. */
+    val place: String = if (isAlone) "" else quantity.map { if (it.isLetterOrDigit() || it in "_-") it else '_' }
+        .joinToString("") + "/"
+
+    /** What is added to the rows of the log. */
+    internal fun addedColumns(): AddedColumns {
         val series = result.series
         val track = result.track
-        otherRows = directory.stream("corrected.csv") { out ->
-            AnnotatedLog(result.log, COLUMNS, series.times, series.xs, series.ys, series.values).write(out) { k ->
-                listOf(track.values[k], track.lower[k], track.upper[k]).map(::cell)
-            }
+        return AddedColumns(result.log, columns, series.times, series.xs, series.ys, series.values) { k ->
+            listOf(track.values[k], track.lower[k], track.upper[k]).map(::cell)
         }
-        directory.write("sensor.json", result.spec.toJson() + "\n")
+    }
+
+    /**
+     * Writes all files but corrected.csv, of which [otherRows] rows are no reading, into [directory], which the caller
+     * commits; returns warnings about the figures.
+     */
+    internal fun write(directory: OutputDirectory, otherRows: Long): List<String> {
+        this.otherRows = otherRows
+        directory.retire(FIGURES.map { place + it })
+        // Of an earlier run on one quantity.
+        if (!isAlone) directory.retire(FIGURES + listOf("sensor.json", "summary.json", "report.html"))
+        directory.write(place + "sensor.json", result.spec.toJson() + "\n")
         val figures = CorrectFigures(result, summary).draw()
-        val drawing = directory.writeFigures(figures.map { it.name to it.figure })
-        directory.write("summary.json", json(drawing))
-        directory.write("report.html", page(figures))
+        val drawing = directory.writeFigures(figures.map { place + it.name to it.figure })
+        directory.write(place + "summary.json", json(drawing))
+        directory.write(place + "report.html", page(figures))
         return drawing
     }
 
@@ -70,13 +90,14 @@ class CorrectFiles(
     private fun cell(value: Double): String? =
         if (value.isFinite()) String.format(java.util.Locale.ROOT, "%.7g", value).toDouble().toString() else null
 
-    /** The summary for machines. */
-    fun json(drawing: List<String>): String =
+    private fun json(drawing: List<String>): String =
         FORMAT.encodeToString(JsonObject.serializer(), summaryJson(drawing)) + "\n"
 
-    private fun summaryJson(drawing: List<String>) = buildJsonObject {
+    /** The summary for machines, with the warnings about [drawing]. */
+    internal fun summaryJson(drawing: List<String>) = buildJsonObject {
         put("log", result.log.file.toString())
-        put("quantity", result.log.quantity)
+        put("quantity", quantity)
+        putJsonArray("columns") { columns.forEach { add(JsonPrimitive(it)) } }
         put("readings", result.series.size)
         put("other_rows", otherRows)
         putJsonObject("skipped") { result.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
@@ -93,32 +114,33 @@ class CorrectFiles(
                             standing.candidate.kind.parameters.forEachIndexed { i, name ->
                                 val interval = standing.candidate.interval(i)
                                 putJsonObject(name) {
-                                    put("value", standing.candidate.parameters[i])
-                                    put("low", interval.start)
-                                    put("high", interval.endInclusive)
+                                    put("value", standing.candidate.parameter(i))
+                                    put("low", finite(interval.start))
+                                    // Null where the log does not say how large it may be.
+                                    put("high", finite(interval.endInclusive))
                                 }
                             }
                         }
-                        put("mean_delay_s", standing.candidate.response.meanDelay)
-                        put("held_out_score", standing.candidate.heldOutScore)
-                        put("behind", standing.behind)
-                        put("behind_error", standing.error.takeIf { it.isFinite() })
+                        put("mean_delay_s", finite(standing.candidate.response.meanDelay))
+                        put("held_out_score", finite(standing.candidate.heldOutScore))
+                        put("behind", finite(standing.behind))
+                        put("behind_error", finite(standing.error))
                         put("open", standing.isOpen)
-                        put("weight", standing.weight)
+                        put("weight", finite(standing.weight))
                     },
                 )
             }
         }
-        result.before?.let { put("opposite_legs_before", it.opposite.mean) }
-        result.after?.let { put("opposite_legs_after", it.opposite.mean) }
+        result.before?.let { put("opposite_legs_before", finite(it.opposite.mean)) }
+        result.after?.let { put("opposite_legs_after", finite(it.opposite.mean)) }
         heldOut?.let { scores ->
             putJsonArray("held_out") {
                 for (score in scores) {
                     addJsonObject {
                         put("learned_on", score.learnedOn)
                         put("legs", score.legs)
-                        put("opposite_legs_before", score.before)
-                        put("opposite_legs_after", score.after)
+                        put("opposite_legs_before", finite(score.before))
+                        put("opposite_legs_after", finite(score.after))
                         score.passes?.let {
                             put("pairs_of_passes", it.pairs)
                             put("passes_rms_before", it.before)
@@ -128,10 +150,13 @@ class CorrectFiles(
                 }
             }
         }
-        put("mean_half_width", summary.halfWidth)
+        put("mean_half_width", finite(summary.halfWidth))
         put("learned_on", result.learnedOn)
         put("blocks", result.blocks)
     }
+
+    /** JSON has no other numbers. */
+    private fun finite(number: Double): Double? = number.takeIf { it.isFinite() }
 
     private fun page(figures: List<CorrectFigure>): String {
         val page = HtmlReport(
@@ -167,14 +192,19 @@ class CorrectFiles(
 
     companion object {
         /**
-         * Refuses [log] if it has a column of the names that are added.
+         * Refuses [log] if it has a column of the names that are added to it, where it is corrected [isAlone] or not.
          *
          * @throws stillwater.io.LogProblem if so.
          */
-        fun requireNewColumns(log: SurveyLog) = AnnotatedLog.requireNewNames(log, COLUMNS)
+        fun requireNewColumns(log: SurveyLog, isAlone: Boolean) =
+            AnnotatedLog.requireNewNames(log, columns(log, isAlone))
+
+        private fun columns(log: SurveyLog, isAlone: Boolean) =
+            if (isAlone) COLUMNS else COLUMNS.map { "${log.quantity}_$it" }
 
         private const val TERMINAL_LINES = 5
         private val COLUMNS = listOf("corrected", "corrected_low", "corrected_high")
+        private val FIGURES = CorrectFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") }
         private val FORMAT = Json { prettyPrint = true }
         private val HOW = listOf(
             "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +

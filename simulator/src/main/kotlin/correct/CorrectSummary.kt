@@ -8,6 +8,7 @@ import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import stillwater.estimate.CandidateResponse
 import stillwater.estimate.ResponseKind
+import stillwater.estimate.UndoableSensor
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
 import stillwater.survey.Wording.Companion.percent
@@ -60,7 +61,7 @@ internal class CorrectSummary(
         if (candidate.kind == ResponseKind.NONE) return "no lag"
         val parameters = candidate.kind.parameters.indices.joinToString(", ") { i ->
             val interval = candidate.interval(i)
-            val value = digits(candidate.parameters[i], 3)
+            val value = digits(candidate.parameter(i), 3)
             "${parameterName(candidate.kind.parameters[i])} $value" +
                 " (${digits(interval.start, 3)} to ${digits(interval.endInclusive, 3)})"
         }
@@ -143,6 +144,15 @@ internal class CorrectSummary(
         return "${result.series.size} corrected$skipped"
     }
 
+    /** What to say of a given sensor that is slower than the log is long; null for others. */
+    private fun slowest(): String? {
+        if (result.origin != SensorOrigin.GIVEN) return null
+        val slowest = UndoableSensor.of(result.spec).response.lags.maxOfOrNull { maxOf(it.rising, it.falling) } ?: 0.0
+        if (!(slowest > result.statistics.duration)) return null
+        return "the sensor's time constant (${duration(slowest)}) is longer than the log " +
+            "(${duration(result.statistics.duration)}): what it shows of the water is mostly from before it"
+    }
+
     /** What the user should know, one line each. */
     val warnings: List<String>
         get() = buildList {
@@ -159,6 +169,10 @@ internal class CorrectSummary(
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
             }
+            if (result.series.values.all { it == result.series.values[0] }) {
+                add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
+            }
+            slowest()?.let(::add)
             val silent = result.track.silent.count { it }
             if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")

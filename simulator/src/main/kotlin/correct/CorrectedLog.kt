@@ -31,6 +31,7 @@ import stillwater.survey.LegMismatch
 import stillwater.survey.SurveyScan
 import stillwater.survey.SurveyStatistics
 import stillwater.survey.Track
+import stillwater.survey.ValueResolution
 import kotlin.math.abs
 import kotlin.random.Random
 
@@ -72,6 +73,8 @@ class CorrectedLog internal constructor(
     val withoutReference: Int,
     val held: Boolean,
 ) {
+    private val resolution: Double = resolution(statistics, series)
+
     /**
      * How well a sensor that is learned on some legs corrects the others; empty where the sensor was not learned from
      * revisits or there are too few legs. Takes four times as long as the correction itself.
@@ -87,7 +90,7 @@ class CorrectedLog internal constructor(
         return HeldOutLegs(CorrectedLegs(before, series.values), passes) { rows ->
             val learned = byRevisits(series.at(rows))
             if (learned.choice == null) return@HeldOutLegs null
-            val values = corrected(series, learned, learned.stages, resolution(statistics)).values
+            val values = corrected(series, learned, learned.stages, resolution).values
             legs(series, values)?.let { CorrectedLegs(it, values) }
         }.scores()
     }
@@ -159,7 +162,7 @@ class CorrectedLog internal constructor(
             val series = rows.series()
             SquareReach.require(log, series.values, rows.references())
             val statistics = scan.statistics()
-            val resolution = resolution(statistics)
+            val resolution = resolution(statistics, series)
             val learned = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
@@ -212,7 +215,9 @@ class CorrectedLog internal constructor(
             return conditions + (Conditions.SPEED to measured.speed)
         }
 
-        private fun resolution(statistics: SurveyStatistics) = statistics.resolution.takeIf { it.isFinite() } ?: 0.0
+        /** Without a step the readings are taken as they are; where they hardly change theirs is not to be seen. */
+        private fun resolution(statistics: SurveyStatistics, series: TrackSeries) =
+            if (statistics.resolution.isFinite()) statistics.resolution else ValueResolution.atLeast(series.values)
 
         private fun quantum(resolution: Double) =
             if (resolution > 0) listOf(SensorStage.Quantum(resolution)) else emptyList()

@@ -7,6 +7,7 @@ import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
+import kotlin.math.abs
 
 /**
  * A log and what the diagnosis says about it, in words.
@@ -14,7 +15,7 @@ import stillwater.report.SignificantDigits
  * @property log the log. @property result the diagnosis. @property worth what the better model is worth for a map, or
  * null.
  * @property channels how late other channels of the boat are, or null. @param isGiven whether the base is a sensor that
- * was given.
+ * was given. @param unit of the readings, or null.
  */
 class Diagnosed(
     val log: DiagnosisLog,
@@ -22,7 +23,14 @@ class Diagnosed(
     val worth: MapWorth?,
     private val isGiven: Boolean = false,
     val channels: ChannelLags? = null,
+    private val unit: String? = null,
 ) {
+    /** The quantity with its unit. */
+    val quantity: String = if (unit == null) log.quantity else "${log.quantity} ($unit)"
+
+    /** The unit after a number, with a blank before it; empty without one. */
+    val unitAfter: String = unit?.let { " $it" }.orEmpty()
+
     /**
      * Labels of the causes of the answer: those named, the certain ones of an ambiguous answer; `none`,
      * `unexplained`.
@@ -79,14 +87,26 @@ class Diagnosed(
         return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
     }
 
+    /** Whether what was named is the base model's own lag, so that there is nothing to extend it by. */
+    val isBaseNamed: Boolean get() = result.extended === result.baseline
+
     /** [parameters] in words. */
-    fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { estimate ->
+    fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { "${name(it)} ${number(it)}" }
+
+    /** What [estimate] is of, in words. */
+    fun name(estimate: Estimate): String = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
+
+    /** The number of [estimate] with its interval and unit. */
+    fun number(estimate: Estimate): String {
+        if (abs(estimate.value) >= NO_END) return "none"
         val three = SignificantDigits(3)
         val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
-        val unit = if (estimate.unit.isEmpty()) "" else " ${estimate.unit}"
-        val name = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
-        "$name ${three.format(estimate.value)}$reach$unit"
+        val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
+        return "${three.format(estimate.value)}$reach$unit"
     }
+
+    /** [words] of a unit, with the readings' own in it where it is known. */
+    fun inUnit(words: String): String = if (unit == null) words else words.replace(SENSOR_UNITS, unit)
 
     /** Five lines for the terminal. */
     fun lines(): List<String> {
@@ -95,12 +115,12 @@ class Diagnosed(
         val after = result.extended
         val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
         val best = result.candidates.firstOrNull()
-        val sensor = if (isGiven) "the sensor given" else "lag of ${three.format(tau?.value ?: Double.NaN)} s"
+        val sensor = if (isGiven) "the sensor given" else "lag of ${tau?.let(::number) ?: "unknown length"}"
         return listOf(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
             "base: $sensor; residuals " +
-                three.format(base.trainRmse) + heldOut(base, three) + " (root mean square)",
+                three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)",
             if (after != null) {
                 extension(base, after, three)
             } else {
@@ -116,13 +136,21 @@ class Diagnosed(
 
     /** Where too little was there nothing is held out. */
     private fun heldOut(model: ModelAssessment, three: SignificantDigits) =
-        if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}"
+        if (model.heldOutRmse.isNaN()) "" else ", on held-out blocks ${three.format(model.heldOutRmse)}$unitAfter"
 
     private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String =
         if (after === base) {
             "extended: the base, whose lag is what was named"
         } else {
-            "extended: held-out residuals ${three.format(after.heldOutRmse)}, log-likelihood " +
+            "extended: held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
                 "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
         }
+
+    private companion object {
+        /** What numbers are in whose unit nobody said. */
+        const val SENSOR_UNITS = "sensor units"
+
+        /** The end of a range that was not found stands beyond this. */
+        const val NO_END = 1e11
+    }
 }

@@ -23,7 +23,9 @@ internal class DiagnosisFigure(val name: String, val figure: Figure, val caption
 internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val columns = diagnosed.log.columns
     private val result = diagnosed.result
-    private val quantity = diagnosed.log.quantity
+    private val quantity = diagnosed.quantity
+    private val residualLabel = "Measured less predicted" +
+        diagnosed.unitAfter.trim().let { if (it.isEmpty()) "" else " ($it)" }
     private val n = columns.size
     private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
     private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
@@ -38,7 +40,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         if (Cause.TIME_VARYING_FIELD in named) result.revisits?.let { add(revisits(it)) }
         add(against("time", "Time since the first row (s)", time))
         add(against("value", "Predicted value of $quantity", result.baseline.predicted))
-        add(against("rate", "Predicted rate of change (1/s)", rate()))
+        add(against("rate", "Predicted rate of change (${diagnosed.inUnit("sensor units")}/s)", rate()))
         if (moves) {
             add(against("speed", "Speed (m/s)", columns.condition(Conditions.SPEED) ?: speed()))
             val heading = columns.condition(Conditions.HEADING) ?: heading()
@@ -76,7 +78,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
             "",
             listOf(points, means(x)),
             label,
-            "Measured less predicted",
+            residualLabel,
             references = listOf(0.0),
         )
         return DiagnosisFigure(
@@ -116,7 +118,8 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
             DoubleArray(rows.size) { columns.x[rows[it]] },
             DoubleArray(rows.size) { columns.y[rows[it]] },
             DoubleArray(rows.size) { residual[rows[it]] },
-            "Measured less predicted",
+            residualLabel,
+            isDifference = true,
         )
         return DiagnosisFigure("residuals-position", map.draw(), "The base model's residuals where they were measured.")
     }

@@ -17,8 +17,13 @@ internal class DiagnosisReport(
 ) {
     private val result = diagnosed.result
     private val three = SignificantDigits(3)
+    private val checks: List<ResidualCheck> = ResidualChecks.of(
+        (result.extended ?: result.baseline).whitened,
+        ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 },
+        result.baseline.noiseSpread,
+    )
     private val page = HtmlReport(
-        title = "Diagnosis of ${diagnosed.log.quantity}",
+        title = "Diagnosis of ${diagnosed.quantity}",
         subtitle = "${diagnosed.log.file.fileName}, ${diagnosed.log.format}",
         provenance = Provenance(Program.VERSION, command),
     )
@@ -30,9 +35,10 @@ internal class DiagnosisReport(
         page.summary("Rows", "${diagnosed.log.series.size}")
         val isHeldOut = !result.baseline.heldOutRmse.isNaN()
         val residuals = if (isHeldOut) "Residuals on held-out blocks" else "Residuals, nothing held out"
-        fun shown(model: ModelAssessment) = three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse)
+        fun shown(model: ModelAssessment) =
+            three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse) + diagnosed.unitAfter
         page.summary("$residuals, base", shown(result.baseline))
-        result.extended?.let { page.summary("The same, extended", shown(it)) }
+        if (!diagnosed.isBaseNamed) result.extended?.let { page.summary("The same, extended", shown(it)) }
         diagnosed.warnings.forEach(page::warning)
         page.section("The answer") { answer() }
         page.section("Measured and predicted") { show("predicted") }
@@ -56,6 +62,13 @@ internal class DiagnosisReport(
         result.separatingManoeuvre?.let { paragraph("What would tell the causes apart: $it.") }
         val after = result.extended ?: return
         val before = result.baseline
+        if (diagnosed.isBaseNamed) {
+            paragraph(
+                "What is at work is the lag of the base model itself: ${diagnosed.numbers(after.parameters)}. There " +
+                    "is nothing to extend it by.",
+            )
+            return leftOver()
+        }
         if (!before.heldOutRmse.isNaN()) heldOut(before, after)
         diagnosed.worth?.let { worth ->
             paragraph(
@@ -67,19 +80,39 @@ internal class DiagnosisReport(
                     "${three.format(worth.error)}).",
             )
         }
-        keyValues(after.parameters.map { it.name.replace('_', ' ') to "${three.format(it.value)} ${it.unit}" })
+        keyValues(after.parameters.map { diagnosed.name(it) to diagnosed.number(it) })
+        leftOver()
+    }
+
+    /** Intervals are worth what the model is: where more than chance is left, the reader must know. */
+    private fun stillwater.report.ReportSection.leftOver() {
+        val outside = checks.filter { it.value !in it.lower..it.upper }
+        if (outside.size < 2) return
+        paragraph(
+            "What is left is more than noise: ${outside.size} of the ${checks.size} checks of the residuals below " +
+                "are outside of what noise alone gives. The model is not all of the truth, and the intervals, which hold " +
+                "if it is, are rather too narrow.",
+        )
     }
 
     private fun stillwater.report.ReportSection.heldOut(before: ModelAssessment, after: ModelAssessment) {
         val gain = three.format(after.heldOutLogLikelihood - before.heldOutLogLikelihood)
         paragraph(
             "On blocks of the log that the model was not fitted to, the residuals (root mean square) go from " +
-                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}, and the log-likelihood " +
-                "rises by $gain.",
+                "${three.format(before.heldOutRmse)} to ${three.format(after.heldOutRmse)}${diagnosed.unitAfter}, " +
+                "and the log-likelihood rises by $gain.",
         )
     }
 
     private fun stillwater.report.ReportSection.tried() {
+        if (diagnosed.log.reference == null && result.candidates.isNotEmpty()) {
+            paragraph(
+                "Each row is a cause beside a lag; where a time constant cannot be told from a dead time, beside " +
+                    "both, and the time constant is then what the dead time leaves of the lag, less than the " +
+                    "answer's. Residuals can be held against each other within this table only. The lag itself is " +
+                    "not among the rows: whether it is at work the answer says.",
+            )
+        }
         table(
             Table.of(result.candidates) {
                 text("Cause") { candidate: Candidate ->
@@ -98,10 +131,8 @@ internal class DiagnosisReport(
         figures.filter {
             it.name.startsWith("residuals-") || it.name == "correlation"
         }.forEach { figure(it.figure, it.caption) }
-        val resolution = ValueResolution.of(diagnosed.log.columns.values).let { if (it.isFinite()) it else 0.0 }
-        val z = (result.extended ?: result.baseline).whitened
         table(
-            Table.of(ResidualChecks.of(z, resolution, result.baseline.noiseSpread)) {
+            Table.of(checks) {
                 text("Whitened residuals of the best model") { it.name }
                 number("Value") { it.value }
                 number("Noise alone, from") { it.lower }

@@ -4,6 +4,8 @@ import stillwater.estimate.SensorBelief
 import stillwater.field.FieldMap
 import stillwater.mission.EstimatorName
 import stillwater.mission.Mission
+import stillwater.mission.MissionState
+import stillwater.mission.StopReason
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
 
@@ -23,10 +25,27 @@ internal object MapCautions {
 
     /** One line each; of [mission]'s map as it is now. */
     fun of(mission: Mission): List<String> = listOfNotNull(
+        nothing(mission),
         unexplained(mission.spec.estimator, mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
-        "no cell has a reading".takeIf { (0 until mission.map.grid.size).none { mission.map.readings(it) > 0 } },
+        "no cell has a reading".takeIf { visited(mission) == 0 },
     )
+
+    /** Whether [mission] did all it was to do, by its own word, and knows of no cell but that where the boat lay. */
+    fun hasSurveyedNothing(mission: Mission): Boolean {
+        val isCompleted = mission.state == MissionState.Stopped(StopReason.COMPLETED)
+        return isCompleted && mission.map.grid.size > 1 && visited(mission) <= 1
+    }
+
+    /** What to say of a [mission] that [hasSurveyedNothing]; null for others. */
+    fun nothing(mission: Mission): String? =
+        if (hasSurveyedNothing(mission)) {
+            "nothing was surveyed: the budget was spent before the boat came to a second cell; give it more"
+        } else {
+            null
+        }
+
+    private fun visited(mission: Mission) = (0 until mission.map.grid.size).count { mission.map.readings(it) > 0 }
 
     /** Where no model of a sensor fits; [where] says why that may be, after a comma. */
     fun unexplained(estimator: EstimatorName, belief: SensorBelief?, where: String = ""): String? {

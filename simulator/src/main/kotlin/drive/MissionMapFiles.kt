@@ -7,6 +7,9 @@ import stillwater.plot.MapCell
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.writeFigures
+import stillwater.run.kind
+import stillwater.run.withUnit
+import stillwater.survey.isHalfKnown
 
 /** Writes the map that a mission made: `cells.csv`, exact to the last bit, and the figure `map`. */
 internal object MissionMapFiles {
@@ -39,10 +42,11 @@ internal object MissionMapFiles {
         val cells = (0 until grid.size).map { cell ->
             val value = if (map.readings(cell) > 0) map.value(cell) else Double.NaN
             val side = spec.grid.cell
-            MapCell.rectangle(grid.centerX(cell), grid.centerY(cell), side, side, grid.rotation, value)
+            val isHalf = map.isHalfKnown(spec.estimator.kind, cell)
+            MapCell.rectangle(grid.centerX(cell), grid.centerY(cell), side, side, grid.rotation, value, isHalf)
         }
         val known = (0 until grid.size).count { map.readings(it) > 0 }
-        val quantity = spec.probe.quantity.name.lowercase().replace('_', ' ')
+        val quantity = spec.probe.quantity.withUnit
         val subtitle = "$known of ${grid.size} cells have readings"
         return directory.writeFigures(listOf("map" to CellMap(spec.name, subtitle, cells, quantity).draw()))
     }

@@ -6,46 +6,65 @@ import java.io.OutputStream
 import java.io.OutputStreamWriter
 
 /**
+ * What is added to the rows of a log that hold a reading of one quantity.
+ *
+ * @property log the log as it yields these readings. @property names the columns added.
+ * @property times times of the readings, s, length n. Not modified. @property xs their places, m, length n. Not
+ * modified. @property ys likewise. @property values the readings, sensor units, length n. Not modified.
+ * @property cells what is added to reading k, one for each of [names]; null for an empty cell.
+ */
+internal class AddedColumns(
+    val log: SurveyLog,
+    val names: List<String>,
+    val times: DoubleArray,
+    val xs: DoubleArray,
+    val ys: DoubleArray,
+    val values: DoubleArray,
+    val cells: (Int) -> List<String?>,
+)
+
+/**
  * Writes a log again as CSV, byte for byte as it is, with some more columns behind its own.
  *
- * @param log the log. @param names the columns added. @param times times of the readings that [log] yields, s. Not
- * modified.
+ * @param parts what is added, all of the same log; of a log that is not CSV one part only.
  */
-internal class AnnotatedLog(
-    private val log: SurveyLog,
-    private val names: List<String>,
-    private val times: DoubleArray,
-    private val xs: DoubleArray,
-    private val ys: DoubleArray,
-    private val values: DoubleArray,
-) {
-    /**
-     * Writes all rows to [out], which is closed; [cells] gives what is added to reading k, null for nothing. Logs
-     * that are
-     * not CSV get a row a reading with the columns time_s, x_m, y_m and the quantity.
-     *
-     * @return number of rows written that are no reading; their added cells are empty.
-     */
-    fun write(out: OutputStream, cells: (Int) -> List<String?>?): Long =
-        if (log is CsvSurvey) csv(log, out, cells) else plain(out, cells)
-
-    private fun plain(out: OutputStream, cells: (Int) -> List<String?>?): Long {
-        writer(out).use { writer ->
-            writer.writeRecord(listOf("time_s", "x_m", "y_m", log.quantity) + names)
-            for (k in times.indices) {
-                val own = listOf(times[k], xs[k], ys[k], values[k]).map { it.toString() }
-                writer.writeRecord(own + (cells(k) ?: empty))
-            }
-        }
-        return 0
+internal class AnnotatedLog(private val parts: List<AddedColumns>) {
+    init {
+        require(parts.isNotEmpty()) { "parts must not be empty" }
+        require(parts.size == 1 || parts[0].log is CsvSurvey) { "only a CSV log has rows that hold several readings" }
     }
 
-    private val empty = List<String?>(names.size) { null }
-
-    /** All bytes of the log as they are, the added cells before the line ends. */
-    private fun csv(survey: CsvSurvey, out: OutputStream, cells: (Int) -> List<String?>?): Long {
+    /** Where the writing of one part is. */
+    private class Place(val part: AddedColumns) {
+        val survey = part.log as CsvSurvey
+        val empty = List<String?>(part.names.size) { null }
         var next = 0
         var other = 0L
+    }
+
+    /**
+     * Writes all rows to [out], which is closed. Logs that are not CSV get a row a reading with the columns time_s,
+     * x_m, y_m and the quantity.
+     *
+     * @return for each part the number of rows written that are no reading of it; what it adds to them is empty.
+     */
+    fun write(out: OutputStream): List<Long> = if (parts[0].log is CsvSurvey) csv(out) else plain(out, parts[0])
+
+    private fun plain(out: OutputStream, part: AddedColumns): List<Long> {
+        writer(out).use { writer ->
+            writer.writeRecord(listOf("time_s", "x_m", "y_m", part.log.quantity) + part.names)
+            for (k in part.times.indices) {
+                val own = listOf(part.times[k], part.xs[k], part.ys[k], part.values[k]).map { it.toString() }
+                writer.writeRecord(own + part.cells(k))
+            }
+        }
+        return listOf(0)
+    }
+
+    /** All bytes of the log as they are, the added cells before the line ends. */
+    private fun csv(out: OutputStream): List<Long> {
+        val places = parts.map { Place(it) }
+        val survey = places[0].survey
         out.use {
             survey.content.raw { mark, text ->
                 out.write(mark)
@@ -55,13 +74,10 @@ internal class AnnotatedLog(
                     val fields = records.fields
                     val added = when {
                         fields.all { it.isBlank() } -> emptyList()
-                        width == NO_HEADER -> names.also { width = fields.size }
-                        next < times.size && isRow(survey, fields, next) -> cells(next++) ?: empty
-                        else -> {
-                            other++
-                            // A row of another width or a remark is not made wider: nothing in it would stand in place.
-                            if (fields.size == width) empty else emptyList()
-                        }
+                        width == NO_HEADER -> parts.flatMap { it.names }.also { width = fields.size }
+                        fields.size == width -> places.flatMap { added(it, fields) }
+                        // A row of another width or a remark is not made wider: nothing in it would stand in place.
+                        else -> emptyList<String?>().also { places.forEach { it.other++ } }
                     }
                     out.write(records.bytes(records.text))
                     for (cell in added) out.write(records.bytes(survey.separator + cell.orEmpty()))
@@ -69,25 +85,35 @@ internal class AnnotatedLog(
                 }
             }
         }
-        check(next == times.size) { "${times.size - next} readings of ${log.file} were not found again" }
-        return other
+        for (place in places) {
+            val left = place.part.times.size - place.next
+            check(left == 0) { "$left readings of ${survey.file} were not found again" }
+        }
+        return places.map { it.other }
     }
 
-    private fun isRow(survey: CsvSurvey, fields: List<String>, k: Int): Boolean {
+    private fun added(place: Place, fields: List<String>): List<String?> {
+        val isNext = place.next < place.part.times.size && isRow(place.survey, place.part, fields, place.next)
+        if (isNext) return place.part.cells(place.next++)
+        place.other++
+        return place.empty
+    }
+
+    private fun isRow(survey: CsvSurvey, part: AddedColumns, fields: List<String>, k: Int): Boolean {
         val time = fields.getOrNull(survey.columns.time)?.let { DecimalText.parse(it) } ?: return false
         val value = fields.getOrNull(survey.columns.value)?.let { DecimalText.parse(it) } ?: return false
-        return time == times[k] && value == values[k] && isPlace(survey.columns, fields, k)
+        return time == part.times[k] && value == part.values[k] && isPlace(survey.columns, part, fields, k)
     }
 
     /** Degrees are compared by being there only: a row left out for its place may be the next one's twin. */
-    private fun isPlace(columns: CsvColumns, fields: List<String>, k: Int): Boolean {
+    private fun isPlace(columns: CsvColumns, part: AddedColumns, fields: List<String>, k: Int): Boolean {
         fun number(column: Int) = fields.getOrNull(column)?.let { DecimalText.parse(it) } ?: Double.NaN
         if (columns.latitude != CsvColumns.NONE) {
             val latitude = number(columns.latitude)
             val longitude = number(columns.longitude)
             return latitude.isFinite() && longitude.isFinite() && (latitude != 0.0 || longitude != 0.0)
         }
-        return number(columns.x) == xs[k] && (columns.y == CsvColumns.NONE || number(columns.y) == ys[k])
+        return number(columns.x) == part.xs[k] && (columns.y == CsvColumns.NONE || number(columns.y) == part.ys[k])
     }
 
     private fun writer(out: OutputStream) =

@@ -13,13 +13,25 @@ import kotlin.math.sin
  * @param east the corners' x, m, in order around the cell, at least 3. Retained, not modified.
  * @param north the corners' y, m, as many. Retained, not modified.
  * @property value in the map's unit; NaN means that nothing is known here.
+ * @property isHalfKnown whether the value is known from one side only; such a cell is drawn small, on grey.
  */
-public class MapCell(internal val east: DoubleArray, internal val north: DoubleArray, public val value: Double) {
+public class MapCell(
+    internal val east: DoubleArray,
+    internal val north: DoubleArray,
+    public val value: Double,
+    internal val isHalfKnown: Boolean = false,
+) {
     init {
         require(east.size >= 3 && east.size == north.size) {
             "a cell needs 3 or more corners with east and north each, got ${east.size} and ${north.size}"
         }
         require(east.all(Double::isFinite) && north.all(Double::isFinite)) { "a cell's corners must be finite" }
+    }
+
+    /** The corners' places in [side], half as far from the middle of the cell. */
+    internal fun inner(side: DoubleArray): DoubleArray {
+        val middle = side.average()
+        return DoubleArray(side.size) { (side[it] + middle) / 2 }
     }
 
     public companion object {
@@ -37,6 +49,7 @@ public class MapCell(internal val east: DoubleArray, internal val north: DoubleA
             height: Double,
             rotation: Double,
             value: Double,
+            isHalfKnown: Boolean = false,
         ): MapCell {
             val across = doubleArrayOf(-width / 2, width / 2, width / 2, -width / 2)
             val along = doubleArrayOf(-height / 2, -height / 2, height / 2, height / 2)
@@ -46,6 +59,7 @@ public class MapCell(internal val east: DoubleArray, internal val north: DoubleA
                 DoubleArray(across.size) { centreEast + c * across[it] - s * along[it] },
                 DoubleArray(across.size) { centreNorth + s * across[it] + c * along[it] },
                 value,
+                isHalfKnown,
             )
         }
     }
@@ -58,6 +72,7 @@ public class MapCell(internal val east: DoubleArray, internal val north: DoubleA
  * @param unit what the colours mean, such as `Oxygen (mg/L)`.
  * @param colours the values at the ends of the colour scale; by default those of the cells. Values beyond take the
  *   colour of the nearer end, and the subtitle says how many there are.
+ * @param isDifference whether the values are differences, whose sign is what matters: blue below zero, red above.
  */
 public class CellMap(
     private val title: String,
@@ -65,18 +80,21 @@ public class CellMap(
     private val cells: List<MapCell>,
     private val unit: String,
     private val colours: ClosedFloatingPointRange<Double>? = null,
+    private val isDifference: Boolean = false,
 ) : Drawing {
     override fun draw(): Figure {
         if (cells.isEmpty()) return Sheet(title, subtitle, MapFrame.WIDTH, MapFrame.EMPTY_HEIGHT).empty("no cells")
         val frame = MapFrame.around(cells.map { it.east }, cells.map { it.north }, MARGIN)
         val (known, unknown) = cells.partition { !it.value.isNaN() }
+        val half = known.filter { it.isHalfKnown }
         val note = if (unknown.isEmpty()) "" else "grey: no value (${unknown.size} of ${cells.size} cells)"
+        val small = if (half.isEmpty()) "" else "small: one bound only (${half.size} of ${cells.size})"
         var beyond = ""
         var plot = letsPlot() + frame.axes()
         // The library draws no scale for nothing but missing values, so the cells without one are a layer of their own.
-        if (unknown.isNotEmpty()) {
+        if (unknown.isNotEmpty() || half.isNotEmpty()) {
             plot += geomPolygon(
-                outlines(unknown),
+                outlines(unknown + half),
                 size = OUTLINE,
                 fill = Palette.ABSENT,
                 color = Palette.ABSENT,
@@ -84,17 +102,18 @@ public class CellMap(
             ) { outline() }
         }
         if (known.isNotEmpty()) {
-            val scale = ColourScale.of(known.map { it.value }, colours)
-            beyond = scale.note(known.map { it.value }, "cells")
+            val shown = known.map { it.value }
+            val scale = if (isDifference) ColourScale.ofDifferences(shown) else ColourScale.of(shown, colours)
+            beyond = scale.note(shown, "cells")
             val values = known.flatMap { cell -> List(cell.east.size) { scale.place(cell.value) } }
-            plot += geomPolygon(outlines(known) + ("value" to values), size = OUTLINE, sampling = samplingNone) {
+            plot += geomPolygon(shapes(known) + ("value" to values), size = OUTLINE, sampling = samplingNone) {
                 outline()
                 fill = "value"
                 color = "value"
             }
             plot += scale.fill(unit, frame.isFlat) + scale.colour(unit, flat = null)
         }
-        val below = listOf(subtitle, note, beyond).filter { it.isNotEmpty() }.joinToString("; ")
+        val below = listOf(subtitle, note, small, beyond).filter { it.isNotEmpty() }.joinToString("; ")
         return frame.sheet(title, below).figure(plot, frame.legend())
     }
 
@@ -102,6 +121,13 @@ public class CellMap(
         "east" to shown.flatMap { it.east.asList() },
         "north" to shown.flatMap { it.north.asList() },
         "cell" to shown.flatMapIndexed { index, cell -> List(cell.east.size) { index } },
+    )
+
+    /** As [outlines], those that are known from one side only drawn small. */
+    private fun shapes(shown: List<MapCell>) = outlines(
+        shown.map {
+            if (it.isHalfKnown) MapCell(it.inner(it.east), it.inner(it.north), it.value) else it
+        },
     )
 
     private fun PolygonMapping.outline() {

@@ -2,12 +2,23 @@ package stillwater.plot
 
 import org.jetbrains.letsPlot.intern.Feature
 import org.jetbrains.letsPlot.scale.guideColorbar
+import org.jetbrains.letsPlot.scale.scaleColorGradient2
 import org.jetbrains.letsPlot.scale.scaleColorViridis
+import org.jetbrains.letsPlot.scale.scaleFillGradient2
 import org.jetbrains.letsPlot.scale.scaleFillViridis
 import kotlin.math.abs
 
-/** A continuous, perceptually even colour scale (viridis) from [from] to [to], in the figure's unit. */
-internal class ColourScale private constructor(private val from: Double, private val to: Double) {
+/**
+ * A continuous, perceptually even colour scale from [from] to [to], in the figure's unit: viridis, or for differences
+ * blue below zero, white at it and red above.
+ *
+ * @param isDifference whether the sign is what matters; the ends are then equally far from zero.
+ */
+internal class ColourScale private constructor(
+    private val from: Double,
+    private val to: Double,
+    private val isDifference: Boolean = false,
+) {
     /** [value] on the scale: moved to the nearer end if beyond, null (drawn grey) if there is none. */
     fun place(value: Double): Double? = if (value.isNaN()) null else value.coerceIn(from, to)
 
@@ -20,6 +31,19 @@ internal class ColourScale private constructor(private val from: Double, private
     /** The scale for areas; its bar lies flat if the legend stands below the figure. */
     fun fill(unit: String, flat: Boolean): Feature {
         val ticks = ticks()
+        if (isDifference) {
+            return scaleFillGradient2(
+                low = Palette.BELOW,
+                mid = Palette.LEVEL,
+                high = Palette.ABOVE,
+                name = unit,
+                limits = from to to,
+                breaks = ticks.places,
+                labels = ticks.labels,
+                naValue = Palette.ABSENT,
+                guide = bar(flat),
+            )
+        }
         return scaleFillViridis(
             name = unit,
             limits = from to to,
@@ -33,6 +57,19 @@ internal class ColourScale private constructor(private val from: Double, private
     /** The scale for lines and points; without a bar of its own if [flat] is null. */
     fun colour(unit: String, flat: Boolean?): Feature {
         val ticks = ticks()
+        if (isDifference) {
+            return scaleColorGradient2(
+                low = Palette.BELOW,
+                mid = Palette.LEVEL,
+                high = Palette.ABOVE,
+                name = unit,
+                limits = from to to,
+                breaks = ticks.places,
+                labels = ticks.labels,
+                naValue = Palette.ABSENT,
+                guide = flat?.let(::bar) ?: "none",
+            )
+        }
         return scaleColorViridis(
             name = unit,
             limits = from to to,
@@ -78,6 +115,16 @@ internal class ColourScale private constructor(private val from: Double, private
                 size > 0 -> ColourScale(low - size / 2, high + size / 2).aroundConstant(finite)
                 else -> ColourScale(-1.0, 1.0)
             }
+        }
+
+        /** The scale for [values] that are differences, to the largest of them either way. */
+        fun ofDifferences(values: List<Double>): ColourScale {
+            val finite = values.filter { abs(it) <= LARGEST }
+            val largest = finite.maxOfOrNull { abs(it) } ?: 0.0
+            // The plot library's constants: see aroundConstant.
+            val isConstant = finite.isEmpty() || finite.max() - finite.min() <= largest * SMALLEST_SHARE
+            val end = if (isConstant) largest + CONSTANT_MARGIN else largest
+            return ColourScale(-end, end, isDifference = true)
         }
 
         /**

@@ -17,6 +17,11 @@ internal object Palette {
     /** Cells or stretches without a value. */
     const val ABSENT = "#D9DCDF"
 
+    /** Differences below, at and above zero, told apart by all. Source: ColorBrewer's RdBu (Brewer and Harrower). */
+    const val BELOW = "#2166AC"
+    const val LEVEL = "#F7F7F7"
+    const val ABOVE = "#B2182B"
+
     /** The colour of the n-th group (from 0), repeating after the last. */
     fun of(index: Int): String = groups[index % groups.size]
 }

@@ -20,6 +20,7 @@ import org.jetbrains.letsPlot.sampling.samplingNone
  * @param unit what the colours mean, such as `Oxygen (mg/L)`.
  * @param colours the values at the ends of the colour scale; by default those of the track. Values beyond take the
  *   colour of the nearer end, and the subtitle says how many there are.
+ * @param isDifference whether the values are differences, whose sign is what matters: blue below zero, red above.
  */
 public class TrackMap(
     private val title: String,
@@ -29,6 +30,7 @@ public class TrackMap(
     private val value: DoubleArray,
     private val unit: String,
     private val colours: ClosedFloatingPointRange<Double>? = null,
+    private val isDifference: Boolean = false,
 ) : Drawing {
     init {
         require(east.size == north.size && east.size == value.size) {
@@ -42,7 +44,8 @@ public class TrackMap(
         val x = DoubleArray(placed.size) { east[placed[it]] }
         val y = DoubleArray(placed.size) { north[placed[it]] }
         val frame = MapFrame.around(listOf(x), listOf(y), ROOM_FOR_LABELS)
-        val scale = ColourScale.of(placed.map { value[it] }, colours)
+        val shown = placed.map { value[it] }
+        val scale = if (isDifference) ColourScale.ofDifferences(shown) else ColourScale.of(shown, colours)
         val table = mapOf(
             "east" to x.asList(),
             "north" to y.asList(),
@@ -57,7 +60,7 @@ public class TrackMap(
             geomPath(color = Palette.AXIS, size = 0.5, sampling = samplingNone) { group = "part" } +
             points(placed, scale.colour(unit, frame.isFlat)) + frame.axes() +
             start(x, y, frame.size) + end(x, y, frame.size)
-        val beyond = scale.note(placed.map { value[it] }, "points")
+        val beyond = scale.note(shown, "points")
         val below = listOf(subtitle, beyond).filter { it.isNotEmpty() }.joinToString("; ")
         return frame.sheet(title, below).figure(plot, frame.legend())
     }

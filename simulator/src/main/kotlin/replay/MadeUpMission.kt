@@ -2,10 +2,12 @@ package stillwater.replay
 
 import stillwater.io.BoundedLines
 import stillwater.io.LogContent
+import stillwater.io.LogProblem
 import stillwater.io.PlatypusEntry
 import stillwater.io.PlatypusLine
 import stillwater.io.PlatypusLog
 import stillwater.io.PlatypusVersion
+import stillwater.io.SensorChoice
 import stillwater.mission.AreaSpec
 import stillwater.mission.BudgetSpec
 import stillwater.mission.EstimatorName
@@ -19,6 +21,8 @@ import stillwater.mission.Quantity
 import stillwater.model.Interval
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import stillwater.report.counted
+import stillwater.run.withUnit
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.floor
@@ -30,9 +34,15 @@ import kotlin.math.max
  *
  * Told beforehand what only the whole log shows, it is for looking at a log, not for judging how a mission would have
  * gone.
+ *
+ * @param wanted sensor whose readings are to be mapped; null for that with the most.
  */
-internal class MadeUpMission(private val content: LogContent, private val version: PlatypusVersion) {
-    private class Readings(val port: Int) {
+internal class MadeUpMission(
+    private val content: LogContent,
+    private val version: PlatypusVersion,
+    private val wanted: SensorChoice? = null,
+) {
+    private class Readings(val sensor: SensorChoice, val quantity: Quantity) {
         val values = ArrayList<Double>()
     }
 
@@ -41,7 +51,11 @@ internal class MadeUpMission(private val content: LogContent, private val versio
     private var frame: LocalFrame? = null
     private var east = Interval(0.0, 0.0)
     private var north = Interval(0.0, 0.0)
-    private val probes = LinkedHashMap<Quantity, Readings>()
+    private val probes = LinkedHashMap<SensorChoice, Readings>()
+
+    /** What the map is of, so that nobody need guess; null before [spec] and where there is nothing. */
+    var probe: String? = null
+        private set
 
     /** The mission; [warnings] hears what had to be assumed. */
     fun spec(warnings: MutableList<String>): MissionSpec {
@@ -49,16 +63,15 @@ internal class MadeUpMission(private val content: LogContent, private val versio
         BoundedLines(content.reader {}).use { lines -> for (line in lines) take(parser.parse(line)) }
         val zero = origin ?: placeholder ?: LatLon(0.0, 0.0)
         if (origin == null) warnings += "the log has no fix: its mission waits for one"
-        val most = probes.entries.maxByOrNull { it.value.values.size }
-        val quantity = most?.key ?: Quantity.DISSOLVED_OXYGEN
-        val found = most?.value ?: Readings(-1)
-        if (found.values.isEmpty()) warnings += "the log has no reading of a probe that a mission can have"
+        val found = if (wanted == null) likeliest() else named(wanted)
+        if (found == null) warnings += "the log has no reading of a probe that a mission can have"
+        probe = found?.let(::told)
         return MissionSpec(
             name = "replay",
             origin = OriginSpec(zero.latitudeDeg, zero.longitudeDeg),
             area = area(),
             grid = grid(),
-            probe = probe(quantity, found),
+            probe = if (found == null) probe(Quantity.DISSOLVED_OXYGEN, null) else probe(found.quantity, found),
             estimator = EstimatorName.AVERAGING,
             planner = PlannerName.LAWNMOWER,
             budget = BudgetSpec(seconds = LONG),
@@ -66,22 +79,39 @@ internal class MadeUpMission(private val content: LogContent, private val versio
         )
     }
 
-    private fun take(entry: PlatypusEntry) {
-        if (entry is PlatypusEntry.Pose) pose(entry)
-        if (entry !is PlatypusEntry.Sensor || entry.data.isEmpty() || entry.data.any { !it.isFinite() }) return
-        when (entry.type) {
-            "ATLAS_DO" -> add(Quantity.DISSOLVED_OXYGEN, entry, 0)
-            "ATLAS_PH" -> add(Quantity.ACIDITY, entry, 0)
-            "ES2" -> add(Quantity.TEMPERATURE, entry, 1)
-            "HDS_DEPTH" -> add(Quantity.DEPTH, entry, 0)
-            else -> Unit
-        }
+    /** The probe with the most readings; of an ES2 the temperature. */
+    private fun likeliest(): Readings? =
+        probes.values.filter { it.quantity != Quantity.CONDUCTIVITY }.maxByOrNull { it.values.size }
+
+    private fun named(choice: SensorChoice): Readings {
+        val isLike = { it: SensorChoice -> it.type == choice.type && it.field == choice.field }
+        return probes.values.firstOrNull { isLike(it.sensor) && choice.channel in setOf(null, it.sensor.channel) }
+            ?: throw LogProblem(
+                content.file,
+                null,
+                null,
+                "readings of $choice, which --value names",
+                if (probes.isEmpty()) "none of a probe that a mission can have" else "those of ${names(probes.values)}",
+            )
     }
 
-    private fun add(quantity: Quantity, entry: PlatypusEntry.Sensor, field: Int) {
-        val value = entry.data.getOrNull(field) ?: return
-        val list = probes.getOrPut(quantity) { Readings(entry.channel) }
-        if (list.port == entry.channel) list.values += value
+    private fun told(found: Readings): String {
+        val others = probes.values - found
+        val chosen = "${found.quantity.withUnit}, ${found.sensor} of the log with " +
+            counted(found.values.size, "reading")
+        return if (others.isEmpty()) chosen else "$chosen; --value takes ${names(others)} in its place"
+    }
+
+    private fun names(probes: Collection<Readings>) = probes.joinToString(", ") { "${it.sensor}" }
+
+    private fun take(entry: PlatypusEntry) {
+        if (entry is PlatypusEntry.Pose) pose(entry)
+        if (entry !is PlatypusEntry.Sensor || entry.data.any { !it.isFinite() }) return
+        for ((field, quantity) in QUANTITIES[entry.type].orEmpty().withIndex()) {
+            val value = entry.data.getOrNull(field) ?: continue
+            val sensor = SensorChoice(entry.type, entry.channel.takeIf { it >= 0 }, field)
+            probes.getOrPut(sensor) { Readings(sensor, quantity) }.values += value
+        }
     }
 
     private fun pose(pose: PlatypusEntry.Pose) {
@@ -127,13 +157,13 @@ internal class MadeUpMission(private val content: LogContent, private val versio
         )
     }
 
-    private fun probe(quantity: Quantity, found: Readings): ProbeSpec {
-        val low = found.values.minOrNull() ?: 0.0
-        val high = found.values.maxOrNull() ?: HIGHEST
+    private fun probe(quantity: Quantity, found: Readings?): ProbeSpec {
+        val low = found?.values?.min() ?: 0.0
+        val high = found?.values?.max() ?: HIGHEST
         val more = max((high - low) / TENTH, SMALLEST)
         return ProbeSpec(
             quantity,
-            port = found.port.takeIf { it in 0..PORTS },
+            port = found?.sensor?.channel?.takeIf { it in 0..PORTS },
             lowest = low - more,
             highest = high + more,
             largestJump = high - low + more,
@@ -141,6 +171,13 @@ internal class MadeUpMission(private val content: LogContent, private val versio
     }
 
     private companion object {
+        /** What a probe's numbers are of, by its type in the log. */
+        val QUANTITIES = mapOf(
+            "ATLAS_DO" to listOf(Quantity.DISSOLVED_OXYGEN),
+            "ATLAS_PH" to listOf(Quantity.ACIDITY),
+            "ES2" to listOf(Quantity.CONDUCTIVITY, Quantity.TEMPERATURE),
+            "HDS_DEPTH" to listOf(Quantity.DEPTH),
+        )
         const val MOST_CELLS = 20
         const val MARGIN = 30.0
         const val LONG = 864_000.0

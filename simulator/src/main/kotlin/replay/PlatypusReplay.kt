@@ -7,6 +7,7 @@ import stillwater.io.PlatypusEntry
 import stillwater.io.PlatypusLine
 import stillwater.io.PlatypusLog
 import stillwater.io.PlatypusVersion
+import stillwater.io.SensorChoice
 import stillwater.io.UtmZone
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
@@ -26,13 +27,15 @@ import stillwater.report.counted
  * would have made of the readings, and when it would have held, gone home or stopped.
  *
  * @param content the log. @param version of its format. @param wanted mission to replay; null for one made around the
- *   log. @param log takes the replay's own. Retained, not closed.
+ *   log. @param log takes the replay's own. Retained, not closed. @param sensor whose readings a mission made around
+ *   the log maps; null for that with the most.
  */
 internal class PlatypusReplay(
     private val content: LogContent,
     private val version: PlatypusVersion,
     private val wanted: MissionSpec?,
     private val log: LineSpool,
+    private val sensor: SensorChoice? = null,
 ) {
     private val lines = LineCounts()
     private val notUnderstood = LineCounts()
@@ -47,7 +50,8 @@ internal class PlatypusReplay(
 
     /** Replays it all. */
     fun run(): Replayed {
-        val spec = wanted ?: MadeUpMission(content, version).spec(warnings)
+        val madeUp = MadeUpMission(content, version, sensor)
+        val spec = wanted ?: madeUp.spec(warnings)
         val start = LogStart(0, "replay of ${content.file.fileName}")
         val mission = Mission(spec, board.link, MissionLog(log, start, spec))
         mission.start()
@@ -77,7 +81,7 @@ internal class PlatypusReplay(
         stepUntil(mission, now + STEP)
         if (gaps > 0) warnings += "${counted(gaps, "gap")} of more than $LONGEST_GAP s passed over"
         val format = "Platypus log ${version.release}"
-        return Replayed(spec, format, mission, decisions, log, lines, notUnderstood, null, warnings)
+        return Replayed(spec, format, mission, decisions, log, lines, notUnderstood, null, warnings, madeUp.probe)
     }
 
     private fun stepUntil(mission: Mission, seconds: Double) {

@@ -11,6 +11,7 @@ import stillwater.drive.MissionMapFiles
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
+import stillwater.run.label
 import stillwater.wire.Malformed
 import java.util.Locale
 
@@ -41,6 +42,8 @@ internal class ReplayFiles(private val replayed: Replayed) {
         val json = buildJsonObject {
             put("format", replayed.format)
             put("mission", replayed.spec.name)
+            put("quantity", replayed.spec.probe.quantity.label)
+            put("unit", replayed.spec.probe.quantity.unit)
             put("estimator", replayed.spec.estimator.name.lowercase().replace('_', '-'))
             put("ended", replayed.mission.state.word)
             put("why", Decisions.why(replayed.mission.state))
@@ -88,6 +91,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
         val fixes = counted(replayed.mission.refusedFixes, "fix", "fixes")
         return listOfNotNull(
             "${replayed.format}, $steps; at its end ${replayed.mission.state.word} $why".trimEnd(),
+            "probe: " + replayed.probe,
             "lines: " + replayed.lines.counts.entries.joinToString(", ") { "${it.value} ${kind(it.key, it.value)}" },
             "not understood: " + if (unread.isEmpty()) "none" else unread.joinToString(", "),
             "states: " +

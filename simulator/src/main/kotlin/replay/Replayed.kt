@@ -3,6 +3,7 @@ package stillwater.replay
 import stillwater.field.FieldMap
 import stillwater.mission.Mission
 import stillwater.mission.MissionSpec
+import stillwater.run.withUnit
 
 /**
  * What a replay came to.
@@ -12,7 +13,8 @@ import stillwater.mission.MissionSpec
  * @property log its own log.
  * @property lines of the recorded log, by what they hold. @property notUnderstood lines, by what was expected of them.
  * @property asRecorded how the replay compares with what the log says was decided; null where the log does not say.
- * @property warnings what a person should know of it.
+ * @property warnings what a person should know of it. @param probe what the map is of, where more is to be said of it
+ *   than its quantity.
  */
 internal class Replayed(
     val spec: MissionSpec,
@@ -24,7 +26,11 @@ internal class Replayed(
     val notUnderstood: LineCounts,
     val asRecorded: AsRecorded?,
     val warnings: List<String>,
+    probe: String? = null,
 ) {
+    /** What the map is of, for people. */
+    val probe: String = probe ?: spec.probe.quantity.withUnit
+
     /** The map that the replay made. */
     val map: FieldMap get() = mission.map
 }

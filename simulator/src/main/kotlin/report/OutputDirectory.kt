@@ -7,6 +7,7 @@ import java.nio.file.AtomicMoveNotSupportedException
 import java.nio.file.FileAlreadyExistsException
 import java.nio.file.FileSystemException
 import java.nio.file.Files
+import java.nio.file.NoSuchFileException
 import java.nio.file.NotDirectoryException
 import java.nio.file.Path
 import java.nio.file.StandardCopyOption.ATOMIC_MOVE
@@ -176,6 +177,7 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
     private fun reason(failed: IOException): String = when (failed) {
         is AccessDeniedException -> "permission denied"
         is FileAlreadyExistsException -> "${failed.file} is a file"
+        is NoSuchFileException -> "the system lets nothing be created there"
         is NotDirectoryException -> "${failed.file} is not a directory"
         is FileSystemException -> failed.reason ?: failed.javaClass.simpleName
         else -> failed.message ?: failed.javaClass.simpleName

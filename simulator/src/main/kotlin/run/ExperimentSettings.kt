@@ -29,8 +29,8 @@ import stillwater.world.RandomField
  * @property boats numbers of boats under comparison, each 1 to the number of cells.
  * @property budget what each boat may use before it has to be home; null for no end.
  * @property area the water, in the frame of [grid]; cells whose centre is not on it do not count. Null where all is water.
- *   Only planners in the plane keep to it.
- * @property speed of boats that go along waypoints in the plane, m/s; null for a cell's length a move.
+ *   Planners that go from cell to cell then go round land, at a speed as those in the plane.
+ * @property speed of boats in an [area] or that go along waypoints in the plane, m/s; null for a cell's length a move.
  * @throws IllegalArgumentException if a number is out of its range or nothing is compared.
  */
 data class ExperimentSettings(
@@ -69,9 +69,6 @@ data class ExperimentSettings(
         }
         require(boats.isNotEmpty() && boats.distinct() == boats && boats.all { it in 1..grid.size }) {
             "boats ($boats) must be different numbers within 1..${grid.size}, the number of cells"
-        }
-        require(area == null || planners.all { it.inPlane }) {
-            "only planners in the plane keep to the water, not ${planners.filterNot { it.inPlane }.map { it.label }}"
         }
         require(PlannerKind.LAWNMOWER !in planners || Lawnmower.fits(grid, plannerSettings.pattern)) {
             "the Hamiltonian cycle needs an even number of rows or columns and two of each at least, " +

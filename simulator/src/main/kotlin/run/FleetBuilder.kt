@@ -11,6 +11,7 @@ import stillwater.plan.PolygonRrt
 import stillwater.plan.RegionPlanner
 import stillwater.plan.StraightHome
 import stillwater.plan.WaterHome
+import stillwater.plan.WaterPlanner
 import stillwater.plan.WayHome
 import stillwater.world.Seeds
 import kotlin.math.sqrt
@@ -42,9 +43,11 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
 
     /** Builds the boats of [order], runs them in [field] and says what came of it. */
     fun run(order: Order, field: CellField, extremes: BooleanArray): Outcome {
-        val travel = Travel(settings.samplesPerMove, settings.period, if (order.planner.inPlane) speed() else null)
+        // Round land a move may take longer than from cell to cell: with an area all boats go at a speed.
+        val inPlane = order.planner.inPlane || site != null
+        val travel = Travel(settings.samplesPerMove, settings.period, if (inPlane) speed() else null)
         val regions = ArrayList<RegionPlanner>()
-        val isRecorded = order.planner.inPlane && order.environment == 0
+        val isRecorded = inPlane && order.environment == 0
         val starts = List(order.count) { start(order, it) }
         val odometers = List(order.count) { Odometer() }
         var keeper: TreeKeeper? = null
@@ -54,12 +57,14 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
                 seeds.random("planner $stream", order.environment),
                 settings.plannerSettings,
                 settings.area,
+                if (inPlane) settings.samplesPerMove else 1,
             )
             if (isRecorded && index == 0 && planner is PolygonRrt) planner = TreeKeeper(planner).also { keeper = it }
             // Boats that mow follow each other round the same tour: none has an area of its own.
             if (order.count > 1 && order.planner != PlannerKind.LAWNMOWER) {
                 planner = RegionPlanner(planner, order.planner.inPlane).also { regions += it }
             }
+            if (site != null && !order.planner.inPlane) planner = WaterPlanner(planner, site.routes())
             planner = budgeted(planner, starts[index], travel, odometers[index], order.planner)
             val truth = field.truth(grid.cellAt(starts[index]))
             Boat(
@@ -99,10 +104,13 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
     private fun suffix(boat: Int) = if (boat == 0) "" else " boat $boat"
 
     private fun start(order: Order, boat: Int): Position {
-        if (order.planner.startsAtFirstCell) return grid.center(mowingStart(order.count, boat))
+        if (order.planner.startsAtFirstCell) return onWater(grid.center(mowingStart(order.count, boat)))
         val random = seeds.random("start ${order.field}" + suffix(boat), order.environment)
         return if (site == null) grid.center(random.nextInt(grid.size)) else site.starts.random(random)
     }
+
+    /** [place], or where a boat may start that is nearest to it. */
+    private fun onWater(place: Position): Position = site?.starts?.minBy { it.distanceTo(place) } ?: place
 
     /** Evenly spaced among the cells in the order in which the pattern first comes to them. */
     private fun mowingStart(count: Int, boat: Int): Int {
@@ -130,7 +138,7 @@ internal class FleetBuilder(private val settings: ExperimentSettings, private va
     }
 
     private fun wayHome(start: Position, kind: PlannerKind): WayHome = when {
-        !kind.inPlane -> CellsHome(
+        !kind.inPlane && site == null -> CellsHome(
             grid,
             grid.cellAt(start).also {
                 check(it != Grid.OUTSIDE) { "$start off the grid" }

@@ -72,19 +72,30 @@ enum class PlannerKind(
     SETTLING_LAWNMOWER("settling-lawnmower", usesMap = true, startsAtFirstCell = true),
     ;
 
-    /** A fresh planner of this kind that draws from [random]; [area] is the water, null where all of the map is. */
-    fun planner(random: Random, settings: PlannerSettings, area: WaterArea? = null): Planner = when (this) {
+    /**
+     * A fresh planner of this kind that draws from [random] and is asked [asked] times a move at most; [area] is the
+     * water, null where all of the map is.
+     */
+    fun planner(
+        random: Random,
+        settings: PlannerSettings,
+        area: WaterArea? = null,
+        asked: Int = 1,
+    ): Planner = when (this) {
         RANDOM_WALK -> RandomWalk(random, settings.walk)
         LAWNMOWER -> Lawnmower(settings.pattern)
         BOUNDED -> BoundedPlanner(random, settings.bounded)
         POLYGON_RRT -> PolygonRrt(random, area, settings.polygonRrt)
         BOUNDED_EXTENDED -> BoundedExtendedPlanner(random, settings.boundedExtended)
         INFORMATION -> InformationPlanner(random, settings.information)
-        SETTLING_LAWNMOWER -> SettlingLawnmower(settings.pattern)
+        SETTLING_LAWNMOWER -> SettlingLawnmower(settings.pattern, mostStays = MOST_STAYS * asked)
     }
 
     companion object {
         /** Those that the report compares. */
         val OF_THE_REPORT: List<PlannerKind> = listOf(RANDOM_WALK, LAWNMOWER, BOUNDED)
+
+        /** Moves that the settling lawnmower stays in a cell at most. */
+        private const val MOST_STAYS = 20
     }
 }

@@ -8,6 +8,8 @@ import stillwater.plot.MapCell
 import stillwater.plot.MapLine
 import stillwater.plot.Series
 import stillwater.plot.WaterMap
+import stillwater.run.kind
+import stillwater.survey.isHalfKnown
 
 /** A figure with its file's name and what stands under it. */
 internal class SimulationFigure(val name: String, val figure: Figure, val caption: String)
@@ -29,7 +31,9 @@ internal class SimulationFigures(private val result: SimulationResult, private v
         CellMap(
             "Estimate",
             "${result.atCentres.cells} of ${grid.size} cells have readings",
-            cells { if (isKnown(result.map, it)) result.map.value(it) else Double.NaN },
+            cells({ result.map.isHalfKnown(run.spec.estimator.kind, it) }) {
+                if (isKnown(result.map, it)) result.map.value(it) else Double.NaN
+            },
             quantity,
             colours(),
         ).draw(),
@@ -49,8 +53,9 @@ internal class SimulationFigures(private val result: SimulationResult, private v
             "at the cells' centres",
             cells { if (result.map.readings(it) > 0) result.map.value(it) - result.centre(it) else Double.NaN },
             quantity,
+            isDifference = true,
         ).draw(),
-        "Where the map is off, over the cells that have readings.",
+        "Where the map is off, over the cells that have readings: blue where it is too low, red where it is too high.",
     )
 
     private fun track(): SimulationFigure {
@@ -126,8 +131,16 @@ internal class SimulationFigures(private val result: SimulationResult, private v
         return if (low < high) low..high else null
     }
 
-    private fun cells(value: (Int) -> Double) = (0 until grid.size).map {
-        MapCell.rectangle(grid.centerX(it), grid.centerY(it), grid.cellWidth, grid.cellHeight, grid.rotation, value(it))
+    private fun cells(isHalf: (Int) -> Boolean = { false }, value: (Int) -> Double) = (0 until grid.size).map {
+        MapCell.rectangle(
+            grid.centerX(it),
+            grid.centerY(it),
+            grid.cellWidth,
+            grid.cellHeight,
+            grid.rotation,
+            value(it),
+            isHalf(it),
+        )
     }
 
     companion object {

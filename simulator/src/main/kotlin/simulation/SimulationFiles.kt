@@ -7,6 +7,8 @@ import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.Table
 import stillwater.report.writeFigures
+import stillwater.run.label
+import stillwater.run.withUnit
 
 /**
  * Writes what a [SimulationResult] gives beside the log: cells.csv, summary.json, animation.html, figures and report.html.
@@ -15,9 +17,8 @@ import stillwater.report.writeFigures
  */
 class SimulationFiles(private val result: SimulationResult, private val command: String) {
     private val run = result.run
-    private val name = run.spec.probe.quantity.label
     private val unit = run.spec.probe.quantity.unit
-    private val quantity = if (unit.isEmpty()) name else "$name ($unit)"
+    private val quantity = run.spec.probe.quantity.withUnit
 
     /** The same in words. */
     val summary = SimulationSummary(result, unit)

@@ -16,7 +16,8 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
     /** Names and sentences, the most important first. */
     val facts: List<Pair<String, String>> = buildList {
         val end = run.history.spans.last()
-        add("mission" to "${run.spec.name}: ${end.label} after ${clock(end.from)}")
+        val nothing = if (MapCautions.hasSurveyedNothing(run.mission)) ", nothing surveyed" else ""
+        add("mission" to "${run.spec.name}: ${end.label} after ${clock(end.from)}$nothing")
         add("map error" to mapError())
         add("in process" to inProcess())
         add("way" to way())
@@ -43,6 +44,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         if (!result.isOver) {
             add("the mission was not over after ${clock(result.longest)}; --longest gives it more time")
         }
+        MapCautions.nothing(run.mission)?.let { add(it) }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
         val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
         MapCautions.unexplained(run.spec.estimator, result.belief, where)?.let { add(it) }

@@ -53,6 +53,10 @@ internal fun FieldMap.status(kind: FilterKind, cell: Int): CellStatus {
     }
 }
 
+/** Whether the value of [cell] by the filter [kind] is the middle between a bound and where the water's range ends. */
+internal fun FieldMap.isHalfKnown(kind: FilterKind, cell: Int): Boolean =
+    kind.valueIsMidpoint && status(kind, cell) == CellStatus.ONE_SIDED
+
 /** Value of [cell] by the filter [kind], sensor units; NaN where nothing was measured. */
 internal fun FieldMap.measuredValue(kind: FilterKind, cell: Int): Double =
     if (status(kind, cell).isMeasured) value(cell) else Double.NaN

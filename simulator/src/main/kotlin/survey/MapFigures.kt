@@ -102,8 +102,9 @@ class MapFigures(private val map: SurveyMap) {
         val title = "$quantity, ${kind.label} filter"
         val caption = when (kind) {
             FilterKind.BOUNDED ->
-                "Midpoint of the bounds in each visited cell, where one or both were set; an end that was not set is " +
-                    "that of the range taken for the water. Of ${counts(field)}."
+                "Midpoint of the bounds in each visited cell with both. Where one was set only, the cell is drawn " +
+                    "small: its other end is that of the range taken for the water, so that its colour says as much of " +
+                    "the range as of the water. Of ${counts(field)}."
             FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             FilterKind.EXPONENTIAL -> "Exponential average of the readings in each visited cell."
             FilterKind.INTERVAL ->
@@ -120,7 +121,8 @@ class MapFigures(private val map: SurveyMap) {
         val figure = if (map.log.oneDimensional) {
             profile(title, where, field, value, legend, withBounds = isBounded)
         } else {
-            CellMap(title, where, cells(field, field.shownCells(kind), value), legend, cellColours).draw()
+            val shown = cells(field, field.shownCells(kind), value) { field.isHalfKnown(kind, it) }
+            CellMap(title, where, shown, legend, cellColours).draw()
         }
         return MapFigure("estimate-${kind.label}", figure, caption)
     }
@@ -160,20 +162,32 @@ class MapFigures(private val map: SurveyMap) {
         withBounds: Boolean,
     ): Figure {
         val cells = field.visitedCells()
+        val half = cells.filter { withBounds && field.isHalfKnown(FilterKind.BOUNDED, it) }
         val series = Series(
-            "",
+            if (half.isEmpty()) "" else "both bounds",
             cells.doubles { field.grid.centerX(it) },
-            cells.doubles(value),
+            cells.doubles { if (it in half) Double.NaN else value(it) },
             // Bounds may have crossed.
             cells.takeIf { withBounds }?.doubles { minOf(field.lower(it), field.upper(it)) },
             cells.takeIf { withBounds }?.doubles { maxOf(field.lower(it), field.upper(it)) },
             Mark.LINE_AND_POINTS,
         )
-        return LinePlot(title, subtitle, listOf(series), map.log.xName, label).draw()
+        val others = Series(
+            "one bound only",
+            half.doubles { field.grid.centerX(it) },
+            half.doubles(value),
+            mark = Mark.POINTS,
+        ).takeIf { half.isNotEmpty() }
+        return LinePlot(title, subtitle, listOfNotNull(series, others), map.log.xName, label).draw()
     }
 
     /** The [shown] cells, merged into blocks where there are too many to draw. */
-    private fun cells(field: FieldMap, shown: List<Int>, value: (Int) -> Double): List<MapCell> {
+    private fun cells(
+        field: FieldMap,
+        shown: List<Int>,
+        value: (Int) -> Double,
+        isHalf: (Int) -> Boolean = { false },
+    ): List<MapCell> {
         val grid = field.grid
         val side = ceil(sqrt(shown.size / MOST_CELLS.toDouble())).toInt().coerceAtLeast(1)
         val blocks = shown.groupBy { (it / grid.columns / side) to (it % grid.columns / side) }
@@ -185,7 +199,9 @@ class MapFigures(private val map: SurveyMap) {
             val across = (side - 1) / 2.0 * grid.cellHeight
             val c = kotlin.math.cos(grid.rotation)
             val s = kotlin.math.sin(grid.rotation)
-            val known = members.map(value).filter { it.isFinite() }
+            // A block with any cell that is wholly known shows those.
+            val whole = members.filterNot(isHalf).map(value).filter { it.isFinite() }
+            val known = whole.ifEmpty { members.map(value).filter { it.isFinite() } }
             MapCell.rectangle(
                 centreEast = first.x + c * along - s * across,
                 centreNorth = first.y + s * along + c * across,
@@ -193,6 +209,7 @@ class MapFigures(private val map: SurveyMap) {
                 height = side * grid.cellHeight,
                 rotation = grid.rotation,
                 value = if (known.isEmpty()) Double.NaN else known.average(),
+                isHalfKnown = whole.isEmpty(),
             )
         }
     }

@@ -1,5 +1,6 @@
 package stillwater.survey
 
+import java.math.BigDecimal
 import kotlin.math.abs
 import kotlin.math.roundToLong
 
@@ -30,6 +31,19 @@ internal object ValueResolution {
         val isGrid = matching >= ON_THE_STEP * steps.size && places <= steps.size * MOST_PLACES_A_VALUE
         // Rounding noise goes: 0.010000000000000009 is 0.01.
         return if (isGrid) "%.6g".format(java.util.Locale.ROOT, step).toDouble() else Double.NaN
+    }
+
+    /**
+     * As [of]; and of values too few for that, which 8.25 and 8.5 alone are, whose step may be 0.25 or 0.01: the place
+     * of the last digit that is not 0, at most 1. 0 where no step is to be seen.
+     */
+    fun atLeast(values: DoubleArray): Double {
+        val step = of(values)
+        if (step.isFinite()) return step
+        val few = HashSet<Double>()
+        for (value in values) if (few.add(value) && few.size > FEWEST_STEPS) return 0.0
+        val digits = few.maxOfOrNull { BigDecimal.valueOf(it).stripTrailingZeros().scale() } ?: return 0.0
+        return BigDecimal.ONE.scaleByPowerOfTen(-maxOf(0, digits)).toDouble()
     }
 
     private const val MOST_PLACES_A_VALUE = 1000.0

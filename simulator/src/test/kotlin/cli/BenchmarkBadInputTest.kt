@@ -118,7 +118,8 @@ class BenchmarkBadInputTest {
             "--planner: expected some of random-walk, lawnmower, bounded, polygon-rrt, " +
                 "bounded-extended, information, settling-lawnmower, separated by commas"
         private const val MOVES = "--checkpoints: expected ascending moves above 0 such as 50,100,200"
-        private const val GRID = "--grid: expected COLSxROWS such as 10x10, both whole numbers above 0"
+        private const val GRID =
+            "--grid: expected COLSxROWS such as 10x10, whole numbers above 0, 1000000 cells at most"
         private const val CYCLE =
             "--grid: expected an even number of rows or columns and two of each at least for the " +
                 "lawnmower's hamiltonian-cycle, or another --pattern"
@@ -253,11 +254,6 @@ class BenchmarkBadInputTest {
                 """{"type": "Polygon", "coordinates": [[[0, 0], [4, 4], [4, 0], [0, 3]]]}""".toByteArray(),
             ),
             Case(
-                "--planner: expected with --area one that keeps to the water (polygon-rrt), found random-walk",
-                listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt,random-walk"),
-                """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
-            ),
-            Case(
                 "--grid: expected --cell with --area, found --grid",
                 listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt", "--grid", "4x4"),
                 """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
@@ -278,7 +274,7 @@ class BenchmarkBadInputTest {
                 """{"name": "x", "stages": [{"type": "magic"}]}""",
             ),
             sensor(
-                ":1:73: stages[0]: timeConstant (-1.0 s) must be above 0 and finite",
+                ":1:73: stages[0]: time_constant_s (-1.0 s) must be above 0 and finite",
                 """{"name": "x", "stages": [{"type": "first-order-lag", "time_constant_s": -1}]}""",
             ),
             sensor(

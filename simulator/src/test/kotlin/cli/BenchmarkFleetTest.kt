@@ -63,6 +63,22 @@ class BenchmarkFleetTest {
     }
 
     @Test
+    fun everyPlannerSurveysALakeRoundItsIsland() {
+        val file = out.resolve("lake.geojson").apply { writeText(lake) }
+        val flags = arrayOf("--area", "$file", "--area-units", "metres", "--cell", "1", "--margin", "0.2")
+        val names = "random-walk,lawnmower,bounded,bounded-extended,information,settling-lawnmower"
+        val more = arrayOf("--filter", "self-calibrating", "--field", "gaussian", "--moves", "150")
+        runSmallBenchmark(out, *flags, "--planner", names, *more, "--lawnmower", "back-and-forth")
+        for (name in names.split(',')) {
+            assertTrue(out.resolve("voyage-gaussian-$name.svg").exists(), name)
+            val last = results(out).last { it.getValue("planner") == name }
+            val error = last.getValue("mean_abs_error").toDouble()
+            // A round takes all but the random walk a little more than its 76 cells; settling waits in each.
+            assertTrue(error < if (name == "random-walk" || name.startsWith("settling")) 0.3 else 0.02, "$name: $error")
+        }
+    }
+
+    @Test
     fun boatsOnALakeAreDrawnAndLandDoesNotCount() {
         val file = out.resolve("lake.geojson").apply { writeText(lake) }
         val flags = arrayOf("--area", "$file", "--area-units", "metres", "--margin", "0.2")

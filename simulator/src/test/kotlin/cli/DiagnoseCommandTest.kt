@@ -108,8 +108,11 @@ class DiagnoseCommandTest {
     @Test
     fun theKindsOfALagAreSaidBesideWhatNothingExplains() {
         val out = directory.resolve("hum")
-        val result = diagnose(humming(), "--value", "oxygen", "--numbers-only", "--out", "$out")
+        val flags = arrayOf("--numbers-only", "--unit", "mg/L")
+        val result = diagnose(humming(), "--value", "oxygen", *flags, "--out", "$out")
         assertEquals(0, result.statusCode, result.output)
+        val residuals = Regex("""residuals [0-9.]+ mg/L, on held-out blocks [0-9.]+ mg/L \(root mean square\)""")
+        assertContains(result.stdout, residuals)
         assertContains(result.stdout, "verdict: unexplained")
         assertContains(result.stdout, "One of time-constant, dead-time is at work; this track cannot tell which.")
         assertContains(result.stderr, "The readings lag the water by")

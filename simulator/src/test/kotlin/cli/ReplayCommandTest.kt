@@ -215,6 +215,45 @@ class ReplayCommandTest {
 
     @ParameterizedTest
     @CsvSource(
+        "'', temperature, °C, ES2#3.temp of the log with 31 readings; --value takes ES2#3.ec",
+        "ES2.ec, conductivity, µS/cm, ES2#3.ec of the log",
+        "ATLAS_PH, acidity, '', ATLAS_PH#2 of the log with 10 readings",
+        "ATLAS_DO#1, dissolved oxygen, mg/L, ATLAS_DO#1 of the log with 14 readings",
+    )
+    fun aPlatypusLogsReplaySaysWhatItIsOfAndTakesAnother(value: String, quantity: String, unit: String, said: String) {
+        val data = System.getenv("STILLWATER_DATA")
+        assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")
+        val log = Path.of(data).resolve("platypus_logs/platypus_20160519_013623.txt").toString()
+        val flags = if (value.isEmpty()) emptyArray() else arrayOf("--value", value)
+        val out = directory.resolve("out")
+        val result = runBoatCommand("replay", log, "--out", out.toString(), "--numbers-only", *flags)
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, said)
+        val json = Json.parseToJsonElement(out.resolve("replay.json").readText()).jsonObject
+        assertEquals(listOf(quantity, unit), listOf(json.word("quantity"), json.word("unit")))
+    }
+
+    @Test
+    fun aSensorThatIsNotThereOrHasNoSayIsRefused() {
+        val data = System.getenv("STILLWATER_DATA")
+        assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")
+        val log = Path.of(data).resolve("platypus_logs/platypus_20160519_013623.txt").toString()
+        val own = write("log.txt", sailed(41, 20).first).toString()
+        for ((arguments, words) in listOf(
+            listOf(log, "--value", "ATLAS_ORP") to "found those of ES2#3.ec, ES2#3.temp, ATLAS_DO#1, ATLAS_PH#2",
+            listOf(log, "--value", "a b") to "--value: expected TYPE[#CHANNEL][.FIELD], found 'a b'",
+            listOf(own, "--value", "ATLAS_DO") to "--value: expected it with a Platypus log and without --mission",
+        )) {
+            val out = directory.resolve("none")
+            val result = runBoatCommand("replay", *arguments.toTypedArray(), "--out", out.toString())
+            assertEquals(2, result.statusCode, result.output)
+            assertContains(result.stderr, words)
+            assertFalse(out.exists())
+        }
+    }
+
+    @ParameterizedTest
+    @CsvSource(
         "a survey, 'time_s,do\n1,2\n', 'expected a mission''s log or a Platypus log, found neither'",
         "no readable mission, '0\tI\t{\"spec\":{\"name\":1}}\n', 'log.txt:1: expected a mission''s log, found no mission that can be read (name: expected a text in quotes, found ''1'')'",
         "nothing, '', 'expected a log, found an empty file'",

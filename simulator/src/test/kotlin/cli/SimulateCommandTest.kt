@@ -169,6 +169,17 @@ class SimulateCommandTest {
     }
 
     @Test
+    fun aMissionTooShortToSetOutSaysThatNothingWasSurveyed() {
+        val short = directory.resolve("short.json").apply { writeText(POND.replace("300", "5")) }
+        val out = directory.resolve("short")
+        val result = Stillwater().subcommands(SimulateCommand()).test("simulate $short --out $out --headless")
+        assertEquals(0, result.statusCode, result.output)
+        assertTrue(", nothing surveyed\n" in result.stdout, result.stdout)
+        assertTrue("warning: nothing was surveyed: the budget was spent before" in result.stderr, result.stderr)
+        assertFalse("nothing was surveyed" in summary().getValue("warnings").toString())
+    }
+
+    @Test
     fun theSummaryCanBePrintedAsJson() {
         val result = simulate(directory.resolve("json"), "--json", "--longest", "20")
         val json = Json.parseToJsonElement(result.stdout).jsonObject

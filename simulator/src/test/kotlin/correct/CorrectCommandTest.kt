@@ -169,7 +169,71 @@ class CorrectCommandTest {
         val constant = run(log(same), "--value", "slow")
         assertEquals(0, constant.statusCode, constant.output)
         assertContains(constant.stderr, "the readings never change")
+        assertContains(constant.stderr, "the readings are all the same, as a stuck sensor's")
+        val (low, high) = out.resolve("corrected.csv").readLines()[50].split(',').takeLast(2).map { it.toDouble() }
+        assertTrue(low <= 7.5 && high >= 8.5, "$low to $high: nobody knows the digits of an 8 behind the point")
         assertFalse("NaN" in constant.output, constant.output)
+    }
+
+    @Test
+    fun severalColumnsAreCorrectedEachByItself() {
+        // A reading of one column is missing where the other has one.
+        val text = survey().replace("\n7,7,0,${water(2)},", "\n7,7,0,,")
+        val both = run(log(text), "--value", "slow", "--value", "fast", "--skip-bad-rows", "--unit", "V", "--unit", "A")
+        assertEquals(0, both.statusCode, both.output)
+        val lines = out.resolve("corrected.csv").readLines()
+        val names = listOf("slow", "fast").flatMap { listOf("", "_low", "_high").map { end -> "${it}_corrected$end" } }
+        assertEquals("time_s,x_m,y_m,slow,fast,note," + names.joinToString(","), lines[0])
+        assertEquals(text.trimEnd().lines().drop(1), lines.drop(1).map { it.split(',').take(7).joinToString(",") })
+        assertEquals(listOf(true, false), lines[8].split(',').takeLast(6).chunked(3).map { it.all(String::isEmpty) })
+        assertContains(both.stdout, "slow, as slow_corrected")
+        assertContains(both.stdout, " A either way")
+        assertContains(both.stderr, "slow: 1 rows could not be used")
+        val pairs = lines.drop(1).map { it.split(',').takeLast(6).chunked(3) }
+        for ((i, column) in listOf("slow", "fast").withIndex()) {
+            for (file in listOf("sensor.json", "summary.json", "report.html", "corrected.png")) {
+                assertTrue(out.resolve("$column/$file").exists(), "$column/$file")
+            }
+            // By itself it comes to the same.
+            val alone = run(log(text), "--value", column, "--skip-bad-rows")
+            assertEquals(0, alone.statusCode, alone.output)
+            val rows = out.resolve("corrected.csv").readLines().drop(1).map { it.split(',').takeLast(3) }
+            assertEquals(pairs.map { it[i] }, rows, column)
+        }
+    }
+
+    @Test
+    fun severalColumnsCannotShareWhatIsOfOne() {
+        val file = log(survey())
+        val two = listOf(file, "--value", "slow", "--value", "fast")
+        val lag = spec("""{"name": "s", "stages": [{"type": "first-order-lag", "time_constant_s": 3}]}""")
+        for ((arguments, word) in listOf(
+            two + listOf("--reference", "x_m") to "--reference: expected one --value",
+            two + listOf("--sensor", lag) to "--sensor: expected one --value",
+            two + listOf("--unit", "V") to "--unit: expected one unit for each --value",
+            listOf(file, "--value", "slow", "--value", "slow") to "--value: expected each column once",
+        )) {
+            val result = run(*arguments.toTypedArray())
+            assertEquals(2, result.statusCode, result.output)
+            assertContains(result.stderr, word)
+            assertFalse(out.exists(), "$arguments")
+        }
+    }
+
+    @Test
+    fun timeConstantsBeyondAllLogsAreRefusedAndThoseBeyondThisOneAreSaid() {
+        val file = log(survey())
+        fun lag(time: String) =
+            spec("""{"name": "s", "stages": [{"type": "first-order-lag", "time_constant_s": $time}]}""")
+        for (time in listOf("1e308", "1.1e9")) {
+            val refused = run(file, "--value", "slow", "--sensor", lag(time))
+            assertEquals(2, refused.statusCode, refused.output)
+            assertContains(refused.stderr, "stages[0].time_constant_s: expected at most 1.0E9 s")
+        }
+        val slow = run(file, "--value", "slow", "--sensor", lag("1e9"))
+        assertEquals(0, slow.statusCode, slow.output)
+        assertContains(slow.stderr, "is longer than the log (119 s)")
+        assertFalse("NaN" in out.resolve("corrected.csv").readText())
     }
 
     @Test

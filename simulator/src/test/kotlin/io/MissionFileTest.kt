@@ -59,8 +59,8 @@ class MissionFileTest {
             Triple(
                 "\"cell_m\": 10",
                 "\"cell_m\": 30",
-                "7:14: land lies at or beside the cell at (75.0, 15.0), where this planner goes from cell to cell; " +
-                    "use polygon-rrt or a grid that is all water",
+                "7:14: this planner goes from cell to cell, but the cell at (75.0, 15.0) or the way from it to the " +
+                    "next is not all within the area or touches a keep-out; take a grid within the area, or polygon-rrt",
             ),
             Triple(
                 "\"y_m\": 80}",

@@ -51,6 +51,32 @@ class MapsTest {
     }
 
     @Test
+    fun differencesAreWhiteAtZeroAndAsDarkEitherWay() {
+        val fills = shapes(CellMap("t", "", cells(3) { it - 1.0 }, "u", isDifference = true).draw())
+            .map { it.getAttribute("fill") }
+        assertEquals(listOf("rgb(33,102,172)", "rgb(247,247,247)", "rgb(178,24,43)"), fills)
+        // Seen from its middle the scale does not move where all are above.
+        val above = shapes(CellMap("t", "", cells(3) { it + 0.0 }, "u", isDifference = true).draw())
+        assertEquals("rgb(247,247,247)", above.first().getAttribute("fill"))
+        for (only in listOf(0.0, -1e-5, 3.0)) {
+            assertEquals(1, shapes(CellMap("t", "", cells(1) { only }, "u", isDifference = true).draw()).size, "$only")
+        }
+    }
+
+    @Test
+    fun cellsKnownFromOneSideAreSmallOnGrey() {
+        val cells = List(4) { MapCell.rectangle(10.0 * it, 0.0, 10.0, 10.0, 0.0, it + 0.0, isHalfKnown = it == 1) }
+        val figure = CellMap("t", "lake", cells, "u").draw()
+        assertContains(SvgParts(figure).texts, "lake; small: one bound only (1 of 4)")
+        assertEquals(1, SvgParts(figure).fills(SvgParts.GREY).size)
+        val wide = shapes(figure).map { shape ->
+            Regex("(-?[\\d.]+) (-?[\\d.]+)").findAll(shape.getAttribute("d")).map { it.groupValues[1].toDouble() }
+                .let { it.max() - it.min() }
+        }
+        assertEquals(listOf(0.5, 1.0), wide.map { Math.round(2 * it / wide.max()) / 2.0 }.distinct().sorted())
+    }
+
+    @Test
     fun aMetreIsAsLongOnEitherAxisAlsoForTurnedCells() {
         for (rotation in listOf(0.0, PI / 6)) {
             val d = shapes(CellMap("t", "", cells(7, rotation) { it.toDouble() }, "u").draw()).first().getAttribute("d")

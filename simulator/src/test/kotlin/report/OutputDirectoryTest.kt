@@ -27,6 +27,16 @@ class OutputDirectoryTest {
     }
 
     @Test
+    fun aPlaceWhereNothingCanBeCreatedIsSaidInWords() {
+        val place = Path.of("/proc/stillwater")
+        assumeTrue(place.parent.exists(), "no /proc here")
+        val refused = assertFailsWith<OutputException> { OutputDirectory(place) }.message.orEmpty()
+        // Root meets the system's refusal, others that of their rights.
+        val ends = listOf("the system lets nothing be created there", "permission denied", "not permitted")
+        assertTrue(ends.any { it in refused.lowercase() }, refused)
+    }
+
+    @Test
     fun commitMovesEverythingInTheOrderOfWritingAndCreatesParents() {
         val out = home.resolve("a/b/out")
         val written = OutputDirectory(out).use {

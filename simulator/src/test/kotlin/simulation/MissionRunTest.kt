@@ -4,6 +4,7 @@ import org.junit.jupiter.api.Test
 import stillwater.mission.EstimatorName
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
+import stillwater.run.label
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec

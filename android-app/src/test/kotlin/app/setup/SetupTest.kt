@@ -246,7 +246,7 @@ class SetupTest {
         window.settle()
         assertTrue(activity.view<View>(R.id.use_mission).isEnabled)
         pick("Planner: ", "lawnmower")
-        assertTrue(activity.wordsShown().any { it.startsWith("✗ land lies") })
+        assertTrue(activity.wordsShown().any { it.startsWith("✗ this planner goes") })
         type(R.id.mission_name, " ")
         assertTrue("✗ a mission needs a name" in activity.wordsShown())
         assertFalse(activity.view<View>(R.id.use_mission).isEnabled)

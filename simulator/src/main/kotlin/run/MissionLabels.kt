@@ -1,4 +1,4 @@
-package stillwater.simulation
+package stillwater.run
 
 import kotlinx.serialization.descriptors.SerialDescriptor
 import stillwater.mission.EstimatorName
@@ -13,5 +13,11 @@ internal val PlannerName.label: String get() = name(PlannerName.serializer().des
 
 /** The quantity's name for people. */
 internal val Quantity.label: String get() = name(Quantity.serializer().descriptor, ordinal).replace('-', ' ')
+
+/** The quantity's name for people with its unit, where it has one. */
+internal val Quantity.withUnit: String get() = if (unit.isEmpty()) label else "$label ($unit)"
+
+/** The filter of the command line that this is. */
+internal val EstimatorName.kind: FilterKind get() = FilterKind.entries.first { it.label == label }
 
 private fun name(descriptor: SerialDescriptor, index: Int) = descriptor.getElementName(index)

@@ -1,0 +1,63 @@
+package stillwater.estimate
+
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertEquals
+
+/** Which responses stay open, by scores written by hand. */
+class ResponseChoiceTest {
+    /** A candidate whose scores in ten groups are [mean] and, in turn, [spread] more and less. */
+    private fun candidate(kind: ResponseKind, mean: Double, spread: Double, error: Double = 0.3) = CandidateResponse(
+        kind,
+        kind.parameters.map { if (it == "slow_share") 0.1 else 5.0 },
+        kind.parameters.map { error },
+        emptyList(),
+        0.0,
+        DoubleArray(GROUPS) { mean + if (it % 2 == 0) spread else -spread },
+    )
+
+    private fun open(vararg candidates: CandidateResponse) =
+        ResponseChoice.of(candidates.toList(), Random(1)).open.map { it.kind }.toSet()
+
+    private val lag = candidate(ResponseKind.FIRST_ORDER, 100.0, 0.0)
+
+    @Test
+    fun twoPathsStayOpenBesideALagThatTheyForetellBetterThan() {
+        // Ahead by 20 with a standard error of 2 · √10 · √(10 / 9): neither is ruled out, and neither alone is sure.
+        val kinds = setOf(ResponseKind.FIRST_ORDER, ResponseKind.TWO_PATH)
+        for (spread in listOf(3.0, 5.0)) {
+            assertEquals(kinds, open(lag, candidate(ResponseKind.TWO_PATH, 102.0, spread)), "spread $spread")
+        }
+        // By less than one standard error, by nothing, or where its slow path is as open as it was beforehand.
+        for (rich in listOf(
+            candidate(ResponseKind.TWO_PATH, 102.0, 7.0),
+            candidate(ResponseKind.TWO_PATH, 100.1, 0.0),
+            candidate(ResponseKind.TWO_PATH, 102.0, 3.0, error = 1.1),
+        )) {
+            assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, rich))
+        }
+        // And alone where the lag is ruled out.
+        assertEquals(setOf(ResponseKind.TWO_PATH), open(lag, candidate(ResponseKind.TWO_PATH, 102.0, 0.5)))
+    }
+
+    @Test
+    fun asymmetryGivesWayToALagThatIsNotRuledOut() {
+        assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 3.0)))
+    }
+
+    @Test
+    fun aShareIsNeverMoreThanTheResponseTakes() {
+        val wide = candidate(ResponseKind.TWO_PATH, 0.0, 0.0, error = 3.0)
+        assertEquals(ResponseKind.LARGEST_SHARE, wide.interval(2).endInclusive)
+        val parameters = listOf(5.0, 40.0, 1.7)
+        val errors = List(3) { 0.1 }
+        val beyond = CandidateResponse(ResponseKind.TWO_PATH, parameters, errors, emptyList(), 0.0, doubleArrayOf())
+        assertEquals(ResponseKind.LARGEST_SHARE, beyond.parameter(2))
+        assertEquals(beyond.response.slowShare, beyond.parameter(2))
+        assertEquals(40.0, beyond.parameter(1))
+    }
+
+    private companion object {
+        const val GROUPS = 10
+    }
+}
