@@ -1,6 +1,7 @@
 package stillwater.simulation
 
 import stillwater.mission.EstimatorName
+import stillwater.run.label
 import stillwater.virtual.BoardSpec
 import stillwater.world.WaterKind
 import stillwater.world.WorldSettings
