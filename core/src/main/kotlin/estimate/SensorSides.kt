@@ -42,6 +42,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private const val FEWEST_ROWS = 200
         private const val CLEAR = 0.02
         private const val NARROW = 0.043
+
         /** The slower the limit, the longer a line has to be to stand out of the noise, and the longer are the runs. */
         private val REACHES = listOf(1, 2, 3, 4, 6, 8, 10, 12, 16, 24, 36)
 

@@ -146,9 +146,11 @@ class BayesianMapTest {
         val grid = Grid.unit(20, 20)
         val estimator = BayesianMap(grid, Interval.UNIT, Oracle(grid, 1e-3), work = 1e4)
         // Rows in turn, every other cell: blocks are under way while cells of theirs are seen.
-        for (cell in 0 until grid.size step 2) repeat(5) {
-            estimator.see(cell, smooth(grid, cell))
-            estimator.map
+        for (cell in 0 until grid.size step 2) {
+            repeat(5) {
+                estimator.see(cell, smooth(grid, cell))
+                estimator.map
+            }
         }
         repeat(10_000) { estimator.map }
         for (cell in 0 until grid.size) {

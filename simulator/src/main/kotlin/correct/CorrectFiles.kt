@@ -57,8 +57,12 @@ class CorrectFiles(
     val columns: List<String> = columns(result.log, isAlone)
 
     /** Directory of the files but corrected.csv, within the results': empty or with a slash behind it. */
-    val place: String = if (isAlone) "" else quantity.map { if (it.isLetterOrDigit() || it in "_-") it else '_' }
-        .joinToString("") + "/"
+    val place: String = if (isAlone) {
+        ""
+    } else {
+        quantity.map { if (it.isLetterOrDigit() || it in "_-") it else '_' }
+            .joinToString("") + "/"
+    }
 
     /** What is added to the rows of the log. */
     internal fun addedColumns(): AddedColumns {

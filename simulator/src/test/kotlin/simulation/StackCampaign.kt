@@ -55,7 +55,9 @@ fun main(args: Array<String>) {
     val first = args[0].toLong()
     val campaign = StackCampaign(first until first + args[1].toLong())
     val named = args.drop(2).map { label -> EstimatorName.entries.single { it.label == label } }
-    println("| water | estimator, planner | mission | in process | ratio | each seed | above 1.1 | cells' averages | bounds hold |")
+    println(
+        "| water | estimator, planner | mission | in process | ratio | each seed | above 1.1 | cells' averages | bounds hold |",
+    )
     println("|---|---|---|---|---|---|---|---|---|")
     for (water in listOf(WaterKind.GAUSSIAN, WaterKind.SMOOTH)) {
         for (estimator in named.ifEmpty { listOf(EstimatorName.SELF_CALIBRATING, EstimatorName.BAYESIAN) }) {
