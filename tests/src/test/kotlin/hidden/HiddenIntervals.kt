@@ -40,7 +40,7 @@ internal object HiddenIntervals {
         val lag = ChannelLags.of(series(case, file), "value", emptyMap()).channels.first()
         val reach = lag.interval
         return HiddenInterval(
-            case.truth.timeConstant,
+            case.delay,
             lag.delay,
             reach?.lower ?: Double.NaN,
             reach?.upper ?: Double.NaN,
@@ -59,9 +59,8 @@ fun main(arguments: Array<String>) {
             HiddenIntervals.timeConstant(seed, file)
         }
         interval?.also {
-            System.err.println(
-                "%d\t%.3f\t%.3f\t%.3f\t%.3f\t%.2f".format(Locale.ROOT, seed, it.truth, it.found, it.lower, it.upper, it.off),
-            )
+            val numbers = listOf(it.truth, it.found, it.lower, it.upper, it.off)
+            System.err.println("$seed\t" + numbers.joinToString("\t") { number -> "%.3f".format(Locale.ROOT, number) })
         }
     }
     val given = all.filter { it.isGiven }
