@@ -62,7 +62,13 @@ internal class BlindAnswer(
         val isOpen = lag.isOpen(settings.separation)
         val least = (chosen.map { it.trial.ratio } + listOfNotNull(lag.seen.takeIf { isOpen })).minOrNull() ?: 0.0
         val sets = all + listOfNotNull(lagSet(isOpen))
+        val contradicted = chosen.map { it.trial }
+            .firstOrNull { it.isContradicted && it.term?.cause !in BlindDiagnosis.SLOW }
         return when {
+            contradicted != null -> Verdict.Unexplained(
+                "the halves of the log contradict each other about the ${contradicted.name}",
+                listOfNotNull(openLag(isOpen)),
+            )
             isStructured && left.ratio > LEFT * least ->
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->

@@ -39,13 +39,13 @@ internal class BlindDiagnosis(
         val lag = BlindLag(search, base)
         isShapeOpen = lag.isOpen(settings.separation)
         isLagSeen = lag.isSeen
-        isResolved = base.finestPower() < MOST_FINEST * base.variance
+        isResolved = base.isResolved
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (isShapeOpen) lag.both else base
         val first = Round(start)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: start
-        val end = if (chosen.isEmpty()) first else Round(last)
+        val end = if (chosen.isEmpty()) first else ended ?: Round(last)
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
@@ -58,27 +58,56 @@ internal class BlindDiagnosis(
         private val still = search.still(state)
         private val stillTries = BlindTrials(search, still)
 
+        /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
+        private val changing = state.score - still.score
+
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> =
             terms().filter { term -> state.model.terms.none { it.key == term.key } }.let { terms ->
-                terms.mapIndexed { i, term ->
+                val all = terms.mapIndexed { i, term ->
                     tell(i.toDouble() / terms.size)
-                    if (term.cause in SLOW) slow(term) else checked(tries.attempt(term))
+                    if (term.cause in SLOW) stillTries.attempt(term) else tries.attempt(term)
+                }
+                val likely = all.filter { isLikely(it) }.sortedByDescending { it.worth }.take(MOST_LIKELY).toSet()
+                all.map {
+                    if (it in likely) settled(it) else if (it.term?.cause in SLOW) it.instead(-changing) else it
                 }
             }
 
-        /** What the water's own size says of [trial]: a response that shows more of the water lets it be smaller. */
-        private fun checked(trial: BlindTrial): BlindTrial {
-            val term = trial.term
-            if (term == null || term.cause !in BlindSearch.LINEAR || trial.pValue > settings.level) return trial
-            val noise = state.fit.design.noise
-            val before = search.settled(state.model.terms, state.numbers, noise, state.variances, before = state)
-            return trial.atMost((with(before, trial).score - before.score) / trial.inflation)
+        /** Whether [trial] may be worth water and noise of its own. */
+        private fun isLikely(trial: BlindTrial): Boolean {
+            val isSlow = trial.term?.cause in SLOW
+            return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
         }
 
-        /** Water that changes in time could imitate a drift: the two are held against each other. */
-        private fun slow(term: Term): BlindTrial =
-            stillTries.attempt(term).instead(still.score - state.score)
+        /**
+         * [trial] with the water and the noise that suit it.
+         *
+         * Water that changes in time can imitate a drift or a jump. Those are held against water that stays the same
+         * where they explain more than such water, and against such water where they do not: something changed either
+         * way.
+         */
+        private fun settled(trial: BlindTrial): BlindTrial {
+            val term = checkNotNull(trial.term)
+            val without = if (term.cause in SLOW) still else state
+            val found = search.improved(search.requieted(with(without, trial)))
+            val searched = if (term.times.isEmpty()) 0.0 else tries.searched(term.times.size)
+            val first = tries.settled(trial, found, without.score, searched)
+            if (first.pValue > settings.level) return first.instead(-maxOf(state.score - without.score, 0.0))
+            // The same noise may suit the models without it as well.
+            val best = maxOf(without.score, likewise(without, found))
+            val rest = if (without === state) best else maxOf(state.score, likewise(state, found))
+            val trying = tries.settled(trial, found, best, searched)
+            return if (found.score > rest) trying.among(best - rest) else trying.instead(best - rest)
+        }
+
+        /** The score of [other] with the noise of [found]. */
+        private fun likewise(other: BlindState, found: BlindState): Double {
+            val noise = found.fit.design.noise
+            return search.improved(
+                search.settled(other.model.terms, other.numbers, noise, other.variances, before = other),
+            ).score
+        }
 
         /** What no cause explains. */
         val looks: List<BlindTrial> = BlindLooks(state, tries, !isShapeOpen && isResolved).all()
@@ -143,10 +172,14 @@ internal class BlindDiagnosis(
             if (look != null && look.worth > best.worth + settings.separation) break
             val state = added(round.state, best)
             chosen += BlindStep(best, round, state)
-            if (chosen.size < settings.mostCauses) round = Round(state)
+            if (chosen.size < settings.mostCauses) round = Round(state).also { ended = it }
         }
+        if (chosen.size == settings.mostCauses) ended = null
         return chosen
     }
+
+    /** All that was tried on top of the last model, where it was. */
+    private var ended: Round? = null
 
     private fun with(state: BlindState, trial: BlindTrial): BlindState {
         val model = checkNotNull(trial.model)
@@ -155,8 +188,8 @@ internal class BlindDiagnosis(
     }
 
     private fun added(state: BlindState, trial: BlindTrial): BlindState {
-        val next = with(state, trial)
-        return search.improved(search.evened(search.improved(next)))
+        val next = trial.state ?: search.improved(with(state, trial))
+        return search.improved(search.evened(next))
     }
 
     /** For each chosen cause those that explain as much in its place. */
@@ -169,7 +202,8 @@ internal class BlindDiagnosis(
                 it.pValue < settings.level
         }.sortedByDescending { it.worth }.mapNotNull { it.term?.cause }
         val cause = checkNotNull(step.trial.term).cause
-        val twin = if (cause == Cause.DRIFT) listOf(Cause.TIME_VARYING_FIELD) else emptyList()
+        // Where nobody knows the water nothing tells a change of the sensor's offset from one of all the water.
+        val twin = if (cause in SLOW) listOf(Cause.TIME_VARYING_FIELD) else emptyList()
         (listOf(cause) + twin + others).distinct()
     }
 
@@ -190,17 +224,22 @@ internal class BlindDiagnosis(
     }
 
     companion object {
-        /** Water that is not wholly resolved makes p-values too small by a few times: levels are lower by as much. */
-        const val STRICTER = 0.4
+        /**
+         * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:
+         * levels are lower by as much.
+         */
+        const val STRICTER = 0.1
         private const val FEWEST_ROWS = 60
-
-        /** Mean square of the finest waves over the noise's, above which there must be finer ones. */
-        private const val MOST_FINEST = 10.0
 
         /** Share of the work that the search for the lag is. */
         private const val SEARCH = 0.5
+
+        /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
+        private const val LIKELY = 4.0
+        private const val MOST_LIKELY = 5
         private const val SMALLEST_RANGE = 1e-100
-        private val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
+        /** Causes that water which changes in time can imitate. */
+        val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
         private const val EVEN = 0.03
         private const val LEAST_WARMTH = 0.05
         private const val COARSE = 0.3

@@ -34,7 +34,9 @@ internal class BlindLooks(
     )
 
     /** All looks. */
-    fun all(): List<BlindTrial> = buildList {
+    fun all(): List<BlindTrial> = shapes().map { it.lessSure(DOUBT) } + periodic()
+
+    private fun shapes(): List<BlindTrial> = buildList {
         val age = standard(series.times)
         add(trials.look("the value itself (a curved calibration)", listOf(product(value, value), cube(value))))
         add(trials.look("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
@@ -43,7 +45,6 @@ internal class BlindLooks(
         add(trials.look("the value, more at some times than at others", listOf(product(value, age))))
         if (canShowShape) add(trials.lookAtWater("what was there before (the response has another shape)", earlier()))
         if (median(series.speed) > SLOWEST) heading()
-        add(periodic())
     }
 
     private fun MutableList<BlindTrial>.heading() {
@@ -131,6 +132,9 @@ internal class BlindLooks(
 
     private companion object {
         const val SLOWEST = 0.02
+
+        /** How many times too small p-values are where fixes jitter in steep water; a period stands out of its own. */
+        const val DOUBT = 10.0
         const val MOST_FREQUENCIES = 500
         const val BESIDE = 12
         const val FEWEST_TURNS = 10.0

@@ -6,52 +6,6 @@ import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
- * A model of a log without a reference, with the water that suits it.
- *
- * @property model the sensor's model, whose truth is the water along the track. @property numbers its parameters.
- * @property fit the water's part. @property variances of the waves in each band over the noise's.
- * @property residuals readings less what the model shows, length n. @property left their square sum once the water has
- *   taken what it can.
- */
-internal class BlindState(
-    val model: ResponseModel,
-    val numbers: DoubleArray,
-    val fit: BlindFit,
-    val variances: DoubleArray,
-    val residuals: DoubleArray,
-    val left: Double,
-    val modes: WaterModes,
-) {
-    /** Twice the log-likelihood, less a constant. */
-    val score: Double = fit.score(left)
-
-    /** The noise's variance, sensor units². */
-    val variance: Double get() = left / fit.rows
-
-    /** Residuals, whitened, without what the water takes. */
-    val whitened: DoubleArray by lazy { fit.residual(residuals) }
-
-    /** What minus twice the log-likelihood has beside the square sum of residuals over their variance. */
-    val spare: Double get() = fit.rows * ln(variance) + fit.design.noise.logDeterminant
-
-    /** The lag's time, s. */
-    val timeConstant: Double get() = numbers[ResponseModel.TIME_CONSTANT]
-
-    /** The water along the track, sensor units. */
-    val water: DoubleArray get() = checkNotNull(model.series.reference)
-
-    /** Mean square of the finest waves found, sensor units²: where there is much, still finer ones may be there. */
-    fun finestPower(): Double {
-        val last = modes.bands - 1
-        val heights = DoubleArray(modes.size) { if (modes.band[it] == last) fit.heights[it] else 0.0 }
-        return squares(modes.along(heights)) / modes.along(heights).size
-    }
-
-    /** How fast what the model shows goes down with parameter [i] on the scale it is fitted on, length n. */
-    fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, numbers, i)
-}
-
-/**
  * Finds the likeliest numbers of models of a log without a reference.
  *
  * @param progress told how much of [best] is done, a share within 0..1 that grows.
@@ -66,8 +20,11 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     /** Quantities of the log. */
     val scales = Scales(series)
 
-    /** The water's waves. */
-    val modes = WaterModes(series, track, (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES))
+    private val most = (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES)
+
+    /** The water's waves; few until [best] has told which are needed. */
+    val modes: WaterModes get() = fine ?: rough
+    private var fine: WaterModes? = null
     private val rough = WaterModes(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
 
     private fun noise(share: Double, steps: Double) =
@@ -89,11 +46,42 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         val first = quieted(stepped(improved(improved(coarse.maxBy { it.score }))))
         val found = improved(first)
         progress(2 * ROUGH)
-        var state = settled(emptyList(), found.numbers, found.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, modes)
+        var state = finer(found)
+        fine = state.modes
         // More waves may explain what looked like noise that wanders.
         progress(3 * ROUGH)
-        state = improved(requieted(evened(state)))
-        return improved(state).also { lastVariance = it.variance }
+        state = improved(improved(requieted(evened(state))))
+        // Few waves may have told wrongly whether steps are held.
+        val was = held
+        state = stepped(state)
+        if (held != was) state = improved(requieted(evened(state)))
+        lastVariance = state.variance
+        return state
+    }
+
+    /** [state] with as many waves as it takes; where even those it has are too few, in the box and at the lag they tell. */
+    private fun finer(state: BlindState): BlindState {
+        fun at(waves: WaterModes, lag: Double) =
+            settled(emptyList(), base(lag), state.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, waves)
+        val needed = shortest(state)
+        if (needed != null) return at(WaterModes(series, track, most, needed), state.timeConstant)
+        val boxes = WIDER.map { WaterModes(series, track, most, wider = it) }.distinctBy { it.finest }
+        val all = boxes.map { at(it, state.timeConstant) }
+        val best = all.filter { it.isResolved }.ifEmpty { all }.maxBy { it.score }
+        if (best.isResolved) return best
+        val others = LAGS.map { it * series.period }.filter { abs(ln(it / state.timeConstant)) > FAR_LAG }
+        return (others.map { at(best.modes, it) } + best).maxBy { it.score }
+    }
+
+    /**
+     * A length shorter than that of all waves that [state] has found in the water, m; null where it has still shorter
+     * ones.
+     */
+    private fun shortest(state: BlindState): Double? {
+        val waves = state.modes
+        if (waves.lengths.isEmpty()) return null
+        val last = waves.lengths.indices.last { state.power(it) > UNSEEN * state.variance }
+        return if (last + 1 < waves.bands) minOf(waves.lengths[last], waves.finest * LONGER) / FINER else null
     }
 
     /** The noise's variance that [best] found, sensor units². */
@@ -104,15 +92,19 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     var held: Boolean = false
         private set
 
-    /** [state], or the same with held steps where the log says so. */
+    /** [state], or the same with steps held that were not, or the other way round, as the log says. */
     private fun stepped(state: BlindState): BlindState {
-        held = true
-        shownAs = null
+        val margin = if (held) -HELD else HELD
+        turn()
         val other = improved(again(state, state.fit.design.noise))
-        if (other.score > state.score + HELD) return other
-        held = false
-        shownAs = null
+        if (other.score > state.score + margin) return other
+        turn()
         return state
+    }
+
+    private fun turn() {
+        held = !held
+        shownAs = null
     }
 
     /** Numbers of a lag of [timeConstant] s. */
@@ -121,33 +113,41 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     /** [state] with the noise that suits it best; never a less likely one. */
     fun quieted(state: BlindState): BlindState {
         var best = state
-        for ((share, steps) in NOISES) {
-            val next = again(state, spread(state, noise(share, steps)))
-            if (next.score > best.score) best = next
+        for (share in SHARES) {
+            for (steps in TIMES.filter { share > 0 || it == TIMES[0] }) {
+                val next = again(state, spread(state, noise(share, steps)))
+                if (next.score > best.score) best = next
+            }
         }
         return best
     }
 
-    /** [state] with noise that wanders less or more as long as that suits it better. */
+    /** [state] with noise that wanders less or more, and sooner or later, as long as that suits it better. */
     fun requieted(state: BlindState): BlindState {
         val now = state.fit.design.noise.noise
-        val from = NOISES.indices.minBy { k ->
-            val (share, steps) = NOISES[k]
-            abs(share - now.share) + abs(ln(steps * series.period / now.time))
+        var share = SHARES.indices.minBy { abs(SHARES[it] - now.share) }
+        var time = TIMES.indices.minBy { abs(ln(TIMES[it] * series.period / now.time)) }
+        if (share == 0) time = TIMES.size / 2
+        var best = state
+        fun climbed(toShare: Int, toTime: Int): Boolean {
+            if (toShare !in SHARES.indices || toTime !in TIMES.indices || (share == 0 && toShare == 0)) return false
+            val noise = noise(SHARES[toShare], TIMES[toTime])
+            val next = again(best, BlindNoise(noise, best.fit.design.noise.spread))
+            if (next.score <= best.score) return false
+            best = next
+            share = toShare
+            time = toTime
+            return true
         }
-        for (way in listOf(-1, 1)) {
-            var best = state
-            var k = from + way
-            while (k in NOISES.indices) {
-                val (share, steps) = NOISES[k]
-                val next = again(state, BlindNoise(noise(share, steps), state.fit.design.noise.spread))
-                if (next.score <= best.score) break
-                best = next
-                k += way
+        repeat(CLIMBS) {
+            var isBetter = false
+            for (way in listOf(-1, 1)) {
+                while (climbed(share + way, time)) isBetter = true
+                while (climbed(share, time + way)) isBetter = true
             }
-            if (best !== state) return best
+            if (!isBetter) return best
         }
-        return state
+        return best
     }
 
     /** [state] with each row's spread of noise as its residuals say, as long as that suits it better. */
@@ -338,6 +338,15 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         /** Share of the search that one of its parts is. */
         const val ROUGH = 0.25
         const val FEWEST_WAVES = 30
+
+        /** Mean square of waves, over the noise's, that no cause's fit would miss. */
+        const val UNSEEN = 1e-3
+        const val FINER = 1.3
+        val WIDER = doubleArrayOf(0.0, 0.25, 0.6).toList()
+
+        /** Logarithm of the ratio of lags from which on one is not found from the other. */
+        const val FAR_LAG = 0.5
+        const val LONGER = 8.0
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
@@ -353,7 +362,11 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         const val LEAST = 1e-8
         const val MOST = 1e10
         val LAGS = doubleArrayOf(0.1, 1.5, 3.0, 6.0, 12.0, 24.0).toList()
-        val NOISES = listOf(0.0 to 1.0, 0.5 to 3.0, 0.5 to 10.0, 0.9 to 4.0, 0.9 to 12.0, 0.98 to 12.0, 0.98 to 40.0)
+
+        /** Shares of the noise that may wander, and over how many rows. */
+        val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95)
+        val TIMES = doubleArrayOf(3.0, 10.0, 35.0)
+        const val CLIMBS = 3
         val UNEVEN = listOf(0.0, 0.3, 1.0, 3.0, 10.0, 100.0)
 
         /** Causes that show a sum of waters as the sum of what they show of each. */

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.sqrt
 
 /**
@@ -9,7 +10,7 @@ import kotlin.math.sqrt
  *   for a look. @property model the model with it. @property change what it adds to the prediction, length n.
  * @property ratio twice the gain in log-likelihood over what the scores' correlation inflates it.
  * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how
- *   stretches of the log agree about it.
+ *   stretches of the log agree about it. @property state the model with it where water and noise were fitted to it.
  */
 internal class BlindTrial(
     val term: Term?,
@@ -21,18 +22,36 @@ internal class BlindTrial(
     val inflation: Double,
     val degrees: Int,
     val pValue: Double,
+    val state: BlindState? = null,
+    private val halves: Double = 0.0,
 ) {
+    /** Whether the two halves of the log contradict each other about the size of it, at 1 %. */
+    val isContradicted: Boolean get() = abs(halves) > NORMAL_99
+
     /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
     val worth: Double get() = ratio - 2 * degrees
 
     /** This trial where it is on top of a model whose twice log-likelihood is higher by [score] than the base's. */
     fun instead(score: Double): BlindTrial = atMost(ratio + score / inflation)
 
+    /** This trial, as sure as it is, where others are held against a model whose score is lower by [score]. */
+    fun among(score: Double) =
+        changed(ratio + score / inflation, pValue)
+
+    /** This trial where its p-value is too small by [times]. */
+    fun lessSure(times: Double) = changed(ratio, minOf(1.0, times * pValue))
+
+    private fun changed(ratio: Double, pValue: Double) =
+        BlindTrial(term, name, model, point, change, ratio, inflation, degrees, pValue, state, halves)
+
     /** This trial where its ratio is [most] at most. */
     fun atMost(most: Double): BlindTrial {
         val weaker = minOf(ratio, maxOf(most, 0.0))
-        val p = maxOf(pValue, Evidence.pValue(weaker, degrees))
-        return BlindTrial(term, name, model, point, change, weaker, inflation, degrees, p)
+        return changed(weaker, maxOf(pValue, Evidence.pValue(weaker, degrees)))
+    }
+
+    private companion object {
+        const val NORMAL_99 = 2.576
     }
 }
 
@@ -95,6 +114,60 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         }
     }
 
+    /**
+     * [trial] with water and noise of its own, as [found] has them: what a cause does would otherwise be taken for
+     * noise that wanders. The base's twice log-likelihood is then [score].
+     */
+    fun settled(trial: BlindTrial, found: BlindState, score: Double, searched: Double): BlindTrial {
+        val term = checkNotNull(trial.term)
+        val slot = found.model.slot(term)
+        val free = search.free(found.model).let { f -> f.indices.filter { f[it] } }
+        val (own, others) = free.partition { it in slot until slot + found.model.width(term) }
+        val basis = Evidence.orthonormal(others.map { found.fit.unlike(found.derivative(it)) })
+        val extra = Evidence.orthonormal(own.map { found.fit.unlike(found.derivative(it)) }, basis)
+        val z = found.whitened
+        val inflation = BlindEvidence.inflation(extra, z)
+        val ratio = maxOf((found.score - score) / inflation - searched, 0.0)
+        val change = added(term, found)
+        val unlike = Evidence.without(found.fit.unlike(change), basis)
+        val without = DoubleArray(n) { z[it] + unlike[it] }
+        val p = pValue(term, ratio, trial.degrees, between(unlike, without), searched, unlike)
+        val point = BlindPoint(found.numbers, found.residuals, found.left)
+        val halves = contradiction(unlike, without, found.variance * inflation)
+        val degrees = trial.degrees
+        return BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
+    }
+
+    /** By how many standard errors the halves of the log differ about the size of the change [unlike] in [z]. */
+    private fun contradiction(unlike: DoubleArray, z: DoubleArray, variance: Double): Double {
+        val scores = DoubleArray(2)
+        val weights = DoubleArray(2)
+        for (i in 0 until n) {
+            val half = if (2 * i < n) 0 else 1
+            scores[half] += unlike[i] * z[i]
+            weights[half] += unlike[i] * unlike[i]
+        }
+        val error = sqrt(variance * (1 / maxOf(weights[0], TINY) + 1 / maxOf(weights[1], TINY)))
+        return (scores[0] / maxOf(weights[0], TINY) - scores[1] / maxOf(weights[1], TINY)) / error
+    }
+
+    /** What [term] adds to what [found] shows, all else the same. */
+    private fun added(term: Term, found: BlindState): DoubleArray {
+        val kept = found.model.terms.filter { it.key != term.key }
+        val model = ResponseModel(found.model.series, kept, search.held, scales)
+        val numbers = DoubleArray(model.parameters.size)
+        for (k in 0 until ResponseModel.BASE) numbers[k] = found.numbers[k]
+        for (other in kept) {
+            val from = found.model.slot(other)
+            for (k in 0 until model.width(other)) numbers[model.slot(other) + k] = found.numbers[from + k]
+        }
+        val out = DoubleArray(n)
+        model.predict(numbers, out)
+        // What the model with it shows = reading − residual.
+        for (i in 0 until n) out[i] = series.values[i] - found.residuals[i] - out[i]
+        return out
+    }
+
     private class Weighed(val term: Term?, val name: String, val model: ResponseModel?, val point: BlindPoint?)
 
     private fun weighed(
@@ -113,12 +186,15 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, unlike, searched)
+        val p = pValue(what.term, ratio, degrees, between(unlike, z), searched, unlike)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
-    /** How sure stretches of the log together are of the change [unlike], whitened: Student's t, whatever the noise. */
-    private fun between(unlike: DoubleArray): Double {
+    /**
+     * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
+     * Student's t, whatever the noise.
+     */
+    private fun between(unlike: DoubleArray, z: DoubleArray): Double {
         val scores = DoubleArray(STRETCHES)
         val weights = DoubleArray(STRETCHES)
         for (i in 0 until n) {
@@ -147,7 +223,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         while (times.size < MOST_JUMPS) {
             val (time, column) = place(rest, times) ?: break
             times += time
-            val places = times.size * 2 * kotlin.math.ln(minOf(PLACES, n / 10).toDouble())
+            val places = searched(times.size)
             val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), places)
             if (best != null && next.ratio - best.ratio < JUMP_WORTH) break
             best = next
@@ -156,13 +232,16 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return best ?: fitted(Term(Cause.OFFSET_STEPS, times = listOf(series.duration / 2)), 0.0)
     }
 
+    /** What the best of many places gains by chance, for [count] jumps. */
+    fun searched(count: Int): Double = count * 2 * kotlin.math.ln(minOf(PLACES, n / 10).toDouble())
+
     private fun place(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
         fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })
         fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), 1e-9) }
         val stride = maxOf(n / PLACES, 1)
         val edge = maxOf(n / 50, 3)
         val rows = (edge until n - edge step stride).filter { row ->
-            taken.all { kotlin.math.abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
+            taken.all { abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
         }
         val coarse = rows.maxByOrNull(::gain) ?: return null
         val fine = (maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)) step maxOf(stride / 8, 1)
@@ -204,9 +283,15 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return weighed(what, found.map { it.unlike }, base.left - gained, change, searched, floor, after)
     }
 
-    /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], the larger. */
-    private fun pValue(term: Term?, ratio: Double, degrees: Int, unlike: DoubleArray, searched: Double): Double {
-        val t = between(unlike)
+    /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], by [t], the larger. */
+    private fun pValue(
+        term: Term?,
+        ratio: Double,
+        degrees: Int,
+        t: Double,
+        searched: Double,
+        unlike: DoubleArray,
+    ): Double {
         // Several numbers give the sum of what they change a good look of chance: the t is held against that.
         val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
         val agreed = if (t > 0) Evidence.student(fewer, agreeing(term, unlike) - 1) else 1.0
@@ -217,6 +302,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     val residual: DoubleArray get() = z
 
     private companion object {
+        const val TINY = 1e-290
         const val BASE_STEPS = 4
         const val LOOKS = 2
         const val STEPS = 6

@@ -16,8 +16,15 @@ import kotlin.math.sqrt
  * Source: Huybrechs 2010, On the Fourier extension of nonperiodic functions, doi:10.1137/090752456.
  *
  * @param x metres east. @param y metres north. @param most waves at most. @param least the shortest length allowed, m.
+ * @param wider by how much of the track's size the box is wider at least.
  */
-internal class WaterLattice(private val x: DoubleArray, private val y: DoubleArray, most: Int, least: Double) {
+internal class WaterLattice(
+    private val x: DoubleArray,
+    private val y: DoubleArray,
+    most: Int,
+    least: Double,
+    private val wider: Double,
+) {
     private val turn = (0 until TURNS).map { it * PI / 2 / TURNS }.minBy { width(it) * height(it) }
     private val width = width(turn)
     private val height = height(turn)
@@ -45,8 +52,9 @@ internal class WaterLattice(private val x: DoubleArray, private val y: DoubleArr
 
     /** The wave numbers over 2π, 1/m, of half a plane, the longest waves first. */
     private fun numbers(length: Double): List<Pair<Double, Double>> {
-        val east = width + PAD * length
-        val north = height + PAD * length
+        val pad = maxOf(PAD * length, wider * hypot(width, height))
+        val east = width + pad
+        val north = height + pad
         val j = (east / length).toInt()
         val k = (north / length).toInt()
         // Far too many need not be counted.
@@ -71,6 +79,13 @@ internal class WaterLattice(private val x: DoubleArray, private val y: DoubleArr
                 listOf(DoubleArray(x.size) { cos(phase[it]) }, DoubleArray(x.size) { sin(phase[it]) })
             }
         }
+    }
+
+    /** The shortest wave of each of [rings], m; that of the slopes first. */
+    fun lengths(): List<Double> {
+        val longest = numbers(shortest).groupBy { (p, q) -> ring(hypot(p, q) * shortest) }.toSortedMap()
+        return listOf(Double.POSITIVE_INFINITY) +
+            longest.values.map { ring -> 1 / ring.maxOf { (p, q) -> hypot(p, q) } }
     }
 
     /** Rings ever finer towards the longest waves; the [share] of the largest wave number. */

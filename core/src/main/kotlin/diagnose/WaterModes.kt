@@ -15,9 +15,16 @@ import kotlin.math.sqrt
  * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
  * doi:10.1016/j.apnum.2011.10.001.
  *
- * @param most columns at most.
+ * @param most columns at most. @param needed length of the shortest wave that the water has, m; null where that is not
+ *   known. @param wider by how much of the track's size the waves' box is wider, where that is not known.
  */
-internal class WaterModes(private val series: MeasuredSeries, private val track: SmoothTrack, most: Int) {
+internal class WaterModes(
+    private val series: MeasuredSeries,
+    private val track: SmoothTrack,
+    most: Int,
+    needed: Double? = null,
+    wider: Double = 0.0,
+) {
     private val n = series.size
     private val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
     private val step =
@@ -27,6 +34,10 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
 
     /** Length of the shortest process or wave, m. */
     var finest: Double = extent
+        private set
+
+    /** The shortest wave of each process, m, infinite of those that change in time; empty where none is of waves. */
+    var lengths: List<Double> = emptyList()
         private set
 
     /** The processes that change in time. */
@@ -46,15 +57,28 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
         moving = 1 until next
         val still = most - found.size
         val enough = LATTICE * maxOf(step, 1e-9 * extent)
-        val lattice = if (isLine) null else WaterLattice(track.x, track.y, still, enough)
         val gaussian = shortest((FINEST * still).toInt())
-        if (lattice != null && lattice.shortest <= maxOf(enough, WAVE * gaussian)) {
+        val lattice = if (isLine) null else needed?.let { wide(it, still) } ?: fine(enough, gaussian, still, wider)
+        if (lattice != null) {
             finest = lattice.shortest
+            lengths = List(next) { Double.POSITIVE_INFINITY } + lattice.lengths()
             lattice.rings().forEach { add(it, next++) }
         } else {
             finest = gaussian
             ladder(still).forEach { add(it, next++) }
         }
+    }
+
+    /** Waves as short as [needed] in the widest box in which so many are enough; null where there is none. */
+    private fun wide(needed: Double, most: Int): WaterLattice? = WIDER.firstNotNullOfOrNull { wider ->
+        WaterLattice(track.x, track.y, most, needed, wider).takeIf { it.shortest <= needed * (1 + CLOSE) }
+    }
+
+    /** Waves in a box that is just wide enough; null where processes of the length [gaussian] show finer water. */
+    private fun fine(enough: Double, gaussian: Double, most: Int, wider: Double): WaterLattice? {
+        val narrow = WaterLattice(track.x, track.y, most, enough, 0.0)
+        if (narrow.shortest > maxOf(enough, WAVE * gaussian)) return null
+        return if (wider > 0) WaterLattice(track.x, track.y, most, enough, wider) else narrow
     }
 
     /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */
@@ -169,6 +193,10 @@ internal class WaterModes(private val series: MeasuredSeries, private val track:
         /** Steps from row to row in the shortest wave of a lattice: shorter ones nobody's lag lets through. */
         const val LATTICE = 8.0
         const val SHORTEST = 2.0
+        const val CLOSE = 1e-6
+
+        /** Long waves need a box that is wider by some of the track's size: too narrow ones leave what looks like noise. */
+        val WIDER = doubleArrayOf(0.6, 0.4, 0.25).toList()
         const val ENOUGH = 1e-4
         const val MOVING = 0.15
         const val LINE_MOVING = 0.6

@@ -68,9 +68,10 @@ class BlindDiagnosisTest {
     @Test
     fun aLagIsSaidBesideWhatNoCauseExplains() {
         val late = log(SensorStage.Delay(5.0))
-        val hum = DoubleArray(n) { late.values[it] + 0.5 * sin(2 * PI * late.times[it] / 7) }
-        val verdict = Diagnosis(MeasuredSeries(late.times, x, y, hum, null)).run().verdict
-        assertIs<Verdict.Unexplained>(verdict, "$verdict")
+        val hum = DoubleArray(n) { late.values[it] + 1.0 * sin(2 * PI * late.times[it] / 7) }
+        val result = Diagnosis(MeasuredSeries(late.times, x, y, hum, null)).run()
+        val verdict = result.verdict
+        assertIs<Verdict.Unexplained>(verdict, "${result.dependences} ${result.warnings}")
         assertContains(verdict.what, "period of 6.99 s")
         assertEquals(listOf(LAG), verdict.ambiguity)
     }

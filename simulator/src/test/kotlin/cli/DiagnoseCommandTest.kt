@@ -98,7 +98,7 @@ class DiagnoseCommandTest {
         val spec = SensorSpec("hidden", listOf(SensorStage.Delay(5.0), SensorStage.Noise(0.004)))
         val sensor = spec.build(water[0], Random(7))
         val rows = water.indices.map { i ->
-            "$i,${x[i]},${y[i]},${sensor.step(water[i], 1.0, Conditions.NONE) + 0.5 * sin(2 * PI * i / 7)}"
+            "$i,${x[i]},${y[i]},${sensor.step(water[i], 1.0, Conditions.NONE) + 1.0 * sin(2 * PI * i / 7)}"
         }
         val file = directory.resolve("humming.csv")
         Files.write(file, listOf("time_s,x_m,y_m,oxygen") + rows)

@@ -33,13 +33,21 @@ internal data class HiddenTruth(
  *
  * Two cases in five or more have no effect; of the others most have one, some two, some one that is not in the list of
  * causes. Strengths are 0.25 to 4 times the [DetectableSize].
+ *
+ * @param isDelay whether the sensor has a dead time, [delay], in place of the lag, and no effect.
  */
-internal class HiddenCase(seed: Long, private val withReference: Boolean) {
+internal class HiddenCase(
+    seed: Long,
+    private val withReference: Boolean,
+    private val isDelay: Boolean = false,
+) {
     private val random = Random(seed * 7919 + if (withReference) 1 else 2)
     private val kind = kinds().let { it[random.nextInt(it.size)] }
     private val period = listOf(0.5, 1.0, 1.0, 2.0)[random.nextInt(4)]
     private val rows = 900 + random.nextInt(600)
     private val timeConstant = period * exp(ln(3.0) + random.nextDouble() * ln(5.0))
+    /** The dead time in place of the lag, s: short enough beside the waves that a lag is like it at first. */
+    val delay = timeConstant / 3
     private val speed = 0.6 + 0.8 * random.nextDouble()
     private val per = 20
 
@@ -112,10 +120,14 @@ internal class HiddenCase(seed: Long, private val withReference: Boolean) {
         )
     }
 
-    private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant) =
+    private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant) = if (isDelay) {
+        HiddenSensor(world, period / per, gain, offset, mapOf(HiddenEffect.DEAD_TIME to delay), stepShares)
+    } else {
         HiddenSensor(world, tau, gain, offset, effects, stepShares)
+    }
 
     private fun draw(): Map<HiddenEffect, Pair<Double, Double>> {
+        if (isDelay) return emptyMap()
         val dice = random.nextDouble()
         val listed = HiddenEffect.entries.filter { it.listed && fits(it) }
         val strange = HiddenEffect.entries.filter { !it.listed && fits(it) }
