@@ -70,7 +70,11 @@ internal class BlindDiagnosis(
                 }
                 val likely = all.filter { isLikely(it) }.sortedByDescending { it.worth }.take(MOST_LIKELY).toSet()
                 all.map {
-                    if (it in likely) settled(it) else if (it.term?.cause in SLOW) it.instead(-changing) else it
+                    when {
+                        it in likely -> settled(it)
+                        it.term?.cause in SLOW -> it.instead(-changing)
+                        else -> it
+                    }
                 }
             }
 
@@ -238,6 +242,7 @@ internal class BlindDiagnosis(
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
         private const val SMALLEST_RANGE = 1e-100
+
         /** Causes that water which changes in time can imitate. */
         val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
         private const val EVEN = 0.03

@@ -74,7 +74,8 @@ internal class CauseSearch(
         if (worthHolding && gained <= 0 && best.model.terms.any { it.cause in ACT_NOW_AND_THEN }) {
             gained = HeldOut.gainWhereTheyAct(best, base, root, used)
         }
-        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, gain - cost, p, heldOut, gained > 0)
+        val worth = gain - cost
+        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {

@@ -90,8 +90,8 @@ internal class DiagnosisReport(
         if (outside.size < 2) return
         paragraph(
             "What is left is more than noise: ${outside.size} of the ${checks.size} checks of the residuals below " +
-                "are outside of what noise alone gives. The model is not all of the truth, and the intervals, which hold " +
-                "if it is, are rather too narrow.",
+                "are outside of what noise alone gives. The model is not all of the truth, and the intervals, which " +
+                "hold if it is, are rather too narrow.",
         )
     }
 

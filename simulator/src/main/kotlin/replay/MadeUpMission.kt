@@ -84,7 +84,7 @@ internal class MadeUpMission(
         probes.values.filter { it.quantity != Quantity.CONDUCTIVITY }.maxByOrNull { it.values.size }
 
     private fun named(choice: SensorChoice): Readings {
-        val isLike = { it: SensorChoice -> it.type == choice.type && it.field == choice.field }
+        val isLike = { sensor: SensorChoice -> sensor.type == choice.type && sensor.field == choice.field }
         return probes.values.firstOrNull { isLike(it.sensor) && choice.channel in setOf(null, it.sensor.channel) }
             ?: throw LogProblem(
                 content.file,

@@ -103,8 +103,8 @@ class MapFigures(private val map: SurveyMap) {
         val caption = when (kind) {
             FilterKind.BOUNDED ->
                 "Midpoint of the bounds in each visited cell with both. Where one was set only, the cell is drawn " +
-                    "small: its other end is that of the range taken for the water, so that its colour says as much of " +
-                    "the range as of the water. Of ${counts(field)}."
+                    "small: its other end is that of the range taken for the water, so that its colour says as much " +
+                    "of the range as of the water. Of ${counts(field)}."
             FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             FilterKind.EXPONENTIAL -> "Exponential average of the readings in each visited cell."
             FilterKind.INTERVAL ->

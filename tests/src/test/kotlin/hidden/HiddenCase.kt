@@ -46,6 +46,7 @@ internal class HiddenCase(
     private val period = listOf(0.5, 1.0, 1.0, 2.0)[random.nextInt(4)]
     private val rows = 900 + random.nextInt(600)
     private val timeConstant = period * exp(ln(3.0) + random.nextDouble() * ln(5.0))
+
     /** The dead time in place of the lag, s: short enough beside the waves that a lag is like it at first. */
     val delay = timeConstant / 3
     private val speed = 0.6 + 0.8 * random.nextDouble()

@@ -87,6 +87,7 @@ internal class HiddenSensor(
         val h = world.track.step
         val ratio = exp(strength(HiddenEffect.ASYMMETRIC) / 2)
         val second = strength(HiddenEffect.SECOND_ORDER)
+        val resonance = strength(HiddenEffect.RESONANCE)
         val slow = 6 * timeConstant
         var s = truth[0]
         var s2 = truth[0]
@@ -103,13 +104,15 @@ internal class HiddenSensor(
             val tau = timeConstant * factor(i, s) * if (u > s) ratio else 1 / ratio
             val before = s
             s += -expm1(-h / tau) * (u - s)
-            // A ringing beside the lag: lightly damped, three time constants a turn.
-            val w = 2 * Math.PI / (3 * timeConstant)
-            velocity += h * (w * w * (u - (before + s) / 2 - ringing) - 0.2 * w * velocity)
-            ringing += h * velocity
+            if (resonance != 0.0) {
+                // A ringing beside the lag: lightly damped, three time constants a turn.
+                val w = 2 * Math.PI / (3 * timeConstant)
+                velocity += h * (w * w * (u - (before + s) / 2 - ringing) - 0.2 * w * velocity)
+                ringing += h * velocity
+            }
             slowState += -expm1(-h / slow) * (u - slowState)
             val both = (1 - strength(HiddenEffect.TWO_PATH)) * s + strength(HiddenEffect.TWO_PATH) * slowState +
-                strength(HiddenEffect.RESONANCE) * ringing
+                resonance * ringing
             s2 = if (second > 0) s2 - expm1(-h / second) * ((both + lastBoth) / 2 - s2) else both
             lastBoth = both
             follower = if (HiddenEffect.SLEW in effects) {
