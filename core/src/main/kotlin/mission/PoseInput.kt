@@ -56,11 +56,21 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
         this.yawRate = yawRate
     }
 
-    /** Lets [dt] s pass until [now] under [drive], and takes the fix that came meanwhile. */
+    /**
+     * Lets [dt] s pass until [now] under [drive], and takes the fix that came meanwhile. A phone that slept told the board
+     * nothing: its watchdog has put the motors to rest, and the boat came to rest in the water.
+     */
     fun advance(now: BoatTime, dt: Double, drive: Drive) {
         this.now = now.seconds
-        speed.advance(dt, mixing.ahead(drive))
-        track.advance(dt, heading, speed.value)
+        var left = dt
+        var ahead = mixing.ahead(drive)
+        while (left > 0) {
+            val step = if (ahead > 0 || speed.value > STILL) minOf(left, WATCHDOG) else left
+            speed.advance(step, ahead)
+            track.advance(step, heading, speed.value)
+            left -= step
+            ahead = 0.0
+        }
         val place = waiting ?: return
         waiting = null
         val local = frame.toLocal(place)
@@ -99,6 +109,12 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
 
         /** Fixes refused in a row that an unbelieved place survives. */
         const val MOST_JUMPS = 2
+
+        /** Boards rest their motors so long after the last word, s; 3 s on firmware 4.2.0. */
+        const val WATCHDOG = 0.5
+
+        /** Slower than this through the water is at rest, m/s. */
+        const val STILL = 0.01
 
         /** A compass that has not spoken for so long is not one, s. */
         const val OLDEST_COMPASS = 1.0
