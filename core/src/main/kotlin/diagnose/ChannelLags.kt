@@ -19,10 +19,11 @@ public class ChannelLag internal constructor(
 
     /** Where the delay lies at 95 %, s; null where none is seen. */
     public val interval: Interval? get() =
-        if (isSeen) Interval(maxOf(delay - NORMAL_95 * error, 0.0), delay + NORMAL_95 * error) else null
+        if (isSeen) Interval(maxOf(delay - REACH * error, 0.0), delay + REACH * error) else null
 
     internal companion object {
-        const val NORMAL_95 = 1.96
+        /** Standard errors to either end of an interval. */
+        const val REACH = 1.96 * BlindAnswer.WIDER
     }
 }
 
@@ -47,7 +48,7 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
     /** Where [own] lies at 95 %, s. */
     public val ownInterval: Interval? = own?.let {
         val other = checkNotNull(quickest).error
-        val error = ChannelLag.NORMAL_95 * sqrt(first.error * first.error + other * other)
+        val error = ChannelLag.REACH * sqrt(first.error * first.error + other * other)
         Interval(maxOf(it - error, 0.0), it + error)
     }
 
