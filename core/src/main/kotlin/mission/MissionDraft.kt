@@ -96,7 +96,10 @@ public data class MissionDraft(
      */
     public fun measuring(json: String): MissionDraft {
         if (!json.contains("\"stages\"")) return measuring(ProbeSpec.fromJson(json))
-        val (low, high) = listOf(DraftField.LOWEST, DraftField.HIGHEST).map { text(it).toDoubleOrNull() ?: 0.0 }
+        val (low, high) = listOf(DraftField.LOWEST, DraftField.HIGHEST).map {
+            text(it).replace(',', '.').toDoubleOrNull()
+                ?: 0.0
+        }
         val seconds = SensorSpec.fromJson(json).slowestResponse(low, if (high > low) high else low + 1)
         return with(DraftField.SLOWEST, written(seconds))
     }

@@ -110,8 +110,9 @@ internal class ReconnectingLink(
                     readUntilLost()
                 } catch (error: IOException) {
                     lost(error)
-                } catch (error: SecurityException) {
-                    // The permission was taken back while we ran.
+                } catch (@Suppress("TooGenericExceptionCaught") error: RuntimeException) {
+                    // The permission was taken back while we ran, or a driver was closed under a read: no reason to end
+                    // the process that steers the boat.
                     lost(error)
                 } finally {
                     connection?.close()
@@ -165,21 +166,28 @@ internal class ReconnectingLink(
             try {
                 while (!ended) {
                     val bytes = commands.take()
+                    val open = connection
                     try {
-                        val open = connection ?: throw IOException("the connection is gone")
+                        if (open == null) throw IOException("the connection is gone")
                         mayWait("send")
                         open.write(bytes)
                         report { copy(bytesOut = bytesOut + bytes.size) }
                     } catch (error: IOException) {
-                        Log.i(TAG, "${transport.name}: not sent: $error")
-                        report { copy(writesDropped = writesDropped + 1) }
-                        // A connection that takes nothing is lost, even where reading still waits.
-                        connection?.close()
+                        notSent(open, error)
+                    } catch (@Suppress("TooGenericExceptionCaught") error: RuntimeException) {
+                        notSent(open, error)
                     }
                 }
             } catch (_: InterruptedException) {
                 check(ended) { "only end() interrupts" }
             }
+        }
+
+        /** A connection that takes nothing is lost, even where reading still waits; a newer one is not touched. */
+        private fun notSent(open: Connection?, error: Exception) {
+            Log.i(TAG, "${transport.name}: not sent: $error")
+            report { copy(writesDropped = writesDropped + 1) }
+            open?.close()
         }
 
         private fun report(change: LinkHealth.() -> LinkHealth) {

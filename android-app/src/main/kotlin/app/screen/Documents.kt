@@ -7,6 +7,7 @@ import android.os.Bundle
 import android.provider.DocumentsContract
 import stillwater.app.R
 import stillwater.app.mayWait
+import stillwater.app.mission.LogFolder
 import stillwater.app.service.BoatService
 import stillwater.app.setup.DraftDesk
 import stillwater.mission.CellsText
@@ -71,9 +72,12 @@ internal class Documents(
                 read(document, purpose) { json, _ -> MissionDraft.of(MissionSpec.fromJson(json)) }
             DocumentPurpose.PROBE -> read(document, purpose) { json, draft -> draft.measuring(json) }
             DocumentPurpose.SAVED_MISSION -> {
-                val spec = desk.check?.spec ?: return tell(context.getString(R.string.save_not_whole), purpose)
-                val json = spec.toJson()
-                write(document, purpose) { it.write(json.toByteArray()) }
+                // Not the desk's last look at it: after a turn of the phone there is none yet.
+                val draft = desk.draft
+                write(document, purpose) {
+                    val spec = draft.check().spec ?: throw IOException(context.getString(R.string.save_not_whole))
+                    it.write(spec.toJson().toByteArray())
+                }
             }
             DocumentPurpose.LOG -> ofShared(document, purpose) { log, out -> log.inputStream().use { it.copyTo(out) } }
             DocumentPurpose.CSV -> ofShared(document, purpose) { log, out -> cells(log, out) { csv(it) } }
@@ -104,7 +108,11 @@ internal class Documents(
     private fun ofShared(document: Uri, purpose: DocumentPurpose, write: (File, OutputStream) -> Unit) {
         val log = shared ?: return tell(context.getString(R.string.document_cancelled), purpose)
         shared = null
-        write(document, purpose) { write(BoatService.logOf(context, log), it) }
+        write(document, purpose) {
+            // The mission may have ended, and its log been closed, while the person chose a place.
+            val open = BoatService.logOf(context, log)
+            write(if (open.exists()) open else BoatService.logOf(context, log.removeSuffix(LogFolder.INCOMPLETE)), it)
+        }
     }
 
     private fun write(document: Uri, purpose: DocumentPurpose, write: (OutputStream) -> Unit) {

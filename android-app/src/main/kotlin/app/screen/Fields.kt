@@ -4,6 +4,7 @@ import android.content.Context
 import android.text.Editable
 import android.text.InputType
 import android.text.TextWatcher
+import android.text.method.DigitsKeyListener
 import android.util.TypedValue
 import android.view.View
 import android.view.inputmethod.EditorInfo
@@ -45,7 +46,12 @@ internal class TextField(
     val edit =
         EditText(context).apply {
             this.id = id
-            inputType = if (isNumber) NUMBER else InputType.TYPE_CLASS_TEXT or InputType.TYPE_TEXT_FLAG_CAP_SENTENCES
+            inputType = InputType.TYPE_CLASS_TEXT or InputType.TYPE_TEXT_FLAG_CAP_SENTENCES
+            if (isNumber) {
+                // Android's own listener for numbers takes no comma, and some keyboards have nothing else.
+                keyListener = DigitsKeyListener.getInstance("0123456789.,-+")
+                setRawInputType(NUMBER)
+            }
             // A keyboard that took the whole screen would hide STOP.
             imeOptions = EditorInfo.IME_ACTION_DONE or EditorInfo.IME_FLAG_NO_EXTRACT_UI or
                 EditorInfo.IME_FLAG_NO_FULLSCREEN

@@ -102,6 +102,8 @@ internal class MainActivity :
     override fun onStart() {
         super.onStart()
         bindService(Intent(this, BoatService::class.java), connection, Context.BIND_AUTO_CREATE)
+        // A boat may have been paired in Android's settings meanwhile.
+        if (trail.last() == ScreenName.LINK) screens[ScreenName.LINK]?.opened()
         main.post(refresh)
     }
 
@@ -197,7 +199,9 @@ internal class MainActivity :
     }
 
     override fun connect(choice: LinkChoice) {
-        startForegroundService(BoatService.startIntent(this, choice))
+        val intent = BoatService.startIntent(this, choice)
+        // The virtual boat needs no permission, and from Android 14 on the foreground does.
+        if (choice is LinkChoice.Demo) startService(intent) else startForegroundService(intent)
     }
 
     private fun stop() {
@@ -209,7 +213,9 @@ internal class MainActivity :
         if (isRefusedForGood) {
             leave(Intent(Settings.ACTION_APPLICATION_DETAILS_SETTINGS, ownUri()))
         } else {
-            requestPermissions(Preflight.missingPermissions(this).toTypedArray(), PERMISSIONS)
+            // Given a moment ago: Android does not take a request for nothing.
+            val asked = Preflight.permissionsToAsk(this)
+            if (asked.isNotEmpty()) requestPermissions(asked.toTypedArray(), PERMISSIONS)
         }
     }
 

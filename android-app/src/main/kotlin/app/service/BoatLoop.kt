@@ -1,6 +1,8 @@
 package stillwater.app.service
 
+import android.Manifest
 import android.content.Context
+import android.content.pm.PackageManager
 import android.os.Handler
 import android.os.SystemClock
 import stillwater.app.R
@@ -109,6 +111,10 @@ internal class BoatLoop(
         begun()
     }
 
+    /** Whether [choice] is a virtual boat in place of a real one, or the other way round, while a mission is under way. */
+    fun isOtherWorld(choice: LinkChoice): Boolean =
+        missions.isUnderWay && held.link != null && (choice is LinkChoice.Demo) != (demo != null)
+
     private fun holdDemo() {
         val fresh = DemoBoat(context.getString(R.string.demo), missions.spec)
         demo = fresh
@@ -193,6 +199,7 @@ internal class BoatLoop(
             listen()
         }
         if (ticks++ % LOOK_TICKS == 0L || held.link == null) {
+            if (held.link != null) listenAgain()
             missions.closeAgain()
             look(now)
         }
@@ -209,6 +216,15 @@ internal class BoatLoop(
             phone.stop()
             listens = false
         }
+    }
+
+    /** With a link, too, a permission that is given meanwhile counts from then on. */
+    private fun listenAgain() {
+        if (pose.problem != PoseProblem.NOT_PERMITTED) return
+        val given = context.checkSelfPermission(Manifest.permission.ACCESS_FINE_LOCATION)
+        if (given != PackageManager.PERMISSION_GRANTED) return
+        pose.stop()
+        pose.start(handler)
     }
 
     /** Whatever a board was told before this connection, by a process that died perhaps: it is over. */

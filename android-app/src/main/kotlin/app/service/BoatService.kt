@@ -94,13 +94,15 @@ open class BoatService :
     override fun onStartCommand(intent: Intent?, flags: Int, startId: Int): Int {
         if (intent?.action == STOP) {
             stopBoat()
-            return START_NOT_STICKY
+            // A link that stays, because a mission was under way, is taken up again after the process died.
+            return START_STICKY
         }
         // Android ends an app that does not say so within seconds, whatever comes after.
         loop.activity = if (intent == null) BoatActivity.RECOVERED else BoatActivity.STANDING_BY
-        if (!enterForeground(BoatSnapshot(loop.activity))) return START_NOT_STICKY
+        val asked = intent?.let(LinkChoice::of)
+        if (!enterForeground(BoatSnapshot(loop.activity), asked is LinkChoice.Demo)) return START_NOT_STICKY
         loop.refusal = null
-        handler.post { begin(intent?.let(LinkChoice::of)) }
+        handler.post { begin(asked) }
         return START_STICKY
     }
 
@@ -140,7 +142,8 @@ open class BoatService :
         handler.post { loop.work() }
     }
 
-    private fun enterForeground(first: BoatSnapshot): Boolean =
+    /** Whether the service may go on; [isDemo], which nobody trusts a boat to, does without the foreground. */
+    private fun enterForeground(first: BoatSnapshot, isDemo: Boolean): Boolean =
         try {
             foreground(notification.of(first))
             true
@@ -149,7 +152,7 @@ open class BoatService :
             refused(error)
         } catch (error: SecurityException) {
             // From Android 14 on: a permission that one of the types asks for is missing.
-            refused(error)
+            isDemo || refused(error)
         }
 
     /** What Android may refuse, and a test's service does. */
@@ -184,6 +187,11 @@ open class BoatService :
         if (choice == null) {
             // Nothing was held when the process ended, so there is nothing to take up.
             stopBoat()
+            return
+        }
+        if (asked != null && loop.isOtherWorld(asked)) {
+            // A board must not be armed by what a virtual one was, nor left alone on the water.
+            loop.command { Answer(Answer.Reason.UNDER_WAY) }
             return
         }
         LinkChoice.keep(kept, choice)

@@ -197,6 +197,16 @@ internal class Preflight(private val context: Context) {
                 if (Build.VERSION.SDK_INT >= Build.VERSION_CODES.TIRAMISU) add(Manifest.permission.POST_NOTIFICATIONS)
             }
 
+        /**
+         * What to ask for: what is missing, and the coarse place with the fine one, without which some releases of
+         * Android 12 ignore the request.
+         */
+        fun permissionsToAsk(context: Context): List<String> {
+            val missing = missingPermissions(context)
+            val isPlace = Manifest.permission.ACCESS_FINE_LOCATION in missing
+            return if (isPlace) missing + Manifest.permission.ACCESS_COARSE_LOCATION else missing
+        }
+
         /** Those of [neededPermissions] that are not given. */
         fun missingPermissions(context: Context): List<String> =
             neededPermissions().filter { context.checkSelfPermission(it) != PackageManager.PERMISSION_GRANTED }

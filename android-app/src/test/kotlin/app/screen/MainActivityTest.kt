@@ -1,5 +1,6 @@
 package stillwater.app.screen
 
+import android.Manifest
 import android.app.Application
 import android.content.pm.PackageManager
 import android.content.res.Configuration
@@ -26,6 +27,7 @@ import stillwater.mission.DraftField
 import stillwater.mission.MissionDraft
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
+import kotlin.test.assertSame
 import kotlin.test.assertTrue
 
 @RunWith(RobolectricTestRunner::class)
@@ -107,7 +109,8 @@ class MainActivityTest {
         activity.show(snapshot)
         activity.button(context.getString(R.string.allow)).performClick()
         val all = Preflight.neededPermissions()
-        assertEquals(all, shadowOf(activity).lastRequestedPermission.requestedPermissions.toList(), "all at once")
+        val request = shadowOf(activity).lastRequestedPermission.requestedPermissions.toList()
+        assertEquals(all + Manifest.permission.ACCESS_COARSE_LOCATION, request, "all at once")
         val asked = all.toTypedArray()
         // Refused once: Android would still say why it asks, so the app asks again.
         asked.forEach { shadowOf(context.packageManager).setShouldShowRequestPermissionRationale(it, true) }
@@ -129,6 +132,10 @@ class MainActivityTest {
         assertEquals(emptyList(), Preflight.missingPermissions(context))
         activity.show(Scenes.loaded)
         assertTrue("All in order" in activity.wordsShown())
+        // Pressed once more while the line was still red: Android throws where nothing is asked for.
+        val before = shadowOf(activity).lastRequestedPermission
+        activity.allow()
+        assertSame(before, shadowOf(activity).lastRequestedPermission)
     }
 
     /** Views are the same on all Androids: what comes and goes, and what unfolds, on one. */

@@ -2,6 +2,7 @@ package stillwater.app.service
 
 import android.app.Application
 import android.app.NotificationManager
+import android.app.Service
 import android.os.Looper
 import org.junit.After
 import org.junit.Before
@@ -274,6 +275,28 @@ class MissionServiceTest {
         desk.pass(1.0)
         assertTrue(assertNotNull(desk.report.log).isClosed)
         assertEquals(emptyList(), waited)
+    }
+
+    @Test
+    fun aBoatUnderWayIsNotLeftForAVirtualOne() {
+        survey()
+        val board = desk.snapshot.linkName
+        desk.service.onStartCommand(BoatService.startIntent(context, LinkChoice.Demo), 0, 2)
+        desk.pass(1.0)
+        assertEquals(board, desk.snapshot.linkName)
+        assertFalse(desk.snapshot.isDemo)
+        assertEquals(Answer(Answer.Reason.UNDER_WAY), desk.snapshot.answer)
+        assertEquals(MissionState.Surveying, desk.state)
+        assertTrue(desk.until(5.0) { !desk.boat.board.actuation.isAtRest }, "it sails on")
+    }
+
+    @Test
+    fun afterStopTheServiceIsStillOneThatAndroidStartsAgain() {
+        survey()
+        val answer = desk.service.onStartCommand(BoatService.stopIntent(context), 0, 2)
+        assertEquals(Service.START_STICKY, answer)
+        desk.pass(1.0)
+        assertTrue(desk.snapshot.linkName != null, "the link stays, to tell the board to rest")
     }
 
     private fun survey() {

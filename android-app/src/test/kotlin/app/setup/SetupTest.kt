@@ -214,7 +214,9 @@ class SetupTest {
         assertTrue("✗ '91' is not a latitude between -90 and 90" in activity.wordsShown(), "${activity.wordsShown()}")
         assertTrue("✗ 'east' is not a longitude between -180 and 360" in activity.wordsShown())
         assertTrue(activity.desk.draft.shore.isEmpty())
-        latitude.setText("45,33")
+        // As keys do it: some keyboards have a comma only, and what they send is filtered.
+        latitude.text.clear()
+        latitude.append("45,33")
         longitude.setText("-73.15")
         press(R.id.add_coordinates)
         assertEquals(45.33, activity.desk.draft.origin?.latitude)
