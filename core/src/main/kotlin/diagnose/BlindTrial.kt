@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.abs
+import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
@@ -35,8 +36,7 @@ internal class BlindTrial(
     fun instead(score: Double): BlindTrial = atMost(ratio + score / inflation)
 
     /** This trial, as sure as it is, where others are held against a model whose score is lower by [score]. */
-    fun among(score: Double) =
-        changed(ratio + score / inflation, pValue)
+    fun among(score: Double) = changed(ratio + score / inflation, pValue)
 
     /** This trial where its p-value is too small by [times]. */
     fun lessSure(times: Double) = changed(ratio, minOf(1.0, times * pValue))
@@ -233,7 +233,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     }
 
     /** What the best of many places gains by chance, for [count] jumps. */
-    fun searched(count: Int): Double = count * 2 * kotlin.math.ln(minOf(PLACES, n / 10).toDouble())
+    fun searched(count: Int): Double = count * 2 * ln(minOf(PLACES, n / 10).toDouble())
 
     private fun place(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
         fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })

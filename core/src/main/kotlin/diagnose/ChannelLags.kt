@@ -19,11 +19,14 @@ public class ChannelLag internal constructor(
 
     /** Where the delay lies at 95 %, s; null where none is seen. */
     public val interval: Interval? get() =
-        if (isSeen) Interval(maxOf(delay - REACH * error, 0.0), delay + REACH * error) else null
+        if (isSeen) ends(delay, error) else null
 
     internal companion object {
-        /** Standard errors to either end of an interval. */
-        const val REACH = 1.96 * BlindAnswer.WIDER
+        /** The interval of 95 % about a delay of [seconds] with the standard error [error], s. */
+        fun ends(seconds: Double, error: Double): Interval {
+            val reach = BlindAnswer.REACH * error
+            return Interval(maxOf(seconds - reach, 0.0), seconds + reach)
+        }
     }
 }
 
@@ -48,8 +51,7 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
     /** Where [own] lies at 95 %, s. */
     public val ownInterval: Interval? = own?.let {
         val other = checkNotNull(quickest).error
-        val error = ChannelLag.REACH * sqrt(first.error * first.error + other * other)
-        Interval(maxOf(it - error, 0.0), it + error)
+        ChannelLag.ends(it, sqrt(first.error * first.error + other * other))
     }
 
     public companion object {

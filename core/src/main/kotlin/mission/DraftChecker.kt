@@ -45,7 +45,7 @@ internal class DraftChecker(private val draft: MissionDraft) {
     }
 
     private fun number(field: DraftField): Double? {
-        val text = draft.text(field).trim().replace(',', '.')
+        val text = draft.numeral(field)
         if (text.isEmpty()) {
             if (!field.optional) problems[field] = "a number is needed here"
             return null

@@ -53,6 +53,9 @@ public data class MissionDraft(
     public fun text(field: DraftField): String =
         if (field == DraftField.NAME) name else texts[field] ?: field.start.orEmpty()
 
+    /** The number in [field] as typed, with a point where a comma was: what a program reads. */
+    internal fun numeral(field: DraftField): String = text(field).trim().replace(',', '.')
+
     /** With [text] in [field]. */
     public fun with(field: DraftField, text: String): MissionDraft =
         if (field == DraftField.NAME) copy(name = text) else copy(texts = texts + (field to text))
@@ -96,10 +99,7 @@ public data class MissionDraft(
      */
     public fun measuring(json: String): MissionDraft {
         if (!json.contains("\"stages\"")) return measuring(ProbeSpec.fromJson(json))
-        val (low, high) = listOf(DraftField.LOWEST, DraftField.HIGHEST).map {
-            text(it).replace(',', '.').toDoubleOrNull()
-                ?: 0.0
-        }
+        val (low, high) = listOf(DraftField.LOWEST, DraftField.HIGHEST).map { numeral(it).toDoubleOrNull() ?: 0.0 }
         val seconds = SensorSpec.fromJson(json).slowestResponse(low, if (high > low) high else low + 1)
         return with(DraftField.SLOWEST, written(seconds))
     }

@@ -47,7 +47,7 @@ class CorrectCommand : WorkCommand("correct") {
         "--unit",
         metavar = "TEXT",
         help = "unit of the readings, for figures and tables; with several --value one for each, in their order",
-    ).convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }.multiple()
+    ).unit().multiple()
     private val heldOut by option(
         "--held-out",
         help = "also learn on some legs and score the correction on the others; takes five times as long",

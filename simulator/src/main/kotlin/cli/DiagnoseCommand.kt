@@ -5,7 +5,6 @@ import com.github.ajalt.clikt.core.terminal
 import com.github.ajalt.clikt.parameters.arguments.argument
 import com.github.ajalt.clikt.parameters.arguments.help
 import com.github.ajalt.clikt.parameters.groups.provideDelegate
-import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.multiple
@@ -51,8 +50,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         help = "sensor spec (JSON) as it is believed to be, taken as given; without a --reference its time constant " +
             "alone is looked at. Without this a first-order lag is fitted",
     )
-    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables")
-        .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
+    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for figures and tables").unit()
     private val numbersOnly by option(
         "--numbers-only",
         help = "no figures, no report and no comparison of maps",

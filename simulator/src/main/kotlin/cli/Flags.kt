@@ -33,6 +33,11 @@ fun RawOption.wholeNumber(expected: String, accepts: (Int) -> Boolean): Nullable
     text.toIntOrNull()?.takeIf(accepts) ?: throw BadFlag(name, expected, "'$text'")
 }
 
+/** A unit of readings, as it is to be written. */
+fun RawOption.unit(): NullableOption<String, String> = convert { text ->
+    text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") }
+}
+
 /** Two finite numbers written with [separator] between them, the first below the second unless [anyOrder]. */
 fun RawOption.numberPair(
     separator: Char,

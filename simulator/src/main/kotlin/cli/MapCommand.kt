@@ -83,8 +83,7 @@ class MapCommand : WorkCommand("map") {
         metavar = "FROM:TO",
         help = "stretch for --epsilon auto, seconds after the first reading; without it the quietest",
     ).numberPair(':', "FROM:TO, two times in seconds, the first below the second") { from, to -> from < to }
-    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for legends and tables")
-        .convert { text -> text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") } }
+    private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for legends and tables").unit()
     private val quiet by option("--quiet", help = "no progress bar and no table").flag()
     private val json by option("--json", help = "print a summary as JSON instead of a table").flag()
 

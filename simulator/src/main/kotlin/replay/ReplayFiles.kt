@@ -44,7 +44,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
             put("mission", replayed.spec.name)
             put("quantity", replayed.spec.probe.quantity.label)
             put("unit", replayed.spec.probe.quantity.unit)
-            put("estimator", replayed.spec.estimator.name.lowercase().replace('_', '-'))
+            put("estimator", replayed.spec.estimator.label)
             put("ended", replayed.mission.state.word)
             put("why", Decisions.why(replayed.mission.state))
             put("steps", replayed.decisions.steps)

@@ -2,7 +2,6 @@ package stillwater.app.service
 
 import android.Manifest
 import android.content.Context
-import android.content.pm.PackageManager
 import android.os.Handler
 import android.os.SystemClock
 import stillwater.app.R
@@ -221,8 +220,7 @@ internal class BoatLoop(
     /** With a link, too, a permission that is given meanwhile counts from then on. */
     private fun listenAgain() {
         if (pose.problem != PoseProblem.NOT_PERMITTED) return
-        val given = context.checkSelfPermission(Manifest.permission.ACCESS_FINE_LOCATION)
-        if (given != PackageManager.PERMISSION_GRANTED) return
+        if (Manifest.permission.ACCESS_FINE_LOCATION in Preflight.missingPermissions(context)) return
         pose.stop()
         pose.start(handler)
     }
