@@ -82,7 +82,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
-        OutputDirectory(Path.of(out), listOf(Path.of(log))).use { directory ->
+        OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference, compare.distinct())
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
