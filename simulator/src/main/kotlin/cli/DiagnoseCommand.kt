@@ -89,8 +89,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             }
             val shown = !quiet && !json
             val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
-                val settings = DiagnosisSettings(base = given)
-                Diagnosis(read.series, settings) { progress.advance((it * WHOLE).toLong()) }.run()
+                diagnosis(read, given) { progress.advance((it * WHOLE).toLong()) }.run()
             }
             val isShown = shown && read.isCompared
             val channels = WorkProgress(terminal, "comparing channels", unit = "%", WHOLE, isShown).use { progress ->
@@ -108,6 +107,12 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                 }
             }
         }
+    }
+
+    private fun diagnosis(read: DiagnosisLog, given: SensorSpec?, progress: (Double) -> Unit) = try {
+        Diagnosis(read.series, DiagnosisSettings(base = given), progress)
+    } catch (wrong: IllegalArgumentException) {
+        throw failure("--sensor $sensor: ${wrong.message}")
     }
 
     /** Whether the base is the sensor given: one that could not be used stands for nothing. */
