@@ -75,7 +75,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it }) +
             compare.map { DiagnosisLog.compared(it) to it }
-        val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
+        // Beside a reference the probe need not have been anywhere: on a bench it is put from one sample into another.
+        val choice = logOptions.choice().copy(conditions = wanted, needsPlace = reference == null)
+        val opened = SurveyLog.open(Path.of(log), choice)
         compare.firstOrNull { it == opened.quantity }?.let {
             throw BadFlag("--compare", "another column than the readings'", "'$it'")
         }
