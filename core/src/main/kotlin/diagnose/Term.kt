@@ -4,12 +4,14 @@ package stillwater.diagnose
  * A cause as a term of a model.
  *
  * @property cause the cause. @property condition the condition it depends on, where it names one.
- * @property times when it acts, s after the first row, for jumps.
+ * @property times when it acts, s after the first row, for jumps. @property isEitherWay whether a dead time may be below
+ * 0, because the reference is late.
  */
 internal data class Term(
     val cause: Cause,
     val condition: String? = null,
     val times: List<Double> = emptyList(),
+    val isEitherWay: Boolean = false,
 ) {
     /** What tells terms of one cause apart: jumps of another time are the same term. */
     val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
