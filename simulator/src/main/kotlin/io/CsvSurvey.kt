@@ -236,7 +236,8 @@ internal class CsvSurvey private constructor(
             var y = if (northColumn == CsvColumns.NONE) 0.0 else numbers[NORTH]
             if (inDegrees) {
                 if (x == 0.0 && y == 0.0) return skips.count("positions without a fix (0, 0)")
-                (frame ?: LocalFrame(LatLon(y, x)).also { frame = it }).toLocal(y, x, local)
+                // With a frame, the look at the reach has put the place into local.
+                if (frame == null) frame = LocalFrame(LatLon(y, x)).also { it.toLocal(y, x, local) }
                 x = local[0]
                 y = local[1]
             }
