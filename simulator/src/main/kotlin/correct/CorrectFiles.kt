@@ -17,6 +17,7 @@ import stillwater.report.OutputDirectory
 import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.Table
+import stillwater.report.putOrigin
 import stillwater.report.writeFigures
 
 /**
@@ -102,6 +103,7 @@ class CorrectFiles(
         put("log", result.log.file.toString())
         put("quantity", quantity)
         putJsonArray("columns") { columns.forEach { add(JsonPrimitive(it)) } }
+        putOrigin(result.log.frame)
         put("readings", result.series.size)
         put("other_rows", otherRows)
         putJsonObject("skipped") { result.pass.skipped.forEach { (reason, count) -> put(reason, count) } }

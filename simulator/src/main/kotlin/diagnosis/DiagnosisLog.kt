@@ -6,6 +6,7 @@ import stillwater.diagnose.MeasuredSeries
 import stillwater.io.LogPass
 import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
+import stillwater.model.LocalFrame
 import java.nio.file.Path
 
 /**
@@ -14,7 +15,8 @@ import java.nio.file.Path
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
  * truth,
  * or null. @property series its columns. @property pass what was read. @property missing rows left out for want of a
- * reference. @property cut rows at the end that were not looked at.
+ * reference. @property cut rows at the end that were not looked at. @property frame frame of its places, or null where
+ * the log has metres.
  */
 class DiagnosisLog private constructor(
     val file: Path,
@@ -26,6 +28,7 @@ class DiagnosisLog private constructor(
     val pass: LogPass,
     val missing: Int,
     val cut: Long,
+    val frame: LocalFrame?,
     private val compare: List<String> = emptyList(),
 ) {
     /** Whether there are columns to compare. */
@@ -81,6 +84,7 @@ class DiagnosisLog private constructor(
                 pass,
                 missing,
                 cut,
+                log.frame,
                 compare,
             )
         }

@@ -11,6 +11,7 @@ import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonObject
 import stillwater.estimate.SensorBelief
+import stillwater.report.putOrigin
 import java.nio.file.Path
 
 /** A [SurveyMap] for machines; numbers unrounded, null where there is none. */
@@ -51,12 +52,7 @@ object MapJson {
         putJsonObject("skipped") { map.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
         statistics(map)
         grid(map)
-        map.log.frame?.let { frame ->
-            putJsonObject("origin") {
-                put("lat_deg", frame.origin.latitudeDeg)
-                put("lon_deg", frame.origin.longitudeDeg)
-            }
-        }
+        putOrigin(map.log.frame)
         putJsonObject("prior") {
             put("lower", map.prior.lower)
             put("upper", map.prior.upper)
