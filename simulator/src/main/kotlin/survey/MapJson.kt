@@ -69,6 +69,7 @@ object MapJson {
                 put("found_per_s", number(calibration.found))
             }
         }
+        map.interval?.let { put("interval_assumes", it.json()) }
         map.learned?.let { put("sensor", sensor(it.sensor())) }
         putJsonObject("filters") {
             map.maps.forEach { (kind, field) ->
@@ -76,7 +77,7 @@ object MapJson {
                     put("outside", field.outside)
                     put("rejected", field.rejected)
                     put("conflicts", (0 until field.grid.size).sumOf { field.conflicts(it).toLong() })
-                    if (kind.givesBounds) cells(BoundCounts.of(field))
+                    if (kind.givesBounds) cells(BoundCounts.of(field, kind))
                 }
             }
         }
@@ -104,6 +105,7 @@ object MapJson {
         put(CellStatus.BOTH.label, counts.both)
         put(CellStatus.CROSSED.label, counts.crossed)
         put(CellStatus.ONE_SIDED.label, counts.oneSided)
+        put(CellStatus.MEASURED.label, counts.measured)
         put(CellStatus.NONE.label, counts.none)
     }
 
