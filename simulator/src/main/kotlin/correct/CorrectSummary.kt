@@ -156,6 +156,7 @@ internal class CorrectSummary(
     /** What the user should know, one line each. */
     val warnings: List<String>
         get() = buildList {
+            addAll(result.pass.warnings)
             when {
                 result.origin == SensorOrigin.NOTHING -> add(
                     "${silence()}, so that nothing shows how the sensor responds: the values are smoothed only; " +
