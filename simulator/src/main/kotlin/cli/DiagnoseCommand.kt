@@ -85,13 +85,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
-<<<<<<< HEAD
-        OutputDirectory(Path.of(out), listOf(Path.of(log))).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
-=======
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference, compare.distinct())
->>>>>>> main
+            val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }

@@ -139,6 +139,8 @@ class CorrectFiles(
         }
         result.before?.let { put("opposite_legs_before", finite(it.opposite.mean)) }
         result.after?.let { put("opposite_legs_after", finite(it.opposite.mean)) }
+        // The readings smoothed in the same way with no lag undone.
+        result.smoothed?.let { put("opposite_legs_smoothed", finite(it.opposite.mean)) }
         heldOut?.let { scores ->
             putJsonArray("held_out") {
                 for (score in scores) {
@@ -147,10 +149,12 @@ class CorrectFiles(
                         put("legs", score.legs)
                         put("opposite_legs_before", finite(score.before))
                         put("opposite_legs_after", finite(score.after))
+                        put("opposite_legs_smoothed", finite(score.smoothed))
                         score.passes?.let {
                             put("pairs_of_passes", it.pairs)
                             put("passes_rms_before", it.before)
                             put("passes_rms_after", it.after)
+                            put("passes_rms_smoothed", finite(it.smoothed))
                         }
                     }
                 }
