@@ -228,8 +228,8 @@ class CorrectFiles(
         private val HOW = listOf(
             "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
                 "response is undone in phase only, and short runs of the track are foretold from the other passes " +
-                "near them; the better they agree, the higher its score. Each group of runs is scored with parameters " +
-                "one Newton step from the best ones towards what the other groups alone would give; how rough the " +
+                "near them; the better they agree, the higher its score. Each group of runs is scored with " +
+                "parameters one Newton step from the best ones towards what the other groups alone would give; how rough the " +
                 "water is was learned from all of them.",
             "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
                 "from the scatter between groups of neighbouring runs. What is not ruled out stays open, and the " +

@@ -122,7 +122,7 @@ internal class CorrectSummary(
         val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
         return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
             "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words" +
-            (if (plain != null) " than measured, ${lessOrMore(1 - after.opposite.mean / plain)} than smoothed)" else ")")
+            plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }.orEmpty() + ")"
     }
 
     private fun lessOrMore(change: Double) =

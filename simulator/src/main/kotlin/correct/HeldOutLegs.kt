@@ -20,8 +20,8 @@ data class HeldOutPasses(
  *
  * @property learnedOn legs it was learned on, in words. @property legs number of legs scored.
  * @property before mean mismatch of these legs as measured, sensor units. @property after as corrected, sensor units.
- * @property smoothed as the same smoother leaves them without undoing a lag, sensor units; NaN where it was not run: what
- * [after] is less than this is the lag's part of the gain, the rest is that noise was smoothed.
+ * @property smoothed as the same smoother leaves them without undoing a lag, sensor units; NaN where it was not run:
+ * what [after] is less than this is the lag's part of the gain, the rest is that noise was smoothed.
  * @property passes the same legs, each against the next one; null where they are not passes of one transect.
  */
 data class HeldOutScore(

@@ -40,8 +40,8 @@ class IntervalAssumption(
                 "off by more than ${value(settings.readingError)}, the step of the log's values, without noise"
             ErrorOrigin.NONE -> "off at all, for no error was given and the values have no step"
         }
-        return "bounds hold the water's value if the sensor is no slower than $slowest ($given), no reading is $error, " +
-            "and the water is even within a cell"
+        return "bounds hold the water's value if the sensor is no slower than $slowest ($given), no reading is " +
+            "$error, and the water is even within a cell"
     }
 
     /** What to tell a user who has not given all of it; null where all is given. [value] as for [sentence]. */
@@ -51,14 +51,14 @@ class IntervalAssumption(
             when (errorOrigin) {
                 ErrorOrigin.GIVEN -> null
                 ErrorOrigin.RESOLUTION ->
-                    "readings off by no more than ${value(settings.readingError)}, the step of the log's values, which " +
-                        "leaves no room for noise (--reading-error)"
+                    "readings off by no more than ${value(settings.readingError)}, the step of the log's values, " +
+                        "which leaves no room for noise (--reading-error)"
                 ErrorOrigin.NONE -> "readings without any error (--reading-error)"
             },
         )
         if (assumed.isEmpty()) return null
-        return "the interval filter's bounds assume what nobody gave: ${assumed.joinToString(" and ")}; where that is " +
-            "not so they may miss the water's value"
+        return "the interval filter's bounds assume what nobody gave: ${assumed.joinToString(" and ")}; where that " +
+            "is not so they may miss the water's value"
     }
 
     /** The same for machines. */

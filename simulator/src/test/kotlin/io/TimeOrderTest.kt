@@ -76,7 +76,7 @@ class TimeOrderTest {
         line(0, "\"date\":\"Thu May 19\",\"time\":1463679383361") + (1..40).joinToString("") { i ->
             val at = "[${592_300 + i},4481762.0,252],\"q\":[1,0,0,0]"
             line(1000 * i + shift(i, false), "\"pose\":{\"p\":$at,\"zone\":\"17North\"}") +
-                line(1000 * i + 500 + shift(i, true), "\"sensor\":{\"channel\":1,\"type\":\"ATLAS_DO\",\"data\":[7.$i]}")
+                line(1000 * i + 500 + shift(i, true), "\"sensor\":{\"channel\":1,\"type\":\"ATLAS_DO\",\"data\":[$i]}")
         },
         LogChoice(skipBadRows = true),
     )
