@@ -81,7 +81,7 @@ class FieldConditionsTest {
             val values = lagged(water::at).also { for (i in it.indices) it[i] += 0.01 * random.nextGaussian() }
             var patch = 0.0
             val beside = DoubleArray(n) { i ->
-                patch = 0.7 * patch + 0.02 * random.nextGaussian()
+                patch = 0.7 * patch + 0.05 * random.nextGaussian()
                 water.at(i.toDouble()) + patch
             }
             val verdict = diagnosed(values, beside).verdict

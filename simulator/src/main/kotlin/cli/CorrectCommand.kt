@@ -102,11 +102,12 @@ class CorrectCommand : WorkCommand("correct") {
         }
         for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
         OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
+            val places = CorrectFiles.places(logs.map { it.quantity })
             val files = CorrectOutput(
                 logs.mapIndexed { i, opened ->
                     val result = corrected(opened, spec)
                     val scores = if (heldOut) result.heldOut(between) else null
-                    CorrectFiles(result, units.getOrNull(i), commandLine(), scores, logs.size == 1)
+                    CorrectFiles(result, units.getOrNull(i), commandLine(), scores, places[i])
                 },
             )
             files.write(directory)

@@ -35,8 +35,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         help = "column with the truth up to noise: a fast sensor, or known samples on a bench",
     )
     private val conditions by conditions(
-        "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own causes. " +
-            "Repeatable",
+        "further quantity; speed (m/s), temperature (degrees Celsius) and heading are looked at as such. Headings " +
+            "are degrees if the column's name says so (heading_deg) or one is beyond a full turn of radians, and " +
+            "radians if not. Repeatable",
     )
     private val compare by option(
         "--compare",
@@ -85,7 +86,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference, compare.distinct())
+            val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }

@@ -166,6 +166,8 @@ class MapCommand : WorkCommand("map") {
         boundedFilter = filterOptions.applied(MapSettings().boundedFilter),
         unit = unit,
         lagFilters = lagOptions.applied(LagFilterSettings()),
+        slowestGiven = lagOptions.slowestGiven,
+        readingErrorGiven = lagOptions.readingErrorGiven,
     )
 
     private fun commandLine(): String {

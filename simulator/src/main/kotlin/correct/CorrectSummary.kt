@@ -117,16 +117,24 @@ internal class CorrectSummary(
         val after = result.after
         if (before == null || after == null || !(before.opposite.mean > 0)) return "none to compare"
         val change = 1 - after.opposite.mean / before.opposite.mean
-        val words = if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
-        return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, " +
-            "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words)"
+        val words = lessOrMore(change)
+        val plain = result.smoothed?.opposite?.mean
+        val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
+        return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
+            "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words" +
+            plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }.orEmpty() + ")"
     }
+
+    private fun lessOrMore(change: Double) =
+        if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
 
     private fun heldOut(scores: List<HeldOutScore>): String {
         if (scores.isEmpty()) return "fewer than ${HeldOutLegs.FEWEST} legs, or no sensor learned from them"
         val each = scores.joinToString { "${percent(it.gain)} learned on ${it.learnedOn}" }
         val mean = percent(scores.sumOf { it.gain } / scores.size)
-        return "legs not learned on differ by $mean less on average ($each)"
+        val lag = scores.map { it.lagGain }.filter { it.isFinite() }
+        val ofLag = if (lag.isEmpty()) "" else "; than smoothed alike with no lag undone, ${lessOrMore(lag.average())}"
+        return "legs not learned on differ by $mean less on average ($each)$ofLag"
     }
 
     /** Root mean square differences of successive passes; null where the legs are no passes of one transect. */
@@ -135,7 +143,12 @@ internal class CorrectSummary(
         if (found.isEmpty()) return null
         fun mean(of: (HeldOutPasses) -> Double) = digits(found.sumOf { of(it.second) } / found.size, 3)
         val each = found.joinToString { (words, score) -> "${digits(score.after, 3)} learned on $words" }
-        return "rms ${mean { it.before }}$unitAfter as measured, " +
+        val smoothed = if (found.any { it.second.smoothed.isNaN() }) {
+            ""
+        } else {
+            "${mean { it.smoothed }}$unitAfter smoothed alike with no lag undone, "
+        }
+        return "rms ${mean { it.before }}$unitAfter as measured, $smoothed" +
             "${mean { it.after }}$unitAfter corrected on average ($each)"
     }
 
@@ -156,6 +169,7 @@ internal class CorrectSummary(
     /** What the user should know, one line each. */
     val warnings: List<String>
         get() = buildList {
+            addAll(result.pass.warnings)
             when {
                 result.origin == SensorOrigin.NOTHING -> add(
                     "${silence()}, so that nothing shows how the sensor responds: the values are smoothed only; " +

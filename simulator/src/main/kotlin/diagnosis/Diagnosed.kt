@@ -47,7 +47,9 @@ class Diagnosed(
     val warnings: List<String> = buildList {
         addAll(result.warnings)
         channels?.let { add(ChannelWording.of(it)) }
+        log.heading?.let { add(it.sentence) }
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
+        for (warning in log.pass.warnings) add("${warning.replaceFirstChar { it.uppercase() }}.")
         if (log.missing > 0) {
             add("${log.missing} rows left out: no number in the column ${log.reference}.")
             add(

@@ -44,18 +44,20 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
 
     /**
      * Writes all rows to [out], which is closed. Logs that are not CSV get a row a reading with the columns time_s,
-     * x_m, y_m and the quantity.
+     * lat_deg and lon_deg where the log knows them, x_m, y_m and the quantity.
      *
      * @return for each part the number of rows written that are no reading of it; what it adds to them is empty.
      */
     fun write(out: OutputStream): List<Long> = if (parts[0].log is CsvSurvey) csv(out) else plain(out, parts[0])
 
     private fun plain(out: OutputStream, part: AddedColumns): List<Long> {
+        val globe = GlobeColumns(part.log.frame)
         writer(out).use { writer ->
-            writer.writeRecord(listOf("time_s", "x_m", "y_m", part.log.quantity) + part.names)
+            writer.writeRecord(listOf("time_s") + globe.names + listOf("x_m", "y_m", part.log.quantity) + part.names)
             for (k in part.times.indices) {
-                val own = listOf(part.times[k], part.xs[k], part.ys[k], part.values[k]).map { it.toString() }
-                writer.writeRecord(own + part.cells(k))
+                val place = globe.cells(part.xs[k], part.ys[k])
+                val own = listOf(part.xs[k], part.ys[k], part.values[k]).map { it.toString() }
+                writer.writeRecord(listOf(part.times[k].toString()) + place + own + part.cells(k))
             }
         }
         return listOf(0)

@@ -24,6 +24,9 @@ internal class BoundedLines(private val text: Reader, private val longest: Int =
         return coming != null
     }
 
+    /** The line that [next] would give, which stays; null at the end. */
+    fun peek(): String? = if (hasNext()) coming else null
+
     override fun next(): String {
         if (!hasNext()) throw NoSuchElementException()
         return checkNotNull(coming).also { coming = null }

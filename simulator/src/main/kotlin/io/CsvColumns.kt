@@ -25,8 +25,12 @@ internal data class CsvColumns(
     companion object {
         const val NONE = -1
         private val TIMES = listOf("time_s", "unix_time_s")
-        private const val LATITUDE = "lat_deg"
-        private const val LONGITUDE = "lon_deg"
+
+        /** Latitude, degrees north. */
+        const val LATITUDE = "lat_deg"
+
+        /** Longitude, degrees east. */
+        const val LONGITUDE = "lon_deg"
         private const val X = "x_m"
         private const val Y = "y_m"
         private val RECOGNISED = TIMES + listOf(LATITUDE, LONGITUDE, X, Y)
