@@ -32,20 +32,26 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
 
     /** Keeps a reading or interruption, see [ReadingTape.add]. Answers whether another fit holds from now on. */
     fun add(slot: Int, seconds: Double, value: Double, place: Byte = Crossings.EXACT): Boolean {
-        val wasBusy = parts.isBusy && !tape.hasRoom
-        if (wasBusy) parts.go(Double.POSITIVE_INFINITY)
+        val isLast = parts.isBusy && !tape.hasRoom
+        if (isLast) {
+            parts.go(Double.POSITIVE_INFINITY)
+            // One that was due meanwhile, too: it is the last chance.
+            learn(Double.POSITIVE_INFINITY)
+        }
         tape.add(slot, seconds, value, place)
-        return wasBusy
+        return isLast
     }
 
     /** Fits what is due, or a part of it. Answers whether another fit holds from now on, which has taken all readings. */
-    fun learn(): Boolean {
+    fun learn(): Boolean = learn(work)
+
+    private fun learn(most: Double): Boolean {
         if (!parts.isBusy) {
             if (!tape.isComplete || tape.size < nextFit) return false
             while (nextFit <= tape.size) nextFit += nextFit / 2
             parts.begin { decide() }
         }
-        parts.go(work)
+        parts.go(most)
         return !parts.isBusy
     }
 
@@ -76,7 +82,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
     private inner class Pair(settings: SelfCalibratingSettings, heedsBorders: Boolean) {
         var latest = SensorChoice(settings, Recording(tape, parts, heedsBorders))
             private set
-        private var next =
+        var next =
             if (work < Double.POSITIVE_INFINITY) SensorChoice(settings, Recording(tape, parts, heedsBorders)) else latest
 
         /** What is to be fitted. */
@@ -93,7 +99,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
 
     private companion object {
         /** Borders are heeded where so large a share of the stays has so many readings that are surely of its cell. */
-        const val MOST_STAYS = 0.95
+        const val MOST_STAYS = 0.9
         const val FEWEST_SURE = 2
 
         /** Time constant over that without borders heeded, and over the mean stay, beyond which they are not. */
