@@ -61,7 +61,7 @@ internal class CauseSearch(
         val inflation = inflation(base, best)
         val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
         // The best of so many places gains twice the logarithm of their number by chance.
-        val searched = if (places > 0) places * 2 * ln(minOf(PLACES, series.size / 10).toDouble()) else 0.0
+        val searched = if (places > 0) places * 2 * ln((series.size / 10).coerceIn(1, PLACES).toDouble()) else 0.0
         val gain = best.score - base.score
         val ratio = maxOf(gain / inflation - searched, 0.0)
         // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
@@ -75,7 +75,9 @@ internal class CauseSearch(
             gained = HeldOut.gainWhereTheyAct(best, base, root, used)
         }
         val worth = gain - cost
-        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
+        // Where a log has no place for a jump nothing is added.
+        val added = if (best === base) term else best.model.terms.last()
+        return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {

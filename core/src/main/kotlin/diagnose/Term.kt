@@ -37,6 +37,9 @@ internal data class Parameter(
     /** Whether [value] is at the upper end. */
     fun atUpper(value: Double) = value >= upper - CLOSE * (if (logarithmic) upper else minOf(upper - lower, 1.0))
 
+    /** The lower end of an interval at [value]; a dead time and a share are not below 0, whatever the errors. */
+    fun possible(value: Double) = if (lower == 0.0) maxOf(value, 0.0) else value
+
     private companion object {
         const val CLOSE = 1e-6
     }

@@ -40,7 +40,8 @@ public class CandidateResponse internal constructor(
 
     /** Responses about the best one that together have the mean and the spread of what is likely. */
     internal fun likely(): List<Response> {
-        val scale = sqrt(axes.size.toDouble())
+        // The one in the middle counts as much as each of the others and has no spread.
+        val scale = sqrt(axes.size + 0.5)
         return listOf(response) + axes.flatMap { axis ->
             listOf(-scale, scale).map { side ->
                 val moved = parameters.indices.map {

@@ -1,5 +1,7 @@
 package stillwater.estimate
 
+import kotlin.math.ln
+import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -69,6 +71,20 @@ class ResponseChoiceTest {
         assertEquals(ResponseKind.LARGEST_SHARE, beyond.parameter(2))
         assertEquals(beyond.response.slowShare, beyond.parameter(2))
         assertEquals(40.0, beyond.parameter(1))
+    }
+
+    @Test
+    fun likelyResponsesSpreadAsTheFitIsUncertain() {
+        val axes = listOf(listOf(0.1, 0.05), listOf(-0.02, 0.2))
+        val errors = axes[0].indices.map { i -> sqrt(axes.sumOf { it[i] * it[i] }) }
+        val kind = ResponseKind.ASYMMETRIC
+        val two = CandidateResponse(kind, listOf(5.0, 2.0), errors, axes, 0.0, doubleArrayOf())
+        val drawn = two.likely().map { likely -> likely.lags.single().let { listOf(ln(it.rising), ln(it.falling)) } }
+        for (i in errors.indices) {
+            val mean = drawn.map { it[i] }.average()
+            assertEquals(ln(two.parameters[i]), mean, 1e-12)
+            assertEquals(errors[i], sqrt(drawn.map { (it[i] - mean) * (it[i] - mean) }.average()), 1e-12)
+        }
     }
 
     private companion object {

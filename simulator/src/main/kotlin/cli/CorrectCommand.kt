@@ -101,7 +101,7 @@ class CorrectCommand : WorkCommand("correct") {
             throw failure("--between: expected --held-out and a transect (--x without --y), found none")
         }
         for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
-        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
+        OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val files = CorrectOutput(
                 logs.mapIndexed { i, opened ->
                     val result = corrected(opened, spec)

@@ -110,7 +110,7 @@ class MapCommand : WorkCommand("map") {
         val spec = sensor?.let(SensorFile::read)
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
-        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
+        OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val map = read(opened, file, spec?.let { correction(opened, it) })
             val summary = MapSummary(map)
             val drawing = MapFiles(map, summary, commandLine()).write(directory)

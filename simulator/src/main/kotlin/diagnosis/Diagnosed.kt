@@ -100,7 +100,13 @@ class Diagnosed(
     fun number(estimate: Estimate): String {
         if (abs(estimate.value) >= NO_END) return "none"
         val three = SignificantDigits(3)
-        val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
+        val reach = estimate.interval?.let {
+            if (it.upper == Estimate.OPEN) {
+                " [above ${three.format(it.lower)}]"
+            } else {
+                " [${three.format(it.lower)}, ${three.format(it.upper)}]"
+            }
+        }.orEmpty()
         val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
         return "${three.format(estimate.value)}$reach$unit"
     }

@@ -62,7 +62,7 @@ internal object DiagnosisJson {
                 put("unit", estimate.unit)
                 put("value", number(estimate.value))
                 put("lower", number(estimate.interval?.lower ?: Double.NaN))
-                put("upper", number(estimate.interval?.upper ?: Double.NaN))
+                put("upper", number(estimate.interval?.upper?.takeIf { it < Estimate.OPEN } ?: Double.NaN))
             }
         }
     }

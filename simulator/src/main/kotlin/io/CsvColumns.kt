@@ -7,7 +7,7 @@ package stillwater.io
  * @property time column with the time.
  * @property latitude column with the latitude, or [NONE] where positions are in metres.
  * @property longitude column with the longitude, or [NONE].
- * @property x column with metres east, or [NONE] where positions are in degrees.
+ * @property x column with metres east, or [NONE] where positions are in degrees or there are none.
  * @property y column with metres north, or [NONE] where there is only x.
  * @property value column with the readings.
  * @property conditions columns of further quantities by name.
@@ -71,7 +71,9 @@ internal data class CsvColumns(
             }
             val x = if (inDegrees) NONE else choice.x?.let(::named) ?: recognised(X)
             val y = if (inDegrees) NONE else choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
-            if (!inDegrees && (x == NONE || (y == NONE && choice.x == null))) {
+            val hasPlace = inDegrees || (x != NONE && (y != NONE || choice.x != null))
+            val isBench = !choice.needsPlace && !inDegrees && x == NONE && y == NONE
+            if (!hasPlace && !isBench) {
                 throw problem(
                     null,
                     "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x",

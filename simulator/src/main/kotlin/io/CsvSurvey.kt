@@ -92,7 +92,8 @@ internal class CsvSurvey private constructor(
         val inDegrees = columns.latitude != CsvColumns.NONE
         slots[columns.value] = VALUE
         if (!inDegrees && columns.y != CsvColumns.NONE) slots[columns.y] = NORTH
-        slots[if (inDegrees) columns.longitude else columns.x] = EAST
+        val east = if (inDegrees) columns.longitude else columns.x
+        if (east != CsvColumns.NONE) slots[east] = EAST
         if (inDegrees) slots[columns.latitude] = NORTH
         slots[columns.time] = TIME
     }
@@ -231,8 +232,8 @@ internal class CsvSurvey private constructor(
         private fun use(row: CsvRow) {
             val numbers = row.numbers
             lastSeconds = numbers[TIME]
-            var x = numbers[EAST]
-            var y = if (oneDimensional) 0.0 else numbers[NORTH]
+            var x = if (eastColumn == CsvColumns.NONE) 0.0 else numbers[EAST]
+            var y = if (northColumn == CsvColumns.NONE) 0.0 else numbers[NORTH]
             if (inDegrees) {
                 if (x == 0.0 && y == 0.0) return skips.count("positions without a fix (0, 0)")
                 (frame ?: LocalFrame(LatLon(y, x)).also { frame = it }).toLocal(y, x, local)
