@@ -10,7 +10,8 @@ import kotlin.coroutines.resume
 /**
  * A computation that is done in parts: it says what it has done with [spend], and rests there once a part is used up.
  *
- * What it computes does not depend on where it rests. Each [begin] allocates, and each rest a little. Confined to one thread.
+ * What it computes does not depend on where it rests. Each [begin] allocates, and each rest a little. Confined to one
+ * thread.
  */
 internal class Parts {
     private var rest: Continuation<Unit>? = null

@@ -63,7 +63,7 @@ internal class ReadingTape(capacity: Int) {
     /** Whether there is room for another. */
     val hasRoom: Boolean get() = size < slots.size
 
-    /** Share of the stays among the first [among] of which [count] readings or more are surely of their cell; 0 for none. */
+    /** Share of the stays among the first [among] that have [count] readings surely of their cell; 0 for none. */
     fun shareOfStays(count: Int, among: Int): Double {
         var sure = 0
         var stays = 0

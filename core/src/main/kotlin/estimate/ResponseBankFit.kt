@@ -71,7 +71,8 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** As [other] is, but for what it knows of the cells. */
     fun becomeLike(other: ResponseBankFit) {
-        bank.reset(kind, other.bank.first, other.bank.firstStep, other.bank.second, other.bank.secondStep, other.noiseVariance)
+        val from = other.bank
+        bank.reset(kind, from.first, from.firstStep, from.second, from.secondStep, other.noiseVariance)
         slopeFirst = other.slopeFirst
         slopeSecond = other.slopeSecond
         curveFirst = other.curveFirst

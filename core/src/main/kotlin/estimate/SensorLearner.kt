@@ -1,13 +1,13 @@
 package stillwater.estimate
 
 /**
- * What a [SelfCalibratingEstimator] has learned of its sensor: keeps the first readings and fits the models to all of them each
- * time their number has grown by half, at once or a part with each reading.
+ * What a [SelfCalibratingEstimator] has learned of its sensor: keeps the first readings and fits the models to all of
+ * them each time their number has grown by half, at once or a part with each reading.
  *
- * While a fit is under way its readings are those there were when it began, and what was learned before holds. Once it is
- * complete it takes the readings that came since, and then holds instead. It is complete, at the latest, when there is no
- * room for another reading: what is left then is done at once. Parts are counted in readings, not in time, so that the
- * same readings give the same results again.
+ * While a fit is under way its readings are those there were when it began, and what was learned before holds. Once it
+ * is complete it takes the readings that came since, and then holds instead. It is complete, at the latest, when there
+ * is no room for another reading: what is left then is done at once. Parts are counted in steps, not in time, so that
+ * the same readings give the same results again.
  *
  * @param work most filters' steps to be taken for a reading, without end for a fit at once.
  */
@@ -42,7 +42,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
         return isLast
     }
 
-    /** Fits what is due, or a part of it. Answers whether another fit holds from now on, which has taken all readings. */
+    /** Fits what is due, or a part of it. Answers whether another fit, of all readings, holds from now on. */
     fun learn(): Boolean = learn(work)
 
     private fun learn(most: Double): Boolean {
@@ -56,9 +56,10 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
     }
 
     /**
-     * Chooses and fits the sensor's model anew, and whether borders are heeded. In water that changes evenly within a cell a
-     * stay looks the same as one with a slow sensor; what happens at borders tells them apart. Heeding them hides that, and
-     * the sensor seems slower than it is; where cells are even it takes readings of the wrong cell away, and it does not.
+     * Chooses and fits the sensor's model anew, and whether borders are heeded. In water that changes evenly within a
+     * cell a stay looks the same as one with a slow sensor; what happens at borders tells them apart. Heeding them hides
+     * that, and the sensor seems slower than it is; where cells are even it takes readings of the wrong cell away, and it
+     * does not.
      */
     private suspend fun decide() {
         val size = tape.size
@@ -83,7 +84,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
         var latest = SensorChoice(settings, Recording(tape, parts, heedsBorders))
             private set
         var next =
-            if (work < Double.POSITIVE_INFINITY) SensorChoice(settings, Recording(tape, parts, heedsBorders)) else latest
+            if (work.isInfinite()) latest else SensorChoice(settings, Recording(tape, parts, heedsBorders))
 
         /** What is to be fitted. */
         fun begin(): SensorChoice {

@@ -44,7 +44,7 @@ class ResponseChoiceTest {
 
     @Test
     fun aSlowPathThatIsToldTooWeaklyToStayOpenIsHintedAt() {
-        fun hinted(vararg candidates: CandidateResponse) = ResponseChoice.of(candidates.toList(), Random(1)).hinted?.kind
+        fun hinted(vararg of: CandidateResponse) = ResponseChoice.of(of.toList(), Random(1)).hinted?.kind
         val level = candidate(ResponseKind.TWO_PATH, 100.1, 0.0)
         assertEquals(ResponseKind.TWO_PATH, hinted(lag, level))
         val better = candidate(ResponseKind.DEAD_TIME_AND_TWO_PATH, 100.15, 0.0)

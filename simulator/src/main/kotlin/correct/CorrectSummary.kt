@@ -101,7 +101,7 @@ internal class CorrectSummary(
         else -> result.origin.label
     }
 
-    /** What passes of a track cannot show: a slow path's few percent shift no feature by more than the lag's own error. */
+    /** What passes of a track cannot show: a slow path's few percent move features less than the lag's own error. */
     private fun unseen(): String =
         if (result.choice?.open?.any { it.kind.hasTwoPaths } != false) {
             ""
