@@ -93,7 +93,12 @@ public enum class EstimatorName {
     }
 
     private fun selfCalibrating(grid: Grid, probe: ProbeSpec) =
-        SelfCalibratingEstimator(grid, probe.range, SelfCalibratingSettings(probe.longestTimeConstant))
+        SelfCalibratingEstimator(
+            grid,
+            probe.range,
+            SelfCalibratingSettings(probe.longestTimeConstant),
+            SelfCalibratingEstimator.AFLOAT,
+        )
 }
 
 /**

@@ -43,6 +43,20 @@ class ResponseChoiceTest {
     }
 
     @Test
+    fun aSlowPathThatIsToldTooWeaklyToStayOpenIsHintedAt() {
+        fun hinted(vararg of: CandidateResponse) = ResponseChoice.of(of.toList(), Random(1)).hinted?.kind
+        val level = candidate(ResponseKind.TWO_PATH, 100.1, 0.0)
+        assertEquals(ResponseKind.TWO_PATH, hinted(lag, level))
+        val better = candidate(ResponseKind.DEAD_TIME_AND_TWO_PATH, 100.15, 0.0)
+        assertEquals(ResponseKind.DEAD_TIME_AND_TWO_PATH, hinted(lag, level, better))
+        // Not where its share is as open as beforehand, where it is ruled out, or where it is open anyway.
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 100.1, 0.0, error = 1.1)))
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 98.0, 0.1)))
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 102.0, 3.0)))
+        assertEquals(null, hinted(lag))
+    }
+
+    @Test
     fun asymmetryGivesWayToALagThatIsNotRuledOut() {
         assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 3.0)))
     }

@@ -96,10 +96,18 @@ internal class CorrectSummary(
 
     private fun evidence(): String = when (result.origin) {
         SensorOrigin.REVISITS ->
-            "${result.blocks} runs of the track foretold by other passes, from ${result.learnedOn} readings"
+            "${result.blocks} runs of the track foretold by other passes, from ${result.learnedOn} readings" + unseen()
         SensorOrigin.REFERENCE -> "${result.learnedOn} readings with a reference"
         else -> result.origin.label
     }
+
+    /** What passes of a track cannot show: a slow path's few percent move features less than the lag's own error. */
+    private fun unseen(): String =
+        if (result.choice?.open?.any { it.kind.hasTwoPaths } != false) {
+            ""
+        } else {
+            "; a slow path with a share of a few percent would not show, and is not in the intervals"
+        }
 
     /** Why the log says nothing about its sensor. */
     private fun silence(): String {
@@ -166,6 +174,14 @@ internal class CorrectSummary(
             "(${duration(result.statistics.duration)}): what it shows of the water is mostly from before it"
     }
 
+    private fun hint(twoPaths: CandidateResponse): String {
+        val share = twoPaths.kind.parameters.lastIndex
+        val range = twoPaths.interval(share)
+        return "the log hints at a slow path with a share of ${percent(twoPaths.parameter(share))} " +
+            "(${percent(range.start)} to ${percent(range.endInclusive)}), too weakly to count: " +
+            "if it is there, far less than 95 % of the rows are in their intervals"
+    }
+
     /** What the user should know, one line each. */
     val warnings: List<String>
         get() = buildList {
@@ -183,6 +199,7 @@ internal class CorrectSummary(
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
             }
+            result.choice?.hinted?.let { add(hint(it)) }
             if (result.series.values.all { it == result.series.values[0] }) {
                 add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }
