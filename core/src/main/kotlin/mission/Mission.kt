@@ -3,7 +3,6 @@ package stillwater.mission
 import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.Fence
-import stillwater.control.Mixing
 import stillwater.control.Ruling
 import stillwater.control.SafetyGate
 import stillwater.control.Situation
@@ -33,7 +32,6 @@ import stillwater.wire.Message
  * @property spec the mission.
  * @param link to the board. Retained.
  * @param log where it is written down. Retained.
- * @param mixing how a drive becomes thrust.
  * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null to
  *   begin anew.
  * @param taken takes the readings that go into the map, after they did. Retained.
@@ -43,7 +41,6 @@ public class Mission(
     public val spec: MissionSpec,
     link: ByteLink,
     private val log: MissionLog,
-    mixing: Mixing = Mixing.DIFFERENTIAL,
     private val recovered: RecoveredMission? = null,
     private val taken: ReadingSink = ReadingSink { },
 ) {
@@ -54,6 +51,7 @@ public class Mission(
     }
 
     private val water = spec.area.water()
+    private val mixing = spec.boat.mixing
     private val pose =
         PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
     private val survey = Survey(

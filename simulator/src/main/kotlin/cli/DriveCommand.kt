@@ -58,7 +58,7 @@ class DriveCommand : WorkCommand("drive") {
         metavar = "DEG",
         help = "of the magnetic from the true north where the boat is, degrees, east positive; without --phone only",
     ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }.default(0.0)
-    private val vectored by option("--vectored", help = "one thruster that swivels in place of two that do not").flag()
+    private val vectored by vectoredFlag()
     private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
         .default("stillwater-drive")
     private val resume by option("--resume", help = "go on with the unfinished mission in DIR, disarmed at first")
@@ -81,7 +81,7 @@ class DriveCommand : WorkCommand("drive") {
     )
 
     override fun work() {
-        val spec = MissionFile.read(Path.of(missionFile))
+        val spec = MissionFile.read(Path.of(missionFile)).vectoredWhere(vectored)
         val address = WireAddress.parse(port, baud) ?: throw BadFlag("--port", WireAddress.EXPECTED, "'$port'")
         val channel = phoneAddress?.let {
             WireAddress.parse(it, baud) as? WireAddress.Tcp ?: throw BadFlag("--phone", "tcp:HOST:PORT", "'$it'")
@@ -118,8 +118,7 @@ class DriveCommand : WorkCommand("drive") {
         file.use {
             val prompt = PromptWire(wire)
             val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
-            val mixing = if (vectored) Mixing.VECTORED else Mixing.DIFFERENTIAL
-            val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, resumed?.mission)
+            val mission = Mission(spec, link, MissionLog(file, now(), spec), resumed?.mission)
             val status = DriveStatus(terminal, wire, phone, quiet)
             val run = DriveRun(mission, phone, wire, prompt, file, status)
             attendPerson(run, signals)
@@ -134,7 +133,7 @@ class DriveCommand : WorkCommand("drive") {
         val path = checkNotNull(LogOnDisk.unfinished(directory))
         val resumed = LogOnDisk.resume(path) { found ->
             if (found.spec == spec) return@resume
-            throw LogProblem(path, null, null, "the mission of $missionFile", "another one, ${found.spec.name}")
+            throw LogProblem(path, null, null, "the mission of $missionFile", otherThan(spec, found.spec))
         }
         val found = resumed.mission
         tell(
@@ -142,6 +141,14 @@ class DriveCommand : WorkCommand("drive") {
                 "${counted(resumed.tornBytes, "byte")} of a cut line taken off; the mission was ${found.lastState}",
         )
         return resumed
+    }
+
+    /** In what [found] is not [wanted]. */
+    private fun otherThan(wanted: MissionSpec, found: MissionSpec): String {
+        val mixing = found.boat.mixing
+        if (found != wanted.copy(boat = wanted.boat.copy(mixing = mixing))) return "another one, ${found.name}"
+        val then = if (mixing == Mixing.VECTORED) "add --vectored" else "without --vectored"
+        return "it with boat.mixing ${mixing.name.lowercase()}; $then"
     }
 
     private fun attendPerson(run: DriveRun, signals: Signals) {

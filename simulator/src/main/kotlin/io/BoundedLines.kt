@@ -63,8 +63,12 @@ internal class BoundedLines(private val text: Reader, private val longest: Int =
     }
 
     companion object {
-        /** Longest line, characters: several times what a board that never stops talking makes of a log's. */
-        const val LONGEST = 1 shl 20
+        /**
+         * Longest line, characters. A mission's log begins with the whole mission: an area of 20 000 edges, the most that
+         * there may be, has a million, and several times that if it has all digits. A board that never stops talking
+         * makes shorter ones.
+         */
+        const val LONGEST = 1 shl 22
 
         /** Stands where a line was cut. */
         const val MARK = "\u2026 (cut)"
