@@ -67,7 +67,13 @@ public class Mission(
         },
     )
     private val port =
-        BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) }, lines = log::heard)
+        BoardPort(
+            link,
+            mixing,
+            { if (survey.take(it, now)) probe.heard(now) else log.sensor(now, it) },
+            lines = log::heard,
+        )
+    private val probe = ProbeWatch(spec.probe)
     private val use = BudgetUse(spec.budget)
     private val fence = Fence(water.outlines[0], water.outlines.drop(1))
     private val navigator = Navigator(spec, water, fence, pose.track, use, mixing)
@@ -117,6 +123,9 @@ public class Mission(
 
     /** What was left out of the readings, by reason. */
     public val readings: PlausibilityGate get() = survey.gate
+
+    /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
+    public val probeSilence: Double get() = probe.silence(now)
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -181,6 +190,7 @@ public class Mission(
     }
 
     private fun begin(time: BoatTime): Double {
+        probe.begin(time)
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
@@ -217,11 +227,14 @@ public class Mission(
         when (state) {
             MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
-                if (before !is MissionState.Stopped) port.tell(now, Drive.NONE)
+                if (before !is MissionState.Stopped) {
+                    port.tell(now, Drive.NONE)
+                    port.order(Command.Disarm)
+                }
                 leaveDisarmed()
             }
             else -> {
-                if (state == MissionState.Arming) arm(before)
+                if (state == MissionState.Arming) arm(before) else if (probe.isDue(now) && !isDeaf()) setProbeUp()
                 if (!isDeaf()) port.tell(now, drive, isCalm = state != MissionState.Arming)
                 port.askState(now)
             }
@@ -241,7 +254,13 @@ public class Mission(
     private fun arm(before: MissionState) {
         if (before == MissionState.Arming && now.seconds - armedAt < LONGEST_ARMING) return
         armedAt = now.seconds
+        setProbeUp()
         port.order(Command.Arm)
+    }
+
+    private fun setProbeUp() {
+        probe.told(now)
+        probe.setUp?.let(port::order)
     }
 
     /** A boat that waits to be sent off has not begun to use its budget. */

@@ -26,7 +26,8 @@ class MissionSpecTest {
     fun missionsOfBeforeThrustersWereNamedHaveTwo() {
         assertEquals(Mixing.DIFFERENTIAL, Desk.small().boat.mixing)
         assertTrue("mixing" !in Desk.small().toJson())
-        val vectored = MissionSpec.fromJson(Desk.SMALL.replace("\"home\"", "\"boat\":{\"mixing\":\"vectored\"},\"home\""))
+        val boat = "\"boat\":{\"mixing\":\"vectored\"},"
+        val vectored = MissionSpec.fromJson(Desk.SMALL.replace("\"home\"", "$boat\"home\""))
         assertEquals(Mixing.VECTORED, vectored.boat.mixing)
         assertEquals(vectored, MissionSpec.fromJson(vectored.toJson()))
     }
