@@ -25,14 +25,17 @@ import stillwater.io.MissionFile
 import stillwater.link.ReconnectingWire
 import stillwater.link.WireAddress
 import stillwater.link.WireProblem
+import stillwater.mission.LogSink
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
+import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
 import stillwater.run.withUnit
+import stillwater.wire.ByteLink
 import java.nio.file.Path
 import java.time.ZonedDateTime
 import java.time.format.DateTimeFormatter
@@ -70,8 +73,8 @@ class DriveCommand : WorkCommand("drive") {
     override fun help(context: Context) = "Sail a mission with the boat on a serial or TCP port."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the " +
-            "log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
+        "Enter begins the mission; any line with a word in it, such as `stop`, or Ctrl-C ends it, also before it " +
+            "began: the motors rest, the board is disarmed, the log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
             "code 0 when the mission was completed, 1 when it ended otherwise or surveyed nothing.",
         listOf(
             "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
@@ -114,11 +117,14 @@ class DriveCommand : WorkCommand("drive") {
 
     private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path, signals: Signals) {
         val resumed = if (resume) recover(spec, directory) else null
-        val file = resumed?.file ?: LogOnDisk.begin(directory)
+        val prompt = PromptWire(wire)
+        val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
+        var begun: LogOnDisk? = resumed?.file
+        val mission = build(spec, link, { checkNotNull(begun).line(it) }, resumed?.mission)
+        // After the mission: one that cannot be built leaves no log that nobody can go on with.
+        val file = begun ?: LogOnDisk.begin(directory)
+        begun = file
         file.use {
-            val prompt = PromptWire(wire)
-            val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
-            val mission = Mission(spec, link, MissionLog(file, now(), spec), resumed?.mission)
             val status = DriveStatus(terminal, wire, phone, quiet)
             val run = DriveRun(mission, phone, wire, prompt, file, status)
             attendPerson(run, signals)
@@ -127,6 +133,12 @@ class DriveCommand : WorkCommand("drive") {
             sayWhereTimeWasLost(phone, prompt)
             finish(mission, file, directory, reason)
         }
+    }
+
+    private fun build(spec: MissionSpec, link: ByteLink, log: LogSink, recovered: RecoveredMission?) = try {
+        Mission(spec, link, MissionLog(log, now(), spec), recovered)
+    } catch (unfit: IllegalArgumentException) {
+        throw failure("$missionFile: expected a mission that can be sailed, found ${unfit.message}")
     }
 
     private fun recover(spec: MissionSpec, directory: Path): Resumed {
@@ -154,9 +166,11 @@ class DriveCommand : WorkCommand("drive") {
     private fun attendPerson(run: DriveRun, signals: Signals) {
         signals.attend { run.stop() }
         if (yes) return run.start()
-        tell("Enter begins the mission, stop and Enter or Ctrl-C ends it")
+        tell("Enter begins the mission: motors will run. Any other line, such as stop, or Ctrl-C ends it, also before")
         val listener = Thread({
-            for (line in generateSequence { readlnOrNull() }) if (line.trim() == "stop") run.stop() else run.start()
+            generateSequence { readlnOrNull() }.forEach(run::heed)
+            val isNobodyThere = run.heedSilence()
+            if (isNobodyThere) echo("standard input has ended: nobody can begin the mission; --yes does", err = true)
         }, "hear the person")
         listener.isDaemon = true
         listener.start()

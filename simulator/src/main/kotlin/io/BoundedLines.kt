@@ -64,9 +64,8 @@ internal class BoundedLines(private val text: Reader, private val longest: Int =
 
     companion object {
         /**
-         * Longest line, characters. A mission's log begins with the whole mission: an area of 20 000 edges, the most that
-         * there may be, has a million, and several times that if it has all digits. A board that never stops talking
-         * makes shorter ones.
+         * Longest line, characters: several times what a mission, with which its log begins, has of an area with the
+         * most edges and all digits. A board that never stops talking makes shorter ones.
          */
         const val LONGEST = 1 shl 22
 

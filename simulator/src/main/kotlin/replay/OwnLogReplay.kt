@@ -147,7 +147,7 @@ internal class OwnLogReplay(
         for (order in came.list("order")) order(mission, (order as? JsonPrimitive)?.contentOrNull)
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
-            val isPlace = latitude in LatLon.LATITUDES_DEG && longitude.isFinite()
+            val isPlace = latitude in LatLon.LATITUDES_DEG && longitude in LatLon.LONGITUDES_DEG
             if (!isPlace) {
                 notUnderstood.count("a place", number)
                 continue

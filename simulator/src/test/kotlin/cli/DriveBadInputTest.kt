@@ -95,7 +95,8 @@ class DriveBadInputTest {
             assertEquals(lines, log.readText())
             directory.resolve("pond.json").writeText(POND)
             assertRefused("found it with boat.mixing differential; without --vectored", *drive(*flags, "--vectored"))
-            directory.resolve("pond.json").writeText(POND.replace("\"home\"", "\"boat\":{\"mixing\":\"vectored\"},\"home\""))
+            val vectored = "\"boat\":{\"mixing\":\"vectored\"},\"home\""
+            directory.resolve("pond.json").writeText(POND.replace("\"home\"", vectored))
             assertRefused("found it with boat.mixing differential", *drive(*flags))
             assertEquals(lines, log.readText())
         }

@@ -144,6 +144,17 @@ class ReplayCommandTest {
     }
 
     @Test
+    fun aPlaceThatIsNoneIsCountedAndTheRestIsReplayed() {
+        val (lines, mission) = sailed(49, 30)
+        val at = lines.indexOfFirst { "\"fix\":[[" in it }
+        val fix = Regex(""""fix":\[\[[^]]*]""")
+        val broken = lines.toMutableList().apply { this[at] = get(at).replace(fix, "\"fix\":[[1.0,45.5,-999.0]") }
+        val summary = replay(write("log.txt", broken), "out")
+        assertEquals(1, summary.count("lines_not_understood", "a place"))
+        assertEquals(mission.readings.passed, summary.count("readings", "taken"))
+    }
+
+    @Test
     fun whatNoLogWouldHaveIsCountedWithItsLineAndHarmsNothing() {
         val (lines, mission) = sailed(47, 60)
         val deep = "1\tI\t{\"a\":" + "[".repeat(100_000)
