@@ -8,7 +8,7 @@ import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
 
-/** How a [Drive] becomes what is sent to the actuators; what is not finite becomes rest. In JSON by its name in small letters. */
+/** How a [Drive] becomes what is sent to the actuators; what is not finite becomes rest. Named in a mission's JSON. */
 @Serializable
 public enum class Mixing(
     /** Share of full thrust that a follower should give in a full turn: what does not turn on the spot turns faster with it. */

@@ -55,10 +55,11 @@ internal class DriveRun(
     /** A person typed [line]: a blank one begins the mission, any other ends it, also before it began. */
     fun heed(line: String) = if (line.isBlank()) start() else stop()
 
-    /** Nobody will type any more: a mission that was not begun ends. Answers whether that is so. */
+    /** Nobody will type any more: a mission that nobody began ends. Answers whether it does for that. */
     fun heedSilence(): Boolean {
-        if (!startWanted) stop()
-        return !startWanted
+        val isLeft = !startWanted && !stopWanted
+        if (isLeft) stop()
+        return isLeft
     }
 
     /** A person wants the boat to stop and the mission to be over. */
