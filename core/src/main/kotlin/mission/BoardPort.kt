@@ -49,7 +49,7 @@ public class BoardPort(
     private var echoedAt = Double.NEGATIVE_INFINITY
     private var ranAt = Double.NEGATIVE_INFINITY
 
-    /** What the board last said of itself; null before it said anything. */
+    /** What the board last said of itself; null before it said anything, and since it was told to arm. */
     public var state: BoardState? = null
         private set
 
@@ -112,8 +112,9 @@ public class BoardPort(
         now.seconds - echoedAt < ECHO &&
         now.seconds - ranAt > ECHO
 
-    /** Sends [command] at once. */
+    /** Sends [command] at once. What the board said of itself before it was told to arm does not count any more. */
     public fun order(command: Command) {
+        if (command == Command.Arm) state = null
         send(command)
     }
 

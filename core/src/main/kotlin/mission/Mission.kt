@@ -3,7 +3,6 @@ package stillwater.mission
 import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.Fence
-import stillwater.control.Mixing
 import stillwater.control.Ruling
 import stillwater.control.SafetyGate
 import stillwater.control.Situation
@@ -33,7 +32,6 @@ import stillwater.wire.Message
  * @property spec the mission.
  * @param link to the board. Retained.
  * @param log where it is written down. Retained.
- * @param mixing how a drive becomes thrust.
  * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null to
  *   begin anew.
  * @param taken takes the readings that go into the map, after they did. Retained.
@@ -43,7 +41,6 @@ public class Mission(
     public val spec: MissionSpec,
     link: ByteLink,
     private val log: MissionLog,
-    mixing: Mixing = Mixing.DIFFERENTIAL,
     private val recovered: RecoveredMission? = null,
     private val taken: ReadingSink = ReadingSink { },
 ) {
@@ -54,6 +51,7 @@ public class Mission(
     }
 
     private val water = spec.area.water()
+    private val mixing = spec.boat.mixing
     private val pose =
         PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
     private val survey = Survey(
@@ -69,7 +67,13 @@ public class Mission(
         },
     )
     private val port =
-        BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) }, lines = log::heard)
+        BoardPort(
+            link,
+            mixing,
+            { if (survey.take(it, now)) probe.heard(now) else log.sensor(now, it) },
+            lines = log::heard,
+        )
+    private val probe = ProbeWatch(spec.probe)
     private val use = BudgetUse(spec.budget)
     private val fence = Fence(water.outlines[0], water.outlines.drop(1))
     private val navigator = Navigator(spec, water, fence, pose.track, use, mixing)
@@ -119,6 +123,9 @@ public class Mission(
 
     /** What was left out of the readings, by reason. */
     public val readings: PlausibilityGate get() = survey.gate
+
+    /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
+    public val probeSilence: Double get() = probe.silence(now)
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -183,6 +190,7 @@ public class Mission(
     }
 
     private fun begin(time: BoatTime): Double {
+        probe.begin(time)
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
@@ -219,11 +227,14 @@ public class Mission(
         when (state) {
             MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
-                if (before !is MissionState.Stopped) port.tell(now, Drive.NONE)
+                if (before !is MissionState.Stopped) {
+                    port.tell(now, Drive.NONE)
+                    port.order(Command.Disarm)
+                }
                 leaveDisarmed()
             }
             else -> {
-                if (state == MissionState.Arming) arm(before)
+                if (state == MissionState.Arming) arm(before) else if (probe.isDue(now) && !isDeaf()) setProbeUp()
                 if (!isDeaf()) port.tell(now, drive, isCalm = state != MissionState.Arming)
                 port.askState(now)
             }
@@ -243,7 +254,13 @@ public class Mission(
     private fun arm(before: MissionState) {
         if (before == MissionState.Arming && now.seconds - armedAt < LONGEST_ARMING) return
         armedAt = now.seconds
+        setProbeUp()
         port.order(Command.Arm)
+    }
+
+    private fun setProbeUp() {
+        probe.told(now)
+        probe.setUp?.let(port::order)
     }
 
     /** A boat that waits to be sent off has not begun to use its budget. */

@@ -6,6 +6,7 @@ import kotlinx.serialization.json.Json
 import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.FollowerSettings
+import stillwater.control.Mixing
 import stillwater.control.SafetySettings
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -227,17 +228,19 @@ public data class BudgetSpec(
 }
 
 /**
- * Speeds of the boat.
+ * The boat: its speeds and its thrusters.
  *
  * @property topSpeed at full thrust, m/s.
  * @property cruise on the way, m/s.
  * @property arrival a waypoint is reached within this distance, m.
+ * @property mixing what thrusters it has: a boat with one that swivels does not understand what is said to two.
  */
 @Serializable
 public data class BoatSpec(
     @SerialName("top_speed_m_s") val topSpeed: Double = 1.6,
     @SerialName("cruise_m_s") val cruise: Double = 1.0,
     @SerialName("arrival_m") val arrival: Double = 1.5,
+    val mixing: Mixing = Mixing.DIFFERENTIAL,
 ) {
     init {
         follower()
@@ -309,7 +312,7 @@ public data class FailsafePolicy(
  * @property planner by its name.
  * @property budget what may be used.
  * @property home where the mission ends; in the water.
- * @property boat its speeds.
+ * @property boat its speeds and thrusters.
  * @property failsafe policy.
  * @property seed of planners that draw.
  * @throws IllegalArgumentException if the parts do not fit together: home off the water, a grid off the water, or a planner

@@ -1,6 +1,7 @@
 package stillwater.mission
 
 import org.junit.jupiter.api.Test
+import stillwater.control.Mixing
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
@@ -22,11 +23,26 @@ class MissionSpecTest {
     }
 
     @Test
+    fun missionsOfBeforeThrustersWereNamedHaveTwo() {
+        assertEquals(Mixing.DIFFERENTIAL, Desk.small().boat.mixing)
+        assertTrue("mixing" !in Desk.small().toJson())
+        val boat = "\"boat\":{\"mixing\":\"vectored\"},"
+        val vectored = MissionSpec.fromJson(Desk.SMALL.replace("\"home\"", "$boat\"home\""))
+        assertEquals(Mixing.VECTORED, vectored.boat.mixing)
+        assertEquals(vectored, MissionSpec.fromJson(vectored.toJson()))
+    }
+
+    @Test
     fun whatIsWrongIsSaidInOneLineThatNamesItsPlace() {
         for ((old, new, expected) in listOf(
             Triple("\"columns\":6", "\"columns\":0", listOf("columns (0)", ": grid: ")),
             Triple("\"columns\":6", "\"columns\":\"six\"", listOf(": grid.columns: ")),
             Triple("\"columns\":6,", "", listOf("columns", ": grid: ")),
+            Triple(
+                "\"home\":{",
+                "\"boat\":{\"mixing\":\"jet\"},\"home\":{",
+                listOf("differential", "vectored", "jet", ": boat.mixing: "),
+            ),
             Triple("lawnmower", "mower", listOf("mower", ": planner: ")),
             Triple("self-calibrating", "best", listOf("best", ": estimator: ")),
             Triple("\"lowest\":0", "\"lowest\":20", listOf("lowest (20.0)", ": probe: ")),

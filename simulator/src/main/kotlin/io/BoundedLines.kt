@@ -66,8 +66,11 @@ internal class BoundedLines(private val text: Reader, private val longest: Int =
     }
 
     companion object {
-        /** Longest line, characters: several times what a board that never stops talking makes of a log's. */
-        const val LONGEST = 1 shl 20
+        /**
+         * Longest line, characters: several times what a mission, with which its log begins, has of an area with the
+         * most edges and all digits. A board that never stops talking makes shorter ones.
+         */
+        const val LONGEST = 1 shl 22
 
         /** Stands where a line was cut. */
         const val MARK = "\u2026 (cut)"

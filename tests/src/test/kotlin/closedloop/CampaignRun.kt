@@ -145,7 +145,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
 
     private fun begin(recovered: RecoveredMission?): Mission {
         val log = MissionLog(::write, LogStart(0, "campaign"), spec)
-        return Mission(spec, link, log, case.mixing, recovered)
+        return Mission(spec, link, log, recovered)
     }
 
     private fun write(line: String) {
