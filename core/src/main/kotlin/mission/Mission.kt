@@ -219,13 +219,20 @@ public class Mission(
         when (state) {
             MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
-                if (before !is MissionState.Stopped) port.tell(now, Drive.NONE)
+                if (before !is MissionState.Stopped) {
+                    port.tell(now, Drive.NONE)
+                    // What it said of itself before it was told so does not count.
+                    port.order(Command.Disarm)
+                }
                 leaveDisarmed()
             }
             else -> {
                 if (state == MissionState.Arming) arm(before)
-                if (!isDeaf()) port.tell(now, drive, isCalm = state != MissionState.Arming)
-                port.askState(now)
+                // Any line keeps the watchdog quiet, a question too; the board speaks unasked when it is heard again.
+                if (!isDeaf()) {
+                    port.tell(now, drive, isCalm = state != MissionState.Arming)
+                    port.askState(now)
+                }
             }
         }
     }
