@@ -55,7 +55,12 @@ public class Mission(
 
     private val water = spec.area.water()
     private val pose =
-        PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
+        PoseInput(
+            LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)),
+            spec.boat.topSpeed,
+            mixing,
+            spec.failsafe.settings().oldestFix,
+        )
     private val survey = Survey(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
@@ -119,6 +124,9 @@ public class Mission(
 
     /** What was left out of the readings, by reason. */
     public val readings: PlausibilityGate get() = survey.gate
+
+    /** Waypoints given up because the boat came no nearer for a minute; after three on end the mission is over. */
+    public val givenUp: Long get() = navigator.givenUp
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -206,8 +214,8 @@ public class Mission(
     /** What the mission would do if the gate let it. */
     private fun wanted(ruling: Ruling): Drive {
         when (state) {
-            MissionState.Surveying -> navigator.survey(survey.map, survey.lastValue)
-            is MissionState.Returning -> navigator.goHome()
+            MissionState.Surveying -> navigator.survey(now.seconds, survey.map, survey.lastValue)
+            is MissionState.Returning -> navigator.goHome(now.seconds)
             is MissionState.Holding ->
                 if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.HOLD) navigator.hold() else navigator.rest()
             else -> navigator.rest()
