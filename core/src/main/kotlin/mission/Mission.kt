@@ -236,8 +236,9 @@ public class Mission(
             }
             else -> {
                 if (state == MissionState.Arming) arm(before)
-                // Any line keeps the watchdog quiet, a question too; the board speaks unasked when it is heard again.
-                if (!isDeaf()) {
+                // However long the silence is when it is noticed, rest is said once. After that any line would keep the
+                // watchdog quiet, a question too; the board speaks unasked when it is heard again.
+                if (state != before || !isDeaf()) {
                     port.tell(now, drive, isCalm = state != MissionState.Arming)
                     port.askState(now)
                 }

@@ -62,6 +62,19 @@ class LinkHalvesTest {
         }
     }
 
+    /** The phone is busy just when it would notice: the next step is 0.6 s after the last word, and by then nothing was said. */
+    @Test
+    fun aSilenceThatIsNoticedLateIsAnsweredWithRestAllTheSame() {
+        val desk = desk(472, watchdog = 3.0)
+        desk.mission.start()
+        assertTrue(desk.until(60.0) { !desk.boat.board.actuation.isAtRest && it == MissionState.Surveying })
+        halves.isDeaf = true
+        repeat(3) { desk.step() }
+        repeat(3) { desk.boat.advance(0.1) }
+        repeat(2) { desk.step() }
+        assertTrue(desk.boat.board.actuation.isAtRest)
+    }
+
     /** While it arms a board still says standby, and that was what it said last. */
     @Test
     fun aBoardThatIsBeingArmedIsDisarmedBeforeTheMissionIsOver() {
