@@ -182,7 +182,10 @@ public enum class PlannerName(public val keepsToWater: Boolean = false) {
         POLYGON_RRT -> PolygonRrt(
             random,
             water,
-            PolygonRrtSettings(margin = spec.boat.arrival, resolution = WaterRoutes.resolution(water, spec.grid.cell / 2)),
+            PolygonRrtSettings(
+                margin = spec.boat.arrival,
+                resolution = WaterRoutes.resolution(water, spec.grid.cell / 2),
+            ),
         )
     }
 }
