@@ -53,7 +53,12 @@ public class Mission(
     private val water = spec.area.water()
     private val mixing = spec.boat.mixing
     private val pose =
-        PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
+        PoseInput(
+            LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)),
+            spec.boat.topSpeed,
+            mixing,
+            spec.failsafe.settings().oldestFix,
+        )
     private val survey = Survey(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
@@ -126,6 +131,9 @@ public class Mission(
 
     /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
     public val probeSilence: Double get() = probe.silence(now)
+
+    /** Waypoints given up because the boat came no nearer for a minute; after three on end the mission is over. */
+    public val givenUp: Long get() = navigator.givenUp
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -214,8 +222,8 @@ public class Mission(
     /** What the mission would do if the gate let it. */
     private fun wanted(ruling: Ruling): Drive {
         when (state) {
-            MissionState.Surveying -> navigator.survey(survey.map, survey.lastValue)
-            is MissionState.Returning -> navigator.goHome()
+            MissionState.Surveying -> navigator.survey(now.seconds, survey.map, survey.lastValue)
+            is MissionState.Returning -> navigator.goHome(now.seconds)
             is MissionState.Holding ->
                 if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.HOLD) navigator.hold() else navigator.rest()
             else -> navigator.rest()
@@ -229,14 +237,19 @@ public class Mission(
             is MissionState.Stopped -> {
                 if (before !is MissionState.Stopped) {
                     port.tell(now, Drive.NONE)
+                    // What it said of itself before it was told so does not count.
                     port.order(Command.Disarm)
                 }
                 leaveDisarmed()
             }
             else -> {
                 if (state == MissionState.Arming) arm(before) else if (probe.isDue(now) && !isDeaf()) setProbeUp()
-                if (!isDeaf()) port.tell(now, drive, isCalm = state != MissionState.Arming)
-                port.askState(now)
+                // However long the silence is when it is noticed, rest is said once. After that any line would keep the
+                // watchdog quiet, a question too; the board speaks unasked when it is heard again.
+                if (state != before || !isDeaf()) {
+                    port.tell(now, drive, isCalm = state != MissionState.Arming)
+                    port.askState(now)
+                }
             }
         }
     }

@@ -150,6 +150,8 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         held = json["held"]?.let { reading(it) }
         same = (json["same"] as? JsonArray)?.mapNotNull { reading(it) }.orEmpty()
         run = (json["run"] as? JsonPrimitive)?.intOrNull ?: (same.size + 1)
+        // What waits is of the map's time, too, which after a restart is ahead of the steps'.
+        for (waiting in same + listOfNotNull(held)) lastTime = maxOf(lastTime, waiting.time.seconds)
         return true
     }
 

@@ -86,6 +86,19 @@ class MissionRecoveryTest {
         }
     }
 
+    /** After a restart readings are of a time ahead of the steps', and so is one that waits. */
+    @Test
+    fun theLatestTimeOfALogIsThatOfAReadingThatWaitsWhereThatIsLater() {
+        val lines = ArrayList<String>()
+        val log = MissionLog(lines::add, LogStart(0, "a day"), Desk.small())
+        val message = Message.Oxygen(1, 7.1)
+        fun at(seconds: Double) = Reading(BoatTime(seconds), Position(1.0, 1.0), 7.1)
+        log.reading(BoatTime(1.0), message, ReadingVerdict.HELD, emptyList(), at(500.0), emptyList())
+        assertEquals(500.0, checkNotNull(Desk.replay(lines).recovered()).lastTime)
+        log.reading(BoatTime(2.0), message, ReadingVerdict.SAME, emptyList(), null, listOf(at(501.0), at(502.0)))
+        assertEquals(502.0, checkNotNull(Desk.replay(lines).recovered()).lastTime)
+    }
+
     /** A probe that was stuck before the restart is stuck after it, not for the first time. */
     @Test
     fun howLongAProbeHasSaidTheSameIsNotForgotten() {

@@ -210,7 +210,7 @@ class ReplayCommandTest {
         // the last log the boat leaves a cell before its first reading is confirmed.
         "airboat_20130807_063622.txt, 4.0.0, 23, 18, surveying",
         "airboat_20151220_043848.txt, 4.0.0, 15, 0, preflight",
-        "platypus_20160426_024734.txt, 4.1.0, 0, 21, surveying",
+        "platypus_20160426_024734.txt, 4.1.0, 0, 21, preflight",
         "platypus_20160519_013623.txt, 4.2.0, 29, 30, surveying",
     )
     fun platypusLogsAreReplayedAndTheirReplayIsALogAgain(
