@@ -113,8 +113,8 @@ internal class StartScreen(private val context: Context, private val host: Scree
         fun show(item: PreflightItem?) {
             val isReady = item?.ready == true
             val name = context.getString(check.words())
-            val reason = item?.reason?.let { context.getString(it.words()) }
-            val full = if (reason == null || isReady) name else context.getString(R.string.check_reason, name, reason)
+            val more = item?.let { context.preflightWords(it) }
+            val full = if (more == null) name else context.getString(R.string.check_reason, name, more)
             words.say(context.getString(if (isReady) R.string.check_ready else R.string.check_not_ready, full))
             words.contentDescription =
                 context.getString(if (isReady) R.string.check_ready_said else R.string.check_not_ready_said, full)
@@ -131,6 +131,8 @@ internal class StartScreen(private val context: Context, private val host: Scree
                 (if (host.isRefusedForGood) R.string.allow_in_settings else R.string.allow) to host::allow
             PreflightReason.RECEIVER_OFF ->
                 R.string.open_location to { host.leave(Intent(Settings.ACTION_LOCATION_SOURCE_SETTINGS)) }
+            PreflightReason.OTHER_WATER, PreflightReason.NOT_REPORTED ->
+                R.string.open_mission to { host.open(ScreenName.MISSION) }
             PreflightReason.LITTLE_ROOM -> R.string.open_past to { host.open(ScreenName.PAST) }
             PreflightReason.NOT_EXEMPT -> R.string.exempt_button to host::exempt
             PreflightReason.NO_LINK, PreflightReason.NOT_CONNECTED, PreflightReason.BOARD_SILENT ->

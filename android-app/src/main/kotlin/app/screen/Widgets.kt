@@ -16,6 +16,7 @@ import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.AboveMinSdk
 import stillwater.app.R
+import kotlin.math.roundToInt
 
 /** A line of text in the app's large type. */
 internal fun Context.line(text: CharSequence, colour: Int = R.color.text): TextView =
@@ -152,12 +153,21 @@ internal fun Context.duration(seconds: Double): String {
     }
 }
 
+/** A way of [metres] m: in whole metres up to a kilometre, in kilometres beyond. */
+internal fun Context.distance(metres: Double): String =
+    if (metres < KILOMETRE) {
+        getString(R.string.metres, metres.roundToInt())
+    } else {
+        getString(R.string.kilometres, metres / KILOMETRE)
+    }
+
 /** The unit of a change of what is measured in [unit], which may be empty. */
 internal fun Context.perSecond(unit: String): String =
     if (unit.isEmpty()) getString(R.string.per_second) else getString(R.string.unit_per_second, unit)
 
 private const val MINUTE = 60
 private const val HOUR = 3600
+private const val KILOMETRE = 1000.0
 
 /** Width for three buttons beside each other, dp at the usual type. */
 private const val LEAST_FOR_ROWS = 300

@@ -178,15 +178,6 @@ class BoatServiceTest {
     }
 
     @Test
-    fun aSwipeOfTheAppChangesNothing() {
-        val service = started(BoatService.startIntent(context, board))
-        service.onTaskRemoved(Intent())
-        settle()
-        assertTrue(made.single().open)
-        assertFalse(shadowOf(service).isStoppedBySelf)
-    }
-
-    @Test
     fun anotherLinkReplacesTheFirstOnTheWater() {
         val service = started(BoatService.startIntent(context, board))
         service.onStartCommand(BoatService.startIntent(context, LinkChoice.Usb), 0, 2)
@@ -222,8 +213,40 @@ class BoatServiceTest {
             assertEquals(refusal.message, service.get().snapshot.refusal)
             assertTrue(shadowOf(service.get()).isStoppedBySelf)
             assertTrue(made.isEmpty())
+            val manager = context.getSystemService(NotificationManager::class.java)!!
+            val shown = assertNotNull(shadowOf(manager).getNotification(BoatNotification.REFUSED_ID))
+            assertEquals("Android did not let Stillwater run. Open the app.", shadowOf(shown).contentText)
             service.destroy()
         }
+    }
+
+    /** From Android 14 on, started again after the process died: no position while no window is in sight. */
+    @Test
+    fun wherePositionsAreRefusedInTheBackgroundItGoesOnForTheLinkAndAsksAgainWhenLookedAt() {
+        started(BoatService.startIntent(context, board))
+        services.removeAt(0).destroy()
+        made.clear()
+        val controller = Robolectric.buildService(UnseenService::class.java).create()
+        val service = controller.get()
+        service.onStartCommand(null, 0, 1)
+        settle(service)
+        val place = ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION
+        assertEquals(listOf(place, 0), service.asked)
+        assertEquals(BoatActivity.RECOVERED, service.snapshot.activity)
+        assertTrue(service.snapshot.isWithoutPlace && made.single().open)
+        assertFalse(shadowOf(service).isStoppedBySelf)
+        val shown = assertNotNull(shadowOf(service).lastForegroundNotification)
+        val text = shadowOf(shown).contentText.toString()
+        assertTrue(text.startsWith("Open the app: until then Android gives it no position"), text)
+        service.isSeen = true
+        service.onBind(null)
+        settle(service)
+        assertEquals(listOf(place, 0, place), service.asked)
+        assertFalse(service.snapshot.isWithoutPlace)
+        val manager = context.getSystemService(NotificationManager::class.java)!!
+        val now = shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
+        assertEquals("Boat 3: connected", now)
+        controller.destroy()
     }
 
     private fun started(intent: Intent?): BoatService {
@@ -245,7 +268,19 @@ class BoatServiceTest {
     class RefusedService : BoatService() {
         lateinit var refusal: RuntimeException
 
-        override fun foreground(shown: Notification): Unit = throw refusal
+        override fun foreground(shown: Notification, more: Int): Unit = throw refusal
+    }
+
+    /** Android's answer to one that asks for positions while nobody looks. */
+    class UnseenService : BoatService() {
+        val asked = mutableListOf<Int>()
+        var isSeen = false
+
+        override fun foreground(shown: Notification, more: Int) {
+            asked += more
+            if (more != 0 && !isSeen) throw SecurityException("not from the background")
+            super.foreground(shown, more)
+        }
     }
 
     private class FakeLink(val choice: LinkChoice) : BoardLink {
