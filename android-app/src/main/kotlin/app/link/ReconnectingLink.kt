@@ -115,8 +115,8 @@ internal class ReconnectingLink(
                 it.await(parting.longestMillis)
                 Thread.sleep(parting.lingeringMillis)
             }
-            reader.interrupt()
-            connection?.close()
+            // Closed, a connection ends the read or the attempt by itself; without one the reader waits for the next.
+            connection?.close() ?: reader.interrupt()
         }
 
         fun giveUpWhatHangs() {

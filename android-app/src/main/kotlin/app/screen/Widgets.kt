@@ -83,6 +83,23 @@ internal fun Context.largeButton(text: CharSequence, action: () -> Unit): Button
         setOnClickListener { action() }
     }
 
+/** A button beside several others on every width: its few letters grow with the type, but for what finds no room. */
+internal fun Context.narrowButton(text: CharSequence, action: () -> Unit): Button =
+    largeButton(text, action).apply {
+        val most = MOST_NARROW * resources.displayMetrics.density
+        setTextSize(TypedValue.COMPLEX_UNIT_PX, minOf(resources.getDimension(R.dimen.text), most))
+        setPadding(0, paddingTop, 0, paddingBottom)
+    }
+
+/** [view], which scrolls where it is higher than [share] of the screen. */
+internal fun Context.lowScroll(view: View, share: Float): ScrollView =
+    object : ScrollView(this) {
+        override fun onMeasure(widthMeasureSpec: Int, heightMeasureSpec: Int) {
+            val most = (share * resources.displayMetrics.heightPixels).toInt()
+            super.onMeasure(widthMeasureSpec, MeasureSpec.makeMeasureSpec(most, MeasureSpec.AT_MOST))
+        }
+    }.apply { addView(view) }
+
 /** The button that is on every screen. */
 internal fun Context.stopButton(action: () -> Unit): Button =
     largeButton(getString(R.string.stop), action).apply {
@@ -117,10 +134,16 @@ internal fun Context.row(vararg views: View): LinearLayout =
         for (view in views) addView(view, LinearLayout.LayoutParams(0, ViewGroup.LayoutParams.MATCH_PARENT, 1f))
     }
 
-/** [views] beside each other, or below each other where their words would break: on a narrow phone with large type. */
-internal fun Context.rowIfWide(vararg views: View): LinearLayout {
-    val letters = resources.configuration.run { screenWidthDp / fontScale }
-    if (letters >= LEAST_FOR_ROWS) return row(*views)
+/** Width of the screen in the size of the usual type, dp: half of it with type twice as large. */
+internal val Context.letters: Float get() = resources.configuration.run { screenWidthDp / fontScale }
+
+/**
+ * [views] beside each other, or below each other where their words would break: on a narrow phone with large type.
+ *
+ * @param share of the screen's width that there is for them.
+ */
+internal fun Context.rowIfWide(vararg views: View, share: Float = 1f): LinearLayout {
+    if (share * letters >= LEAST_FOR_ROWS) return row(*views)
     return column().apply { views.forEach { below(it) } }
 }
 
@@ -168,6 +191,9 @@ internal fun Context.perSecond(unit: String): String =
 private const val MINUTE = 60
 private const val HOUR = 3600
 private const val KILOMETRE = 1000.0
+
+/** Size of the type in a quarter of a narrow screen, dp: four letters find room. */
+private const val MOST_NARROW = 27f
 
 /** Width for three buttons beside each other, dp at the usual type. */
 private const val LEAST_FOR_ROWS = 300
