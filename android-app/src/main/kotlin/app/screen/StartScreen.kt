@@ -118,7 +118,13 @@ internal class StartScreen(private val context: Context, private val host: Scree
             words.say(context.getString(if (isReady) R.string.check_ready else R.string.check_not_ready, full))
             words.contentDescription =
                 context.getString(if (isReady) R.string.check_ready_said else R.string.check_not_ready_said, full)
-            words.setTextColor(context.getColor(if (isReady) R.color.good else R.color.bad))
+            val colour =
+                when {
+                    !isReady -> R.color.bad
+                    item.note != null -> R.color.text
+                    else -> R.color.good
+                }
+            words.setTextColor(context.getColor(colour))
             mending = if (isReady || item == null) null else mending(item)
             mend.say(mending?.let { context.getString(it.first) })
         }

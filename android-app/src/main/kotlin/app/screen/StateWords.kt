@@ -121,6 +121,7 @@ internal fun PreflightCheck.words(): Int =
     when (this) {
         PreflightCheck.PERMISSIONS -> R.string.check_permissions
         PreflightCheck.LINK -> R.string.check_link
+        PreflightCheck.PROBE -> R.string.check_probe
         PreflightCheck.FIX -> R.string.check_fix
         PreflightCheck.PLACE -> R.string.check_place
         PreflightCheck.BOAT_BATTERY -> R.string.check_boat_battery
@@ -138,6 +139,7 @@ internal fun Context.preflightWords(item: PreflightItem): String? {
 private fun PreflightNote.words(): Int =
     when (this) {
         PreflightNote.NOT_REPORTED -> R.string.note_not_reported
+        PreflightNote.PROBE_SILENT -> R.string.note_probe_silent
         PreflightNote.NOT_WATCHED -> R.string.note_not_watched
         PreflightNote.ON_THE_WAY -> R.string.note_on_the_way
     }

@@ -16,6 +16,7 @@ import stillwater.app.mission.MissionControl
 import stillwater.app.pose.PhonePose
 import stillwater.app.pose.Pose
 import stillwater.app.pose.PoseProblem
+import stillwater.mission.MissionSpec
 import stillwater.mission.Wish
 import stillwater.model.Actuation
 import stillwater.wire.BoardState
@@ -273,10 +274,16 @@ internal class BoatLoop(
                     hasHeading = age(pose.heading?.elapsedNanos)?.let { it <= OLDEST_HEADING } == true,
                     isVirtual = demo != null,
                     metresToArea = missions.spec?.let { spec -> fix?.let { area.metresTo(spec, it.place) } },
+                    hasProbe = missions.spec?.let(::isHeard) != false,
                     hasMission = missions.spec != null,
                 ),
             )
     }
+
+    private fun isHeard(spec: MissionSpec): Boolean =
+        held.ears.report.probes.any {
+            it.quantity == spec.probe.quantity && (spec.probe.port == null || spec.probe.port == it.port)
+        }
 
     private fun look(now: Double) {
         check(now)

@@ -58,6 +58,8 @@ internal class BoatNotification(private val context: Context) {
             .setSmallIcon(R.drawable.ic_boat)
             .setContentTitle(title)
             .setContentIntent(open)
+            // On a locked phone, too: STOP is in it, and nothing that is nobody's business.
+            .setVisibility(Notification.VISIBILITY_PUBLIC)
     }
 
     private fun title(snapshot: BoatSnapshot): String {

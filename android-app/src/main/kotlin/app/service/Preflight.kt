@@ -34,6 +34,9 @@ enum class PreflightNote {
     /** The board says how much charge there is, and the mission does not ask. */
     NOT_WATCHED,
 
+    /** The probe of the mission has not been heard on this connection: it may speak later, or be another one. */
+    PROBE_SILENT,
+
     /** The boat is not on the mission's water yet, but near: armed, it waits until it is. */
     ON_THE_WAY,
 }
@@ -93,6 +96,7 @@ enum class PreflightReason {
 enum class PreflightCheck {
     PERMISSIONS,
     LINK,
+    PROBE,
     FIX,
     PLACE,
     BOAT_BATTERY,
@@ -113,6 +117,7 @@ enum class PreflightCheck {
  * @property accuracyMetres of the newest fix, m; null without.
  * @property hasHeading whether the compass speaks.
  * @property isVirtual whether boat and pose are the demo's.
+ * @property hasProbe whether the mission's probe was heard on this connection; true where no mission is loaded.
  * @property hasMission whether a mission is loaded.
  * @property metresToArea from the newest fix to the mission's water, m; 0 on it; null without a fix or a mission.
  */
@@ -127,6 +132,7 @@ internal class BoatAtRest(
     val accuracyMetres: Float? = null,
     val hasHeading: Boolean = false,
     val isVirtual: Boolean = false,
+    val hasProbe: Boolean = true,
     val hasMission: Boolean = false,
     val metresToArea: Double? = null,
 )
@@ -153,6 +159,8 @@ internal class Preflight(private val context: Context) {
                         PreflightReason.NOT_PERMITTED
                             .takeIf { !boat.isVirtual && missingPermissions(context).isNotEmpty() }
                     PreflightCheck.LINK -> link(boat)
+                    // Not every board lets its probes speak before it is armed: silence is told, and refuses nothing.
+                    PreflightCheck.PROBE -> null
                     PreflightCheck.FIX -> fix(boat)
                     PreflightCheck.PLACE -> place(boat)
                     PreflightCheck.BOAT_BATTERY -> boatBattery(boat)
@@ -168,6 +176,7 @@ internal class Preflight(private val context: Context) {
     private fun note(check: PreflightCheck, boat: BoatAtRest): PreflightNote? =
         when {
             check == PreflightCheck.PLACE && (boat.metresToArea ?: 0.0) > 0 -> PreflightNote.ON_THE_WAY
+            check == PreflightCheck.PROBE && !boat.hasProbe -> PreflightNote.PROBE_SILENT
             check != PreflightCheck.BOAT_BATTERY || boat.lowestVolts != 0.0 -> null
             boat.volts == null -> PreflightNote.NOT_REPORTED
             else -> PreflightNote.NOT_WATCHED

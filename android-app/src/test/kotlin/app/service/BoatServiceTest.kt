@@ -54,6 +54,7 @@ class BoatServiceTest {
         assertTrue(made.single().open)
         val shown = assertNotNull(shadowOf(service).lastForegroundNotification)
         assertEquals("Standing by, disarmed", shadowOf(shown).contentTitle)
+        assertEquals(Notification.VISIBILITY_PUBLIC, shown.visibility, "STOP is there on a locked phone")
         assertTrue(assertNotNull(ShadowPowerManager.getLatestWakeLock()).isHeld)
         assertEquals(BoatActivity.STANDING_BY, service.snapshot.activity)
         assertEquals("Boat 3", service.snapshot.linkName)

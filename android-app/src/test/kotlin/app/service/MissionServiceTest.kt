@@ -129,6 +129,18 @@ class MissionServiceTest {
     }
 
     @Test
+    fun theWrongProbeIsNotedBeforeTheStart() {
+        fun note() = desk.snapshot.preflight.single { it.check == PreflightCheck.PROBE }.note
+        desk.pass(2.0)
+        assertNull(note())
+        for (other in listOf("\"quantity\":\"acidity\",\"port\":1", "\"quantity\":\"dissolved-oxygen\",\"port\":3")) {
+            val spec = ServiceDesk.POND.replace("\"quantity\":\"dissolved-oxygen\",\"port\":1", other)
+            pond.load(spec)
+            assertEquals(PreflightNote.PROBE_SILENT, note(), other)
+        }
+    }
+
+    @Test
     fun whatIsNoMissionIsToldAndTheOneBeforeStays() {
         desk.ask { load("""{"name":"pond"}""") }
         val answer = assertNotNull(desk.snapshot.answer)

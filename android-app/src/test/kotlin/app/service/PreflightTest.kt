@@ -69,6 +69,14 @@ class PreflightTest {
         assertEquals(PreflightReason.NOT_REPORTED, red(unasked)[PreflightCheck.BOAT_BATTERY], "no mission yet")
     }
 
+    /** Not red: some boards let their probes speak only once they are armed. */
+    @Test
+    fun aProbeThatWasNotHeardIsNoted() {
+        assertEquals(emptyMap(), red(boat(hasProbe = false)))
+        assertEquals(PreflightNote.PROBE_SILENT, note(PreflightCheck.PROBE, boat(hasProbe = false)))
+        assertNull(note(PreflightCheck.PROBE, boat()))
+    }
+
     @Test
     fun aMissionOfAnotherWaterIsRedAndOneNearByIsNoted() {
         val place = PreflightCheck.PLACE
@@ -124,6 +132,7 @@ class PreflightTest {
         lowest: Double? = 11.0,
         metres: Double? = 0.0,
         hasMission: Boolean = true,
+        hasProbe: Boolean = true,
     ) = BoatAtRest(
         hasLink = hasLink,
         link = LinkHealth(state),
@@ -136,6 +145,7 @@ class PreflightTest {
         hasHeading = hasHeading,
         isVirtual = isVirtual,
         hasMission = hasMission,
+        hasProbe = hasProbe,
         metresToArea = metres,
     )
 }
