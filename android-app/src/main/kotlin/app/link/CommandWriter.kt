@@ -66,6 +66,9 @@ internal class CommandWriter(
     @Throws(InterruptedException::class)
     fun await(millis: Long) = thread.join(millis)
 
+    /** Gives the connection up. */
+    fun closeConnection() = connection.close()
+
     private fun run() {
         try {
             while (true) {

@@ -120,7 +120,6 @@ internal class ReconnectingLink(
         }
 
         fun giveUpWhatHangs() {
-            val open = connection
             val writer = this.writer?.takeIf { it.isHung } ?: return
             synchronized(lock) {
                 if (hung === writer || session !== this) return
@@ -134,7 +133,7 @@ internal class ReconnectingLink(
                 )
             }
             // Of this caller nobody may be kept waiting; and a close has been seen to wait for the write.
-            Thread({ open?.close() }, "link-give-up").apply { isDaemon = true }.start()
+            Thread(writer::closeConnection, "link-give-up").apply { isDaemon = true }.start()
         }
 
         private fun connectAndRead() {
@@ -169,6 +168,8 @@ internal class ReconnectingLink(
             // end() may have looked for the connection just before it was there.
             if (ended) return
             fresh.open()
+            // Or have closed it just before it was open.
+            if (ended) return
             received.clear()
             val writes = CommandWriter(fresh, uptimeMillis, this)
             writer = writes

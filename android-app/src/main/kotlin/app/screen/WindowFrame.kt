@@ -109,8 +109,6 @@ internal class WindowFrame(private val context: Context, onMenu: () -> Unit, onS
         const val MENU_SHARE = 2f
         const val STATE_SHARE = 3f
         const val SIDE_SHARE = 3f
-        
-        /** Of the width of a phone that lies, with [SIDE_SHARE]. */
         const val SCREEN_SHARE = 7f
     }
 }

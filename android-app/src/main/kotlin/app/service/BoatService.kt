@@ -46,6 +46,9 @@ open class BoatService :
     /** Whether Android took the service into the foreground without giving it the phone's position; main thread. */
     private var isWithoutPlace = false
 
+    /** Whether a window shows what the service does; main thread. */
+    private var isInSight = false
+
     @Volatile private var wakeLock: PowerManager.WakeLock? = null
 
     override val snapshot: BoatSnapshot get() = loop.snapshot
@@ -75,12 +78,25 @@ open class BoatService :
     override fun onRebind(intent: Intent?) = lookedAt()
 
     private fun lookedAt() {
-        // A window is in sight, so what was refused in the background is not refused now; else all stays as it was.
-        if (isWithoutPlace) enter(snapshot, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION)
+        isInSight = true
+        askForPlace()
         onBoat { isLookedAt = true }
     }
 
+    /** While a window is in sight Android does not refuse what it refused in the background, if perhaps not at once. */
+    private fun askForPlace() {
+        if (!isWithoutPlace || !isInSight) return
+        try {
+            enter(snapshot, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION)
+        } catch (error: IllegalStateException) {
+            // All stays as it was.
+            Log.w(TAG, "no position yet: $error")
+        }
+        if (isWithoutPlace) Handler(Looper.getMainLooper()).postDelayed(::askForPlace, ASK_AGAIN_MILLIS)
+    }
+
     override fun onUnbind(intent: Intent?): Boolean {
+        isInSight = false
         onBoat { isLookedAt = false }
         return true
     }
@@ -260,6 +276,7 @@ open class BoatService :
     companion object {
         private const val TAG = "Stillwater"
         private const val LINK_ONLY = 0
+        private const val ASK_AGAIN_MILLIS = 1_000L
         private const val STOP = "stillwater.app.STOP"
         private const val KEPT = "held-link"
         private const val LOGS = "missions"

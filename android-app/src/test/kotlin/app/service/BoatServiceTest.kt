@@ -6,6 +6,7 @@ import android.app.NotificationManager
 import android.content.Context
 import android.content.Intent
 import android.content.pm.ServiceInfo
+import android.os.Looper
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -23,6 +24,7 @@ import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkMaker
 import stillwater.app.link.LinkState
 import stillwater.wire.BoardState
+import java.time.Duration
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
@@ -239,10 +241,15 @@ class BoatServiceTest {
         val shown = assertNotNull(shadowOf(service).lastForegroundNotification)
         val text = shadowOf(shown).contentText.toString()
         assertTrue(text.startsWith("Open the app: until then Android gives it no position"), text)
-        service.isSeen = true
+        // The window is not yet what Android takes for one in sight.
         service.onBind(null)
-        settle(service)
         assertEquals(listOf(place, 0, place), service.asked)
+        service.isSeen = true
+        shadowOf(Looper.getMainLooper()).idleFor(Duration.ofSeconds(1))
+        settle(service)
+        assertEquals(listOf(place, 0, place, place), service.asked)
+        shadowOf(Looper.getMainLooper()).idleFor(Duration.ofSeconds(5))
+        assertEquals(4, service.asked.size, "and no more")
         assertFalse(service.snapshot.isWithoutPlace)
         val manager = context.getSystemService(NotificationManager::class.java)!!
         val now = shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
@@ -262,7 +269,7 @@ class BoatServiceTest {
     private fun settle(service: BoatService = services.last().get()) {
         val boat = shadowOf(service.boatLooper)
         boat.idle()
-        boat.idleFor(java.time.Duration.ofMillis(500))
+        boat.idleFor(Duration.ofMillis(500))
     }
 
     /** Android's answer to a service that it does not let into the foreground. */
