@@ -13,8 +13,8 @@ internal object Built {
     val app: File = root.resolve("android-app")
 
     /**
-     * [file], where it is there. Its absence fails the test, so that no build passes without having looked; who works on
-     * something else says `-Dstillwater.unbuilt=skip`, and sees the test skipped.
+     * [file], where it is there. Its absence fails the test, so that no build passes without having looked; who works
+     * on something else says `-Dstillwater.unbuilt=skip`, and sees the test skipped.
      *
      * @param how it is made.
      */

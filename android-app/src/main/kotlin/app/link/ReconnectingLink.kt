@@ -17,9 +17,9 @@ internal fun interface Pause {
  * Keeps a connection to the board through everything: one thread connects, reads, closes, waits longer each time and
  * connects afresh; another one writes. What calls [read] and [write] never waits for either.
  *
- * A connection over which one command takes too long is given up, and counted: a stop is not to queue behind it. Nothing
- * received over one connection is handed out over the next. What was taken before [close] goes out first, for as long as
- * [parting] lets.
+ * A connection over which one command takes too long is given up, and counted: a stop is not to queue behind it.
+ * Nothing received over one connection is handed out over the next. What was taken before [close] goes out first, for
+ * as long as [parting] lets.
  *
  * @param words says a text of the app's own, by its resource. Retained.
  * @param pause waits between attempts. Retained.

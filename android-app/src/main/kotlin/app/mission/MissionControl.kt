@@ -134,7 +134,7 @@ internal class MissionControl(
         return null
     }
 
-    /** What stands against going on with what another kind of boat began: half a map of measured water, half of none. */
+    /** What stands against going on with what another kind of boat began: half of that map would be measured. */
     private fun otherWorld(boat: BoatAtHand): Answer? {
         val wasVirtual = recovered?.mission?.isVirtual
         return when {

@@ -11,6 +11,7 @@ import stillwater.app.mission.MissionReport
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.PreflightCheck
 import stillwater.app.service.PreflightItem
+import stillwater.app.service.PreflightNote
 import stillwater.app.service.PreflightReason
 import stillwater.app.setup.words
 
@@ -71,10 +72,13 @@ internal class StartScreen(private val context: Context, private val host: Scree
         val items = snapshot.preflight.associateBy { it.check }
         for ((check, line) in checks) line.show(items[check])
         val red = snapshot.preflight.count { !it.ready }
+        // What many missions have would soon be overlooked: the note of a battery that is not watched stays in the list.
+        val notes = snapshot.preflight.count { it.note != null && it.note != PreflightNote.NOT_WATCHED }
         ready.say(
             when {
                 snapshot.preflight.isEmpty() -> context.getString(R.string.checks_unknown)
-                red == 0 -> context.getString(R.string.checks_green)
+                red == 0 && notes == 0 -> context.getString(R.string.checks_green)
+                red == 0 -> context.resources.getQuantityString(R.plurals.checks_noted, notes, notes)
                 else -> context.resources.getQuantityString(R.plurals.checks_red, red, red)
             },
         )

@@ -130,7 +130,7 @@ internal fun PreflightCheck.words(): Int =
         PreflightCheck.BATTERY_SAVER -> R.string.check_battery_saver
     }
 
-/** What is to be said of a line of the checklist besides its name: why it is red, or what is worth knowing; or nothing. */
+/** What a line of the checklist says besides its name: why it is red, or what is worth knowing; null for nothing. */
 internal fun Context.preflightWords(item: PreflightItem): String? {
     val words = item.reason?.words() ?: item.note?.words() ?: return null
     return item.metres?.let { getString(words, distance(it)) } ?: getString(words)

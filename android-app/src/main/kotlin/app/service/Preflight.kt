@@ -215,7 +215,7 @@ internal class Preflight(private val context: Context) {
         }
     }
 
-    /** Core's policy has 0 V where no voltage is measured: a boat without the wire for it is not kept ashore by that. */
+    /** Core's policy has 0 V where no voltage is measured: a boat without the wire for it is not kept ashore. */
     private fun boatBattery(boat: BoatAtRest): PreflightReason? {
         val volts = boat.volts
         val lowest = boat.lowestVolts

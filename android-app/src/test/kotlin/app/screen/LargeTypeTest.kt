@@ -18,8 +18,8 @@ import java.io.File
 import kotlin.test.assertEquals
 
 /**
- * With type of twice the size, the largest that Android offers: STOP is whole on every screen, and no word is cut off or
- * broken. The pictures are left in target/large-type, to be looked at.
+ * With type of twice the size, the largest that Android offers: STOP is whole on every screen, and no word is cut off
+ * or broken. The pictures are left in target/large-type, to be looked at.
  */
 @RunWith(RobolectricTestRunner::class)
 @GraphicsMode(GraphicsMode.Mode.NATIVE)
@@ -80,7 +80,9 @@ class LargeTypeTest {
         if (place[1] + stop.height > size.heightPixels || place[0] + stop.width > size.widthPixels) {
             wrong += "$name: STOP ends at ${place[0] + stop.width}, ${place[1] + stop.height}"
         }
-        for (view in activity.shown().filterIsInstance<TextView>()) cut(view)?.let { wrong += "$name: '${view.text}' $it" }
+        for (view in activity.shown().filterIsInstance<TextView>()) {
+            cut(view)?.let { wrong += "$name: '${view.text}' $it" }
+        }
         for (drawn in activity.shown().filter { it is WaterView || it is TraceView }) {
             val height = drawn.height / size.density
             if (height < LEAST_DRAWN) wrong += "$name: ${drawn.javaClass.simpleName} is $height dp high"

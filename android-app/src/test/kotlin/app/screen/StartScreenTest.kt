@@ -99,7 +99,7 @@ class StartScreenTest {
         val words = activity.wordsShown()
         assertTrue("✓ The mission's water: 40 m from here; armed, the boat waits until it is there" in words, "$words")
         assertTrue("✓ Boat battery: the board does not say, and the mission does not ask" in words, "$words")
-        assertTrue("All in order" in words)
+        assertTrue("All in order; see 2 notes below" in words, "$words")
         show(
             PreflightItem(PreflightCheck.PLACE, false, PreflightReason.OTHER_WATER, metres = 11_119.0),
             PreflightItem(PreflightCheck.BOAT_BATTERY, false, PreflightReason.NOT_REPORTED),

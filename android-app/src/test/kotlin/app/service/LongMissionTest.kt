@@ -83,7 +83,7 @@ class LongMissionTest {
         assertTrue(report.isOver)
         val counts = report.counts
         assertTrue(counts.taken > 7000, "$counts")
-        // By the virtual board's own count; at the begin and at the end one may be under way, or come between two looks.
+        // By the virtual board's own count; at either end one may be under way, or come between two looks.
         assertTrue(sent - counts.received in -1..2, "the board sent $sent: $counts")
         assertEquals(counts.received, counts.taken, "the demo's probe says nothing that is doubted: $counts")
         assertEquals(0L, counts.unreadable)

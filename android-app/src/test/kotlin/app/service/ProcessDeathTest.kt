@@ -144,7 +144,7 @@ class ProcessDeathTest {
 
     private fun read(file: File) = pond.read(file)
 
-    /** Kills the process and has Android start it anew; answers the log as it was left, a line of it cut, and [made]. */
+    /** Kills the process and has Android start it anew; answers the log as it was left: a line cut, then [made]. */
     private fun dieAndComeBack(made: (String) -> String = { it }): File {
         val file = logs().single()
         assertTrue(file.name.endsWith(LogFolder.INCOMPLETE))
