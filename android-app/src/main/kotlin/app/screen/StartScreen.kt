@@ -72,7 +72,7 @@ internal class StartScreen(private val context: Context, private val host: Scree
         val items = snapshot.preflight.associateBy { it.check }
         for ((check, line) in checks) line.show(items[check])
         val red = snapshot.preflight.count { !it.ready }
-        // What many missions have would soon be overlooked: the note of a battery that is not watched stays in the list.
+        // What many missions have would soon be overlooked: that of a battery nobody watches stays in the list.
         val notes = snapshot.preflight.count { it.note != null && it.note != PreflightNote.NOT_WATCHED }
         ready.say(
             when {
