@@ -6,7 +6,6 @@ import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionState
 import stillwater.mission.RecoveredMission
 import java.io.File
-import kotlin.test.assertEquals
 import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
