@@ -4,6 +4,7 @@ import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.booleanOrNull
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
 import stillwater.control.Mixing
@@ -90,7 +91,12 @@ internal class OwnLogReplay(
         lines.count("beginnings", number)
         val spec = missionOf(json) ?: return notUnderstood.count("a mission", number)
         val date = (json["date"] as? JsonPrimitive)?.contentOrNull.orEmpty()
-        val start = LogStart((json["time"] as? JsonPrimitive)?.doubleOrNull?.toLong() ?: 0, date)
+        val start = LogStart(
+            (json["time"] as? JsonPrimitive)?.doubleOrNull?.toLong() ?: 0,
+            date,
+            (json["boat"] as? JsonPrimitive)?.contentOrNull,
+            (json["virtual"] as? JsonPrimitive)?.booleanOrNull,
+        )
         val before = if (mission == null) null else recovered()
         link = RecordedLink()
         lastTime = Double.NEGATIVE_INFINITY

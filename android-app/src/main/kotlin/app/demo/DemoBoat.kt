@@ -49,6 +49,9 @@ internal class DemoBoat(name: String, mission: MissionSpec?) {
     /** Its receiver and compass. */
     val pose: Pose = DemoPose()
 
+    /** Readings that its probe has sent, by the board's own count. */
+    val readings: Long get() = synchronized(boat) { boat.board.readings }
+
     private var newest: PhoneFix? = null
     private var pointing: PhoneHeading? = null
     private var seen = 0L
