@@ -46,7 +46,12 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
 
     private fun take(stage: SensorStage) {
         when (stage) {
-            is SensorStage.Lag -> if (timeConstant.isNaN()) timeConstant = stage.timeConstant else second = stage.timeConstant
+            is SensorStage.Lag -> if (timeConstant.isNaN()) {
+                timeConstant = stage.timeConstant
+            } else {
+                second =
+                    stage.timeConstant
+            }
             is SensorStage.Asymmetric -> {
                 first(exp((ln(stage.rising) + ln(stage.falling)) / 2))
                 put(Cause.ASYMMETRIC_RESPONSE, ln(stage.rising / stage.falling))

@@ -28,7 +28,8 @@ internal object LocalSpread {
             val sorted = column.sortedArray()
             val ranks = rows.map { row -> rank(sorted, column[row]) }
             val lone = sqrt(12.0 * rows.size)
-            abs(ranks.average() - 0.5) * lone > GATHERED || abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED
+            abs(ranks.average() - 0.5) * lone > GATHERED ||
+                abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED
         }
     }
 

@@ -25,7 +25,8 @@ internal object RangeEnd {
         var scatter = 0.0
         for (i in foretold.indices) {
             if (!used[i]) continue
-            val beyond = foretold[i] - foretold[i].coerceIn(minOf(fit.numbers[at], fit.numbers[at + 1]), fit.numbers[at + 1])
+            val beyond =
+                foretold[i] - foretold[i].coerceIn(minOf(fit.numbers[at], fit.numbers[at + 1]), fit.numbers[at + 1])
             squares += beyond * beyond
             products += beyond * fit.residuals[i]
             scatter += beyond * beyond * fit.residuals[i] * fit.residuals[i]

@@ -25,10 +25,12 @@ internal class ReferenceFaults(
         val ahead = -late.fit.numbers[late.fit.model.slot(late.term)]
         val isLate = ahead > 0 && late.pValue * tried < level && late.fit.score - late.cost >= explained
         return when {
-            isLate -> "the readings are ahead of the reference by %.2g s: its clock is behind, or it has a lag of its own"
-                .format(Locale.ROOT, ahead)
-            explained > base.score && smoothest() >= explained -> "the readings follow a smoother course than the " +
-                "reference's: it is noisy, or sees other water than the sensor"
+            isLate ->
+                "the readings are ahead of the reference by %.2g s: its clock is behind, or it has a lag of its own"
+                    .format(Locale.ROOT, ahead)
+            explained > base.score && smoothest() >= explained ->
+                "the readings follow a smoother course than the " +
+                    "reference's: it is noisy, or sees other water than the sensor"
             else -> null
         }
     }
@@ -51,7 +53,9 @@ internal class ReferenceFaults(
             var sum = reference[i]
             for (way in intArrayOf(-1, 1)) {
                 var k = i + way
-                while (k in times.indices && !isBeyond(times, k, way, gap) && (times[k] - times[i]) * way < REACH * width) {
+                while (k in times.indices && !isBeyond(times, k, way, gap) &&
+                    (times[k] - times[i]) * way < REACH * width
+                ) {
                     val off = (times[k] - times[i]) / width
                     val weight = exp(-off * off / 2)
                     weights += weight

@@ -243,7 +243,11 @@ public class Mission(
                 leaveDisarmed()
             }
             else -> {
-                if (state == MissionState.Arming) arm(before) else if (probe.isDue(now) && !isDeaf()) setProbeUp()
+                if (state == MissionState.Arming) {
+                    arm(before)
+                } else if (probe.isDue(now) && !isDeaf()) {
+                    setProbeUp()
+                }
                 // However long the silence is when it is noticed, rest is said once. After that any line would keep the
                 // watchdog quiet, a question too; the board speaks unasked when it is heard again.
                 if (state != before || !isDeaf()) {

@@ -214,7 +214,7 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
                     (
                         area.isClear(lattice.x(point), lattice.y(point), margin) &&
                             area.isClear(x, y, lattice.x(point), lattice.y(point), kept)
-                    )
+                        )
             }
             return leads
         }

@@ -25,7 +25,13 @@ class GivenSensorTest {
         val sensor = SensorSpec("given", stages).build(truth[0], Random(1))
         return DoubleArray(n) {
             val now = Conditions(mapOf(Conditions.TEMPERATURE to warmth[it]))
-            if (it == 0) stages.fold(truth[0]) { shown, stage -> stage.settled(shown) } else sensor.step(truth[it], 1.0, now)
+            if (it ==
+                0
+            ) {
+                stages.fold(truth[0]) { shown, stage -> stage.settled(shown) }
+            } else {
+                sensor.step(truth[it], 1.0, now)
+            }
         }
     }
 

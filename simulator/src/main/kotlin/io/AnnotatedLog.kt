@@ -111,7 +111,8 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
 
     private fun isRow(survey: CsvSurvey, part: AddedColumns, fields: List<String>, k: Int): Boolean {
         val time =
-            fields.getOrNull(survey.columns.time)?.let { IsoTime.ofField(it.toCharArray(), 0, it.length) } ?: return false
+            fields.getOrNull(survey.columns.time)?.let { IsoTime.ofField(it.toCharArray(), 0, it.length) }
+                ?: return false
         val value = fields.getOrNull(survey.columns.value)?.let { DecimalText.parse(it) } ?: return false
         return time == part.times[k] && value == part.values[k] && isPlace(survey.columns, part, fields, k)
     }

@@ -29,7 +29,14 @@ public class Rehearsal : AutoCloseable {
     )
 
     private fun cells() = List(CELLS) {
-        MapCell.rectangle((it % SIDE).toDouble(), (it / SIDE).toDouble(), 1.0, 1.0, rotation = 0.0, value = it.toDouble())
+        MapCell.rectangle(
+            (it % SIDE).toDouble(),
+            (it / SIDE).toDouble(),
+            1.0,
+            1.0,
+            rotation = 0.0,
+            value = it.toDouble(),
+        )
     }
 
     private inline fun ways(of: (Int) -> Int) = DoubleArray(CELLS) { of(it).toDouble() }

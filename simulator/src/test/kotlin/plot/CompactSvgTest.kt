@@ -15,7 +15,8 @@ class CompactSvgTest {
 
     @Test
     fun numbersKeepTwoDecimalsRoundedHalfToEven() {
-        val odd = listOf("0.0", "-0.0", "-0.004", "-0.005", "0.005", "0.015", "0.025000", "0.0250001", "9.995", "99.999")
+        val odd =
+            listOf("0.0", "-0.0", "-0.004", "-0.005", "0.005", "0.015", "0.025000", "0.0250001", "9.995", "99.999")
         val long = listOf("1234567890123456.789", "0.12345678901234567", "1.0E-5", "-1.25E10", "1.5E3", "12.5")
         for (number in odd + long) assertEquals(" x=\"${rounded(number)}\"", compacted(number), number)
         val random = Random(SEED)

@@ -43,6 +43,7 @@ internal class BoatLoop(
     private val gaps = GapDetector()
     private val area = AreaDistance()
     private val watchdog = Watchdog()
+
     @Volatile private var demo: DemoBoat? = null
     private var due = 0L
     private var ticks = 0L
