@@ -15,12 +15,20 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     /** Half of this is what rounding alone may move a reading by. */
     private val resolution = fit.model.scales.resolution
-    private val spikes = Spikes.of(z).filter { abs(fit.residuals[it]) > FARTHEST * spread + resolution / 2 }
+    private val spikes = Spikes.of(z).filter {
+        abs(fit.residuals[it]) > FARTHEST * spread + resolution / 2 && Spikes.isSingle(fit.residuals, it)
+    }
     private val mixture = Spikes.ratio(z)
+
+    /** Whether readings come back after most of what is far off: bubbles and knocks that fade are no outliers. */
+    private val isMostlySingle: Boolean
+        get() = z.indices.filter { abs(z[it]) > FARTHEST * spread }.let { far ->
+            2 * far.count { Spikes.isSingle(fit.residuals, it) } >= far.size
+        }
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
     val pValue: Double = Evidence.poissonTail(spikes.size, series.size * BEYOND).let { lone ->
-        val far = mixture.size > FARTHEST * spread && resolution < spread
+        val far = mixture.size > FARTHEST * spread && resolution < spread && isMostlySingle
         if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
     }
 
