@@ -5,6 +5,7 @@ import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sin
+import kotlin.math.sqrt
 
 /**
  * The reading that a sensor with the causes [terms] would give along a log whose truth is the log's reference.
@@ -119,6 +120,10 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         taus.fill(p[TIME_CONSTANT])
         if (exponent != 0.0) for (i in 0 until n) taus[i] *= exp(-exponent * scales.logSpeed[i])
         if (change != 0.0) for (i in 0 until n) taus[i] *= exp(-change * scales.warmth[i])
+        // Water that goes on evenly is passed as fast, and as warm, as halfway between the rows.
+        if (!held && (exponent != 0.0 || change != 0.0)) {
+            for (i in n - 1 downTo 1) taus[i] = sqrt(taus[i - 1] * taus[i])
+        }
     }
 
     /** A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. */
