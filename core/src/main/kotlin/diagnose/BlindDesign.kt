@@ -47,8 +47,10 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
         }
     }
 
-    /** Adds what column [a] of four rows is with the columns up to it. The compiler does several of them in one step where
-     * each row is a parameter of its own. */
+    /**
+     * Adds what column [a] of four rows is with the columns up to it. The compiler does several of them in one step
+     * where each row is a parameter of its own.
+     */
     private fun products(
         sum: DoubleArray,
         a: Int,
