@@ -115,15 +115,15 @@ internal class BlindAnswer(
                     if (lag.isOpen(settings.separation)) "." else ", which explains less.",
             )
             add(
-                "The correction of a track (correct) compares passes over the same place alone, without a model of the " +
-                    "water between them: its lag may differ, and where it is outside of the interval here, neither " +
+                "The correction of a track (correct) compares passes over the same place alone, without a model of " +
+                    "the water between them: its lag may differ, and where it is outside of the interval here, neither " +
                     "should be relied on.",
             )
         }
         if (!last.isResolved) {
             add(
-                "The water has finer structure than these numbers show, or the response another shape: the interval of " +
-                    "the lag may be too narrow.",
+                "The water has finer structure than these numbers show, or the response another shape: the interval " +
+                    "of the lag may be too narrow.",
             )
         }
         if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {

@@ -88,8 +88,8 @@ internal class BlindDiagnosis(
         }
 
         /**
-         * [trial] on top of a model whose water has waves finer than those it was given: that is so where there are, but
-         * also where a wrong response makes passes over the same water contradict each other. It counts where it leaves
+         * [trial] on top of a model whose water has waves finer than those it was given: that is so where there are,
+         * but also where a wrong response makes passes over the same water contradict each other. It counts where it leaves
          * no such waves, or explains more than missing ones could be taken for.
          */
         private fun resolved(trial: BlindTrial): BlindTrial {

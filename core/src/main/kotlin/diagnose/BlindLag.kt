@@ -66,10 +66,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         if (both === timeConstant) return@lazy false
         val better = search.improved(search.requieted(both))
         val worse = if (timeConstant.score > deadTime.score) timeConstant else deadTime
-        // What the worse model leaves is not noise: only the better one's residuals say how noise is correlated.
-        val column = better.fit.unlike(better.derivative(better.numbers.size - 1))
-        val correlated = BlindEvidence.inflation(listOf(column), better.whitened)
-        (better.score - worse.score) / correlated > MUCH && BlindEvidence.between(worse, better) > SURE
+        (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE
     }
 
     /** The dead time, s. */
