@@ -94,7 +94,8 @@ internal class BlindDiagnosis(
          */
         private fun resolved(trial: BlindTrial): BlindTrial {
             val settled = settled(trial)
-            val isClear = settled.state?.isResolved == true || settled.ratio > BEYOND_WAVES
+            val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
+            val isClear = settled.state?.isResolved == true || goesWithMore
             return if (isClear) settled else settled.atMost(0.0)
         }
 
@@ -280,6 +281,9 @@ internal class BlindDiagnosis(
 
         /** The same that water finer than was resolved does not give a response of another shape. */
         private const val BEYOND_WAVES = 100.0
+
+        /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
+        private val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)
 
         /** The same below which a cause goes again, once others are named beside it. */
         private const val NEEDLESS = 8.0
