@@ -141,8 +141,9 @@ def alternatives():
     """Ways to start the program: its name, the command, whether it is the one that is recommended."""
     archive = os.path.join(tempfile.mkdtemp(prefix="stillwater-"), "classes.jsa")
     rehearsal = archive + ".out"
-    run(["java", "-XX:ArchiveClassesAtExit=" + archive, "-jar", JAR, "benchmark", "--environments", "1", "--moves", "5",
-         "--out", rehearsal])
+    # Interpreted: see the launcher.
+    run(["java", "-Xint", "-XX:ArchiveClassesAtExit=" + archive, "-jar", JAR, "benchmark", "--environments", "1",
+         "--moves", "5", "--out", rehearsal])
     serial = ["-XX:+UseSerialGC"]
     small = serial + ["-Xms32m", "-XX:MinHeapFreeRatio=10", "-XX:MaxHeapFreeRatio=25"]
     quick = ["-XX:TieredStopAtLevel=1"]

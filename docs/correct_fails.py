@@ -23,7 +23,7 @@ PROGRAM = shlex.split(os.environ.get("STILLWATER", "java -jar simulator/target/s
 FIGURE = pathlib.Path("docs/figures/correct-fails.svg")
 LEGS, LEG, APART, SCALE, NOISE, DIGIT, STEPS = 12, 150, 8, 25.0, 0.02, 0.01, 10
 RATES = [0.01, 0.02, 0.04, 0.06, 0.08, 0.12, 0.16, 0.32]
-SHARES = [0.02, 0.05, 0.1, 0.2, 0.4]
+SHARES = [0.0, 0.02, 0.05, 0.1, 0.2, 0.4]
 FAST, SLOW = 4.0, 60.0
 SEEDS = [7301, 7302]
 
@@ -100,7 +100,8 @@ def corrected(log, stages, directory):
         "coverage": sum(r["corrected_low"] <= r["truth"] <= r["corrected_high"] for r in rows) / len(rows),
         "measured": rms("reading"),
         "corrected": rms("corrected"),
-        "open": "rate limit" if summary["sensor_from"] == "rate" else ", ".join(summary["open"]) or summary["sensor_from"],
+        "open": ("rate limit" if summary["sensor_from"] == "rate" else ", ".join(summary["open"]) or summary["sensor_from"])
+                + ("; slow path hinted at" if any("hints at a slow path" in it for it in summary["warnings"]) else ""),
     }
 
 

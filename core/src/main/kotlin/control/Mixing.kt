@@ -1,17 +1,21 @@
 package stillwater.control
 
+import kotlinx.serialization.SerialName
+import kotlinx.serialization.Serializable
 import stillwater.model.Actuation
 import stillwater.model.Drive
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
 
-/** How a [Drive] becomes what is sent to the actuators; what is not finite becomes rest. */
+/** How a [Drive] becomes what is sent to the actuators; what is not finite becomes rest. Named in a mission's JSON. */
+@Serializable
 public enum class Mixing(
     /** Share of full thrust that a follower should give in a full turn: what does not turn on the spot turns faster with it. */
     public val turnThrust: Double,
 ) {
     /** Two thrusters: turning is kept where both cannot be had, because a boat that turns can still be led. */
+    @SerialName("differential")
     DIFFERENTIAL(turnThrust = 0.0) {
         override fun mix(drive: Drive): Actuation {
             if (!drive.forward.isFinite() || !drive.turn.isFinite()) return Actuation.Differential(0.0, 0.0)
@@ -28,6 +32,7 @@ public enum class Mixing(
     },
 
     /** A swivelled thruster: without thrust it does not turn, so a turn asks for some. */
+    @SerialName("vectored")
     VECTORED(turnThrust = 0.6) {
         override fun mix(drive: Drive): Actuation {
             if (!drive.forward.isFinite() || !drive.turn.isFinite()) return Actuation.Vectored(0.0, 0.0)
@@ -48,12 +53,10 @@ public enum class Mixing(
 
     /** Share of full thrust that drives the boat ahead once [drive] is mixed, negative astern. */
     public abstract fun ahead(drive: Drive): Double
-
-    private companion object {
-        /** Share of full thrust kept for the other use. */
-        const val LEAST = 0.25
-
-        /** Angle of a full swivel, rad: the airboats' servos. */
-        const val FULL_SWIVEL = PI / 4
-    }
 }
+
+/** Share of full thrust kept for the other use. */
+private const val LEAST = 0.25
+
+/** Angle of a full swivel, rad: the airboats' servos. */
+private const val FULL_SWIVEL = PI / 4

@@ -168,7 +168,8 @@ internal class BlindAnswer(
         if (!reach.isFinite()) return Estimate(parameter.name, parameter.unit, value, null)
         val isLowest = value <= parameter.lower * (1 + AT_END) && parameter.logarithmic
         val isHighest = value >= parameter.upper * (1 - AT_END) && parameter.logarithmic
-        var lower = if (parameter.logarithmic) value * exp(-minOf(reach, MOST_REACH)) else value - reach
+        var lower =
+            if (parameter.logarithmic) value * exp(-minOf(reach, MOST_REACH)) else parameter.possible(value - reach)
         var upper = if (parameter.logarithmic) value * exp(minOf(reach, MOST_REACH)) else value + reach
         if (isLowest) {
             // On the scale of the number itself; what is far below half a row nobody sees.
@@ -181,7 +182,7 @@ internal class BlindAnswer(
         if (isHighest) {
             bounds += "${words(parameter)} is at the high end of what was searched: it may be anything above " +
                 "${three(lower)} ${parameter.unit}."
-            upper = Double.MAX_VALUE
+            upper = Estimate.OPEN
         }
         return Estimate(parameter.name, parameter.unit, value, Interval(lower, upper))
     }

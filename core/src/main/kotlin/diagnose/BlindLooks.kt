@@ -1,9 +1,7 @@
 package stillwater.diagnose
 
-import stillwater.model.Conditions
 import kotlin.math.PI
 import kotlin.math.abs
-import kotlin.math.atan2
 import kotlin.math.cos
 import kotlin.math.expm1
 import kotlin.math.ln
@@ -48,21 +46,12 @@ internal class BlindLooks(
     }
 
     private fun MutableList<BlindTrial>.heading() {
-        val heading = headings()
+        val heading = series.heading
         val turns = listOf(1, 2).flatMap { k ->
             listOf(DoubleArray(n) { cos(k * heading[it]) }, DoubleArray(n) { sin(k * heading[it]) })
         }
         add(trials.look("the heading", turns))
         add(trials.look("the speed", listOf(standard(series.speed))))
-    }
-
-    private fun headings(): DoubleArray {
-        series.conditions[Conditions.HEADING]?.let { return series.filled(it) }
-        return DoubleArray(n) { i ->
-            val from = maxOf(i - 2, 0)
-            val to = minOf(i + 2, n - 1)
-            atan2(series.y[to] - series.y[from], series.x[to] - series.x[from])
-        }
     }
 
     /** The water as lags of several times show it: any response is near a sum of these. */

@@ -61,13 +61,14 @@ internal class CauseSearch(
         val inflation = inflation(base, best)
         val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
         // The best of so many places gains twice the logarithm of their number by chance.
-        val searched = if (places > 0) places * 2 * ln(minOf(PLACES, series.size / 10).toDouble()) else 0.0
+        val searched = if (places > 0) places * 2 * ln((series.size / 10).coerceIn(1, PLACES).toDouble()) else 0.0
         val gain = best.score - base.score
-        val ratio = maxOf(gain / inflation - searched, 0.0)
+        val ratio = maxOf(minOf(gain, evenly(base, best)) / inflation - searched, 0.0)
         // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
         // differs by chance.
         val cost = searched + 2 * degrees
-        val p = minOf(1.0, Evidence.pValue(ratio, degrees))
+        val isNone = term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)
+        val p = if (isNone) 1.0 else minOf(1.0, Evidence.pValue(ratio, degrees))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
@@ -75,7 +76,9 @@ internal class CauseSearch(
             gained = HeldOut.gainWhereTheyAct(best, base, root, used)
         }
         val worth = gain - cost
-        return Trial(best.model.terms.last(), best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
+        // Where a log has no place for a jump nothing is added.
+        val added = if (best === base) term else best.model.terms.last()
+        return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {
@@ -125,6 +128,22 @@ internal class CauseSearch(
             best = fit
         }
         return best
+    }
+
+    /** The gain where each row counts as much as readings scatter there: noise need not be the same everywhere. */
+    private fun evenly(base: ModelFit, best: ModelFit): Double {
+        val noise = best.noise.over(series.times, used)
+        val before = DoubleArray(used.size).also { noise.whiten(base.residuals, it) }
+        val after = DoubleArray(used.size).also { noise.whiten(best.residuals, it) }
+        val factors = LocalSpread.of(best, after)
+        var gain = 0.0
+        var left = 0.0
+        for (i in used.indices) {
+            val weight = 1 / (factors[i] * factors[i])
+            gain += weight * (before[i] * before[i] - after[i] * after[i])
+            left += weight * after[i] * after[i]
+        }
+        return if (left > 0) noise.rows * gain / left else best.score - base.score
     }
 
     private fun inflation(base: ModelFit, best: ModelFit): Double {

@@ -14,6 +14,8 @@ import kotlin.math.abs
  * Pure: the same log gives the same answer. Cost: of the order of a second for a thousand rows.
  *
  * @param progress told how much is done, a share within 0..1 that grows; at most a few hundred times.
+ * @throws IllegalArgumentException if there is a reference and parts of the given sensor would be lost, or take a
+ *   condition that [series] has not; the message is for the user.
  */
 public class Diagnosis(
     private val series: MeasuredSeries,
@@ -24,6 +26,10 @@ public class Diagnosis(
     private val used = BooleanArray(series.size) { true }
     private val longest = CauseSearch.longest(series, settings)
     private var trials = 0
+
+    init {
+        if (series.reference != null) settings.base?.let { GivenSensor.requireKnown(it, series.conditions.keys) }
+    }
 
     /** The base model as it looks with nothing known of gaps, sharp fronts and single wild readings. */
     private val rough by lazy { base(null, null) }

@@ -47,7 +47,12 @@ public sealed interface Verdict {
  * @property name as in [SensorSpec]'s JSON where it has a place there. @property unit its unit, empty for none.
  * @property value the estimate. @property interval where it lies at 95 %, given that the model is right.
  */
-public data class Estimate(val name: String, val unit: String, val value: Double, val interval: Interval?)
+public data class Estimate(val name: String, val unit: String, val value: Double, val interval: Interval?) {
+    public companion object {
+        /** The upper end of an [interval] that has none. */
+        public const val OPEN: Double = Double.MAX_VALUE
+    }
+}
 
 /**
  * A model against the log.

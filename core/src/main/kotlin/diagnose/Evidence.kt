@@ -34,11 +34,13 @@ internal object Evidence {
      * How many times larger the variance of the score along [columns] is than the noise model says, at least 1.
      *
      * Columns are whitened, and orthogonal to what else was fitted. The variance is that of sums over blocks of rows:
-     * what the whitening has missed of the residuals' correlation shows there. [z] are the whitened residuals.
+     * what the whitening has missed of the residuals' correlation shows there, and so does noise that is larger where a
+     * column is (White 1980, doi:10.2307/1912934). [z] are the whitened residuals.
      */
     fun inflation(columns: List<DoubleArray>, z: DoubleArray): Double {
         if (columns.isEmpty()) return 1.0
         val length = maxOf(z.size / BLOCKS, 1)
+        val variance = squares(z) / maxOf(z.size, 1)
         var total = 0.0
         for (column in columns) {
             var blocks = 0.0
@@ -53,7 +55,8 @@ internal object Evidence {
                     sum = 0.0
                 }
             }
-            total += if (rows > 0) blocks / rows else 1.0
+            val expected = minOf(rows, variance * squares(column))
+            total += if (expected > 0) blocks / expected else 1.0
         }
         return maxOf(1.0, total / columns.size)
     }

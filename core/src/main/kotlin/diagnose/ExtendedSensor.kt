@@ -24,9 +24,12 @@ internal class ExtendedSensor(private val fit: ModelFit, private val spikes: Spi
 
     private fun response(): List<SensorStage> = buildList {
         value(Cause.POSITION_OFFSET)?.let { behind ->
-            losses +=
-                "An offset of place belongs to the platform: the sensor file holds it as the delay at the usual speed."
             val delay = behind / model.scales.ordinarySpeed
+            losses += "An offset of place belongs to the platform: " + if (delay > 0) {
+                "the sensor file holds it as the delay at the usual speed."
+            } else {
+                "no sensor shows the water ahead of it, so that the sensor file is without it."
+            }
             if (delay > 0) add(SensorStage.Delay(delay))
         }
         value(Cause.DEAD_TIME)?.let { add(SensorStage.Delay(it)) }

@@ -1,19 +1,29 @@
 package stillwater.diagnose
 
+import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 
-/** A sensor that is taken as given, as terms and numbers of a model. */
+/** A sensor that is taken as given, as terms and numbers of a model. [spec] is one that [requireKnown] takes. */
 internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
+    private val calibrations = spec.stages.filterIsInstance<SensorStage.Calibration>()
     private val found = LinkedHashMap<Term, DoubleArray>()
     private var timeConstant = Double.NaN
+    private var second = Double.NaN
+    private var deadTime = 0.0
+    private var drift = 0.0
+    private var passed = 0
     private var gain = 1.0
     private var offset = 0.0
 
     init {
         spec.stages.forEach(::take)
+        if (!second.isNaN()) put(Cause.SECOND_ORDER_RESPONSE, second)
+        if (deadTime != 0.0) put(Cause.DEAD_TIME, deadTime)
+        if (drift != 0.0) put(Cause.DRIFT, drift)
     }
 
     /** What acts beside a first-order lag with gain and offset. */
@@ -36,47 +46,61 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
 
     private fun take(stage: SensorStage) {
         when (stage) {
-            is SensorStage.Lag ->
-                if (timeConstant.isNaN()) {
-                    timeConstant = stage.timeConstant
-                } else {
-                    put(Cause.SECOND_ORDER_RESPONSE, stage.timeConstant)
-                }
+            is SensorStage.Lag -> if (timeConstant.isNaN()) timeConstant = stage.timeConstant else second = stage.timeConstant
             is SensorStage.Asymmetric -> {
-                timeConstant = exp((ln(stage.rising) + ln(stage.falling)) / 2)
+                first(exp((ln(stage.rising) + ln(stage.falling)) / 2))
                 put(Cause.ASYMMETRIC_RESPONSE, ln(stage.rising / stage.falling))
             }
             is SensorStage.TwoPath -> {
-                timeConstant = stage.fast
+                first(stage.fast)
                 put(Cause.TWO_PATH_RESPONSE, stage.slow / stage.fast, stage.slowShare)
             }
             is SensorStage.FlowLag -> {
-                timeConstant = stage.timeConstant * atSpeed(stage.referenceSpeed, stage.exponent)
+                first(stage.timeConstant * atSpeed(stage.referenceSpeed, stage.exponent))
                 put(Cause.FLOW_DEPENDENT_RESPONSE, stage.exponent)
             }
             is SensorStage.TemperatureLag -> {
-                timeConstant = stage.timeConstant * atWarmth(stage.referenceTemperature, stage.relativeChange)
+                first(stage.timeConstant * atWarmth(stage.referenceTemperature, stage.relativeChange))
                 put(Cause.TEMPERATURE_DEPENDENT_RESPONSE, stage.relativeChange)
             }
             is SensorStage.Combined -> combined(stage)
-            is SensorStage.Delay -> put(Cause.DEAD_TIME, stage.deadTime)
-            is SensorStage.Slew -> put(Cause.SLEW_LIMIT, stage.rate)
-            is SensorStage.Backlash -> put(Cause.HYSTERESIS, stage.width)
-            is SensorStage.Range -> put(Cause.SATURATION, stage.lower ?: -1e12, stage.upper ?: 1e12)
-            is SensorStage.Drifting -> put(Cause.DRIFT, stage.rate)
+            is SensorStage.Delay -> deadTime += stage.deadTime
+            is SensorStage.Slew -> put(Cause.SLEW_LIMIT, stage.rate * abs(gainLeft()))
+            is SensorStage.Backlash -> put(Cause.HYSTERESIS, stage.width * abs(gainLeft()))
+            is SensorStage.Range -> range(stage)
+            is SensorStage.Drifting -> drift += stage.rate * gainLeft()
             is SensorStage.Jumps -> jumps(stage)
             is SensorStage.Cross -> cross(stage)
             is SensorStage.Calibration -> {
                 offset = stage.gain * offset + stage.offset
                 gain *= stage.gain
+                passed++
             }
             is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
         }
     }
 
+    /** The gain of all stages that are still to come: the model has what is before them behind them. */
+    private fun gainLeft() = calibrations.drop(passed).fold(1.0) { product, stage -> product * stage.gain }
+
+    /** The lag that may depend on conditions has [tau], s; one before it is then the second. */
+    private fun first(tau: Double) {
+        second = timeConstant
+        timeConstant = tau
+    }
+
+    private fun range(stage: SensorStage.Range) {
+        fun shown(limit: Double) = calibrations.drop(passed).fold(limit) { value, it -> it.gain * value + it.offset }
+        val lower = stage.lower?.let(::shown)
+        val upper = stage.upper?.let(::shown)
+        val (low, high) = if (gainLeft() < 0) upper to lower else lower to upper
+        put(Cause.SATURATION, low ?: -1e12, high ?: 1e12)
+    }
+
     private fun combined(stage: SensorStage.Combined) {
-        timeConstant = stage.timeConstant * atSpeed(stage.referenceSpeed, stage.exponent) *
+        val factor = atSpeed(stage.referenceSpeed, stage.exponent) *
             atWarmth(stage.referenceTemperature, stage.relativeChange)
+        first(stage.timeConstant * factor)
         if (stage.exponent != 0.0) put(Cause.FLOW_DEPENDENT_RESPONSE, stage.exponent)
         if (stage.relativeChange != 0.0) put(Cause.TEMPERATURE_DEPENDENT_RESPONSE, stage.relativeChange)
         if (stage.risingOverFalling != 1.0) put(Cause.ASYMMETRIC_RESPONSE, ln(stage.risingOverFalling))
@@ -93,13 +117,47 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
     }
 
     private fun jumps(stage: SensorStage.Jumps) {
-        val changes = stage.offsets.mapIndexed { i, o -> o - if (i == 0) 0.0 else stage.offsets[i - 1] }
+        val left = gainLeft()
+        val changes = stage.offsets.mapIndexed { i, o -> left * (o - if (i == 0) 0.0 else stage.offsets[i - 1]) }
         put(Cause.OFFSET_STEPS, *changes.toDoubleArray(), times = stage.times)
     }
 
     private fun cross(stage: SensorStage.Cross) {
-        val middle = scales.middles[stage.condition] ?: return
+        val middle = scales.middles.getValue(stage.condition)
         offset += stage.coefficient * (middle - stage.reference)
-        put(Cause.CROSS_SENSITIVITY, stage.coefficient, condition = stage.condition)
+        put(Cause.CROSS_SENSITIVITY, stage.coefficient * gainLeft(), condition = stage.condition)
+    }
+
+    companion object {
+        /**
+         * Refuses a sensor of which parts would be lost, or that takes more than the [conditions] of the log.
+         *
+         * @throws IllegalArgumentException if so; the message is for the user.
+         */
+        fun requireKnown(spec: SensorSpec, conditions: Set<String>) {
+            val lags = spec.stages.filter(::isLag)
+            require(lags.size <= 2 && lags.count { it !is SensorStage.Lag } <= 1) {
+                "expected at most two lags, one of which does not change, in a sensor that is taken as given"
+            }
+            for (kind in listOf(SensorStage.Slew::class, SensorStage.Backlash::class, SensorStage.Range::class)) {
+                require(spec.stages.count { kind.isInstance(it) } <= 1) { ONCE }
+            }
+            require(spec.stages.count { it is SensorStage.Jumps } <= 1) { ONCE }
+            val cross = spec.stages.filterIsInstance<SensorStage.Cross>().map { it.condition }
+            require(cross.size == cross.toSet().size) { ONCE }
+            val needed = if (spec.stages.any(::isWarmth)) cross + Conditions.TEMPERATURE else cross
+            val missing = needed.toSet() - conditions
+            require(missing.isEmpty()) { "it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}" }
+        }
+
+        private const val ONCE = "expected at most one slew limit, hysteresis, saturation, list of offset steps, and " +
+            "cross-sensitivity to each condition in a sensor that is taken as given"
+
+        private fun isLag(stage: SensorStage) = stage is SensorStage.Lag || stage is SensorStage.Asymmetric ||
+            stage is SensorStage.TwoPath || stage is SensorStage.FlowLag || stage is SensorStage.TemperatureLag ||
+            stage is SensorStage.Combined
+
+        private fun isWarmth(stage: SensorStage) = stage is SensorStage.TemperatureLag ||
+            stage is SensorStage.Combined && stage.relativeChange != 0.0
     }
 }

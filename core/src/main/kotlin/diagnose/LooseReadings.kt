@@ -15,21 +15,35 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     /** Half of this is what rounding alone may move a reading by. */
     private val resolution = fit.model.scales.resolution
-    private val spikes = Spikes.of(z).filter {
-        abs(fit.residuals[it]) > FARTHEST * spread + resolution / 2 && Spikes.isSingle(fit.residuals, it)
-    }
-    private val mixture = Spikes.ratio(z)
 
-    /** Whether readings come back after most of what is far off: bubbles and knocks that fade are no outliers. */
-    private val isMostlySingle: Boolean
-        get() = z.indices.filter { abs(z[it]) > FARTHEST * spread }.let { far ->
-            2 * far.count { Spikes.isSingle(fit.residuals, it) } >= far.size
-        }
+    /** Readings that are as far off as outliers, but are followed by others that are: sudden changes that last. */
+    val lasting: List<Int>
+    private val spikes: List<Int>
+    private val mixture: Mixture
+
+    init {
+        // Noise may be larger at some values, speeds or times than at others: that is no outlier yet.
+        LocalSpread.of(fit, z).forEachIndexed { i, factor -> z[i] /= factor }
+        fun isFar(i: Int) = abs(fit.residuals[i]) > FARTHEST * spread + resolution / 2
+        val usual = Spikes.spread(z)
+        val sudden = z.indices.filter { abs(z[it]) > FARTHEST * usual }
+        // A single reading makes two sudden changes.
+        lasting = sudden.filterNot { isSingle(it) || (it > 0 && abs(z[it - 1]) > FARTHEST * usual && isSingle(it - 1)) }
+        lasting.forEach { z[it] = 0.0 }
+        spikes = Spikes.of(z).filter(::isFar)
+        mixture = Spikes.ratio(z)
+    }
+
+    private fun isSingle(i: Int) = Spikes.isSingle(fit.residuals, i)
+
+    /** Of there being sudden changes that last. */
+    val lastingPValue: Double get() = Evidence.poissonTail(lasting.size, series.size * BEYOND)
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
     val pValue: Double = Evidence.poissonTail(spikes.size, series.size * BEYOND).let { lone ->
-        val far = mixture.size > FARTHEST * spread && resolution < spread && isMostlySingle
-        if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
+        val far = mixture.size > FARTHEST * spread && resolution < spread
+        val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
+        if (LocalSpread.isConcentrated(fit, z.indices.filter { abs(z[it]) > TAIL * Spikes.spread(z) })) 1.0 else found
     }
 
     /** How often and how far. */
@@ -39,5 +53,8 @@ internal class LooseReadings(private val fit: ModelFit) {
     private companion object {
         const val BEYOND = 4e-5
         const val FARTHEST = 4.5
+
+        /** Of these only one in two thousand is no outlier. */
+        const val TAIL = 3.5
     }
 }

@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import kotlin.math.atan2
 import kotlin.math.hypot
 
 /**
@@ -66,6 +67,18 @@ public class MeasuredSeries(
     /** Temperature of each row, °C, or null where there is no such condition. */
     internal val temperature: DoubleArray? = conditions[Conditions.TEMPERATURE]?.let(::filled)
 
+    /**
+     * Heading of each row, rad: the condition of that name, by its own custom, or the way the positions go over some
+     * rows, counter-clockwise from east.
+     */
+    public val heading: DoubleArray by lazy {
+        conditions[Conditions.HEADING]?.let(::filled) ?: DoubleArray(times.size) { i ->
+            val from = maxOf(i - HEADING_ROWS, 0)
+            val to = minOf(i + HEADING_ROWS, times.size - 1)
+            atan2(y[to] - y[from], x[to] - x[from])
+        }
+    }
+
     private fun fromPositions() = DoubleArray(times.size) { i ->
         var from = i
         var to = i
@@ -100,6 +113,7 @@ public class MeasuredSeries(
         const val GAP_STEPS = 20
         const val GAP_SECONDS = 60.0
         const val SPEED_SECONDS = 2.5
+        const val HEADING_ROWS = 2
     }
 }
 

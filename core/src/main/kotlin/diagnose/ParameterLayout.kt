@@ -49,7 +49,10 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
                 Parameter("slow_ratio", "", true, 1.05, 300.0),
                 Parameter("slow_share", "", false, 0.0, 0.95, 0.0),
             )
-            Cause.DEAD_TIME -> listOf(Parameter("dead_time_s", "s", false, 0.0, longest / 4, 0.0))
+            Cause.DEAD_TIME -> {
+                val least = if (term.isEitherWay) -longest / 4 else 0.0
+                listOf(Parameter("dead_time_s", "s", false, least, longest / 4, 0.0))
+            }
             Cause.SLEW_LIMIT -> listOf(Parameter("rate_per_s", "sensor units/s", true, 1e-12 * range, 1e6 * range))
             Cause.FLOW_DEPENDENT_RESPONSE -> listOf(Parameter("exponent", "", false, -2.0, 2.0, 0.0))
             Cause.TEMPERATURE_DEPENDENT_RESPONSE ->

@@ -50,8 +50,11 @@ internal class Starts(
             Triple(0.9, 20.0, 0.1),
             Triple(0.4, 4.0, 0.5),
         ).map { (first, ratio, share) -> with(ratio, share).also { it[ResponseModel.TIME_CONSTANT] = tau * first } }
-        Cause.DEAD_TIME -> listOf(series.period, tau / 3, tau, 3 * tau).map { delay ->
-            with(delay).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3) }
+        Cause.DEAD_TIME -> {
+            val early = if (term.isEitherWay) listOf(-series.period / 3, -series.period, -3 * series.period) else emptyList()
+            (early + listOf(series.period, tau / 3, tau, 3 * tau)).map { delay ->
+                with(delay).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3) }
+            }
         }
         Cause.SLEW_LIMIT -> rates().map { with(it) }
         Cause.FLOW_DEPENDENT_RESPONSE -> listOf(0.2, -0.2).map { with(it) }

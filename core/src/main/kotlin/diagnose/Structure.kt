@@ -101,7 +101,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
     }
 
     private fun MutableList<Pair<String, List<DoubleArray>>>.track(value: DoubleArray, slope: DoubleArray) {
-        val heading = headings()
+        val heading = series.heading
         val east = DoubleArray(n) { cos(heading[it]) }
         val north = DoubleArray(n) { sin(heading[it]) }
         val twice = DoubleArray(n) { cos(2 * heading[it]) }
@@ -138,16 +138,6 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
     }
 
     private fun moves(): Boolean = median(series.speed) > 0.02
-
-    private fun headings(): DoubleArray {
-        val given = series.conditions[Conditions.HEADING]
-        if (given != null) return series.filled(given)
-        return DoubleArray(n) { i ->
-            val from = maxOf(i - 2, 0)
-            val to = minOf(i + 2, n - 1)
-            kotlin.math.atan2(series.y[to] - series.y[from], series.x[to] - series.x[from])
-        }
-    }
 
     /** Six slow cosines over the log. */
     private fun slow() = (1..6).map { k ->

@@ -4,12 +4,14 @@ package stillwater.diagnose
  * A cause as a term of a model.
  *
  * @property cause the cause. @property condition the condition it depends on, where it names one.
- * @property times when it acts, s after the first row, for jumps.
+ * @property times when it acts, s after the first row, for jumps. @property isEitherWay whether a dead time may be below
+ * 0, because the reference is late.
  */
 internal data class Term(
     val cause: Cause,
     val condition: String? = null,
     val times: List<Double> = emptyList(),
+    val isEitherWay: Boolean = false,
 ) {
     /** What tells terms of one cause apart: jumps of another time are the same term. */
     val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
@@ -36,6 +38,9 @@ internal data class Parameter(
 
     /** Whether [value] is at the upper end. */
     fun atUpper(value: Double) = value >= upper - CLOSE * (if (logarithmic) upper else minOf(upper - lower, 1.0))
+
+    /** The lower end of an interval at [value]; a dead time and a share are not below 0, whatever the errors. */
+    fun possible(value: Double) = if (lower == 0.0) maxOf(value, 0.0) else value
 
     private companion object {
         const val CLOSE = 1e-6

@@ -28,8 +28,8 @@ internal class Weighing(
 
     private val water = ChangingWater(series, requireNotNull(series.reference) { "weighing needs a reference" })
 
-    /** All that is tried, outliers and a change of the water included. */
-    private val tried = terms.size + 2
+    /** All that is tried; outliers, changes that last, a change of the water and a late reference included. */
+    private val tried = terms.size + 4
 
     /** What was chosen, one after the other. */
     val chosen: List<Trial> = forward.chosen()
@@ -50,7 +50,7 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val verdict = verdict(forward.alike(chosen), certain, left.first())
+        val verdict = insufficient() ?: unlisted(loose) ?: verdict(forward.alike(chosen), certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
         val sensor = ExtendedSensor(last, size)
@@ -126,7 +126,6 @@ internal class Weighing(
     }
 
     private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
-        insufficient()?.let { return it }
         val all = sets + certain.map { listOf(it) }
         val structured = left.adjusted < settings.structureLevel
         val least = chosen.minOfOrNull { it.ratio } ?: 0.0
@@ -145,6 +144,18 @@ internal class Weighing(
             all.isEmpty() -> Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
+        }
+    }
+
+    /** What explains the log better than any cause of the list and is none. */
+    private fun unlisted(loose: LooseReadings): Verdict? {
+        val faults = ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level)
+        faults.words(explained)?.let { return Verdict.Unexplained(it) }
+        val lasting = loose.lasting.size
+        return when {
+            lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->
+                Verdict.Unexplained("the readings change suddenly $lasting times and come back slowly, as with bubbles")
+            else -> null
         }
     }
 
@@ -207,6 +218,9 @@ internal class Weighing(
 
     private companion object {
         const val FEWEST_ROWS = 60
+
+        /** Sudden changes that last: fewer are jumps. */
+        const val FEWEST_CHANGES = 3
         const val NORMAL_95 = 1.96
         const val LEFT = 0.25
         const val SLOWEST = 0.02

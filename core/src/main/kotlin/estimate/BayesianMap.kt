@@ -63,8 +63,8 @@ public class BayesianMap(
     private val values = DoubleArray(grid.size)
     private val variances = DoubleArray(grid.size) { Double.NaN }
 
-    /** The same as it was when the neighbours last took note of it. */
-    private val noted = DoubleArray(grid.size)
+    /** The same as it was when the neighbours last took note of it; NaN before. */
+    private val noted = DoubleArray(grid.size) { Double.NaN }
     private val notedVariances = DoubleArray(grid.size)
 
     /** What the other cells say of each cell, scaled. */

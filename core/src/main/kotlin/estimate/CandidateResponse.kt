@@ -11,8 +11,9 @@ import kotlin.math.sqrt
  *   so that it holds for correlated residuals too; infinite where the log does not determine it.
  * @property axes each row is one direction in which the parameters' logarithms are uncertain, one standard error long.
  * @property score sum of the blocks' log scores at [parameters].
- * @property heldOut log score of each group of neighbouring blocks with the parameters fitted to the other groups; the
- *   same groups for all candidates of one log. Not modified.
+ * @property heldOut log score of each group of neighbouring blocks with the parameters moved one Newton step from the
+ *   best ones towards what the other groups alone would give; what the scores assume of the water is learned from all
+ *   groups. The same groups for all candidates of one log. Not modified.
  */
 public class CandidateResponse internal constructor(
     public val kind: ResponseKind,
@@ -40,7 +41,8 @@ public class CandidateResponse internal constructor(
 
     /** Responses about the best one that together have the mean and the spread of what is likely. */
     internal fun likely(): List<Response> {
-        val scale = sqrt(axes.size.toDouble())
+        // The one in the middle counts as much as each of the others and has no spread.
+        val scale = sqrt(axes.size + 0.5)
         return listOf(response) + axes.flatMap { axis ->
             listOf(-scale, scale).map { side ->
                 val moved = parameters.indices.map {

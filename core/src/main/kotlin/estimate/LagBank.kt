@@ -16,6 +16,7 @@ import kotlin.math.sqrt
  * the cells' memory has grown.
  */
 internal class LagBank : ReadingPlayer {
+    override val filters: Int get() = NODES
     private val states = DoubleArray(NODES * STRIDE)
     private val remapped = DoubleArray(NODES)
     private val keeps = DoubleArray(NODES)

@@ -42,6 +42,14 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         follows = true
     }
 
+    /** As [other] is, but for what it knows of the cells. */
+    fun becomeLike(other: LagFit) {
+        bank.reset(other.bank.node, other.bank.step, other.noiseVariance)
+        offset = other.offset
+        information = other.information
+        judgeAs(other)
+    }
+
     override fun take(slot: Int, seconds: Double, value: Double) {
         val moves = follows && slot != bank.current && abs(offset) > bank.step / 2
         if (moves) bank.move(offset.coerceIn(-bank.step, bank.step))
@@ -52,7 +60,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     override fun leave() = bank.leave()
 
     /** Starts over with the time constant that explains the tape best: a coarse search, then Newton's steps. */
-    override fun calibrate(tape: ReadingTape) {
+    override suspend fun calibrate(tape: Recording) {
         var best = bank.node
         var least = Double.POSITIVE_INFINITY
         val reach = ceil(SEARCHED * belief.spread / (3 * WIDEST_STEP)).toInt()
@@ -81,7 +89,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         learn()
     }
 
-    private fun play(tape: ReadingTape, node: Double, step: Double) {
+    private suspend fun play(tape: Recording, node: Double, step: Double) {
         bank.reset(node, step, noiseVariance)
         tape.play(bank)
     }

@@ -2,6 +2,9 @@ package stillwater.estimate
 
 /** Goes through readings: a sensor model's filters. */
 internal interface ReadingPlayer {
+    /** Filters that take a step with a reading: what it costs. */
+    val filters: Int
+
     /** Takes the scaled reading [value] in the cell with [slot], or under water that is no cell's; see [Crossings]. */
     fun take(slot: Int, seconds: Double, value: Double)
 
@@ -19,9 +22,6 @@ internal class ReadingTape(capacity: Int) {
     private val times = DoubleArray(capacity)
     private val values = DoubleArray(capacity)
     private val places = ByteArray(capacity)
-
-    /** What readings near borders count for. */
-    val crossings = Crossings()
 
     /** Whether a reading on the tape says how well its place is known. */
     var tellsOfPlaces: Boolean = false
@@ -44,11 +44,14 @@ internal class ReadingTape(capacity: Int) {
     /** What reading [i] said, scaled. */
     fun value(i: Int): Double = values[i]
 
-    /** Mean time spent in a cell at a stretch, s; 0 for an empty tape. */
-    fun meanStay(): Double {
+    /** How well the place of reading [i] is known, as [Crossings] has it. */
+    fun place(i: Int): Byte = places[i]
+
+    /** Mean time spent in a cell at a stretch among the first [count], s; 0 for none. */
+    fun meanStay(count: Int = size): Double {
         var sum = 0.0
         var stays = 0
-        for (i in 0 until size) {
+        for (i in 0 until count) {
             if (slots[i] == LagBank.NONE) continue
             val goesOn = i > 0 && slots[i - 1] != LagBank.NONE
             if (goesOn) sum += times[i] - times[i - 1]
@@ -57,12 +60,15 @@ internal class ReadingTape(capacity: Int) {
         return if (stays == 0) 0.0 else sum / stays
     }
 
-    /** Share of the stays in a cell of which [count] readings or more are surely of that cell; 0 for an empty tape. */
-    fun shareOfStays(count: Int): Double {
+    /** Whether there is room for another. */
+    val hasRoom: Boolean get() = size < slots.size
+
+    /** Share of the stays among the first [among] that have [count] readings surely of their cell; 0 for none. */
+    fun shareOfStays(count: Int, among: Int): Double {
         var sure = 0
         var stays = 0
         var enough = 0
-        for (i in 0 until size) {
+        for (i in 0 until among) {
             if (slots[i] == LagBank.NONE) continue
             if (i == 0 || slots[i] != slots[i - 1]) {
                 stays++
@@ -78,7 +84,7 @@ internal class ReadingTape(capacity: Int) {
      * is known, as [Crossings] has it.
      */
     fun add(slot: Int, seconds: Double, value: Double, place: Byte = Crossings.EXACT) {
-        if (size == slots.size) {
+        if (!hasRoom) {
             isComplete = false
             return
         }
@@ -87,19 +93,5 @@ internal class ReadingTape(capacity: Int) {
         places[size] = place
         if (place != Crossings.EXACT) tellsOfPlaces = true
         values[size++] = value
-    }
-
-    /** Goes through all with [player], borders crossed as [crossings] say, which are then as after the last reading. */
-    fun play(player: ReadingPlayer) {
-        crossings.leave()
-        for (i in 0 until size) {
-            if (slots[i] == LagBank.NONE) {
-                crossings.leave()
-                player.leave()
-                continue
-            }
-            val slot = crossings.slot(slots[i], places[i])
-            if (slot != Crossings.PASSED_OVER) player.take(slot, times[i], values[i])
-        }
     }
 }

@@ -51,10 +51,22 @@ public class ReferenceLearner(
                 kotlin.math.abs(series.values[it + 1] - series.values[it]) / (series.times[it + 1] - series.times[it])
             }.apply { sort() }
             val top = slopes[(slopes.size * TOP).toInt()]
-            return if (top > 0) fit.near(doubleArrayOf(ln(top))) else null
+            if (!(top > 0)) return null
+            // The rate is in the reference's units, the slopes in the readings'; spreads say how the two compare.
+            val starts = listOf(top, top / scale()).filter { it > 0 && it.isFinite() }
+            return fit.near(doubleArrayOf(starts.map { ln(it) }.maxBy { total(kind, doubleArrayOf(it)) }))
         }
         val delays = List(DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble()) }
         return fit.best(delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) })
+    }
+
+    /** Spread of the readings over that of the reference. */
+    private fun scale(): Double {
+        fun spread(numbers: DoubleArray): Double {
+            val mean = numbers.average()
+            return sqrt(numbers.sumOf { (it - mean) * (it - mean) })
+        }
+        return spread(series.values) / spread(reference)
     }
 
     private fun total(kind: ResponseKind, logs: DoubleArray): Double {

@@ -164,7 +164,7 @@ public enum class ResponseKind(public val label: String, public val parameters: 
      * one that is slower and not nearly all.
      */
     internal fun isOwn(parameters: DoubleArray): Boolean {
-        if (this != TWO_PATH && this != DEAD_TIME_AND_TWO_PATH) return true
+        if (!hasTwoPaths) return true
         val (fast, slow, share) = parameters.takeLast(TWO_PATH.parameters.size)
         return slow > fast && share < LARGEST_SHARE
     }
@@ -175,7 +175,7 @@ public enum class ResponseKind(public val label: String, public val parameters: 
      * [USUAL_RATIO], a share of [USUAL_SHARE], either a factor of e off. All else is left to the readings.
      */
     internal fun belief(logs: DoubleArray): Double {
-        if (this != TWO_PATH && this != DEAD_TIME_AND_TWO_PATH) return 0.0
+        if (!hasTwoPaths) return 0.0
         val (fast, slow, share) = logs.takeLast(TWO_PATH.parameters.size)
         val ratio = slow - fast - ln(USUAL_RATIO)
         val part = share - ln(USUAL_SHARE)
@@ -185,6 +185,9 @@ public enum class ResponseKind(public val label: String, public val parameters: 
     /** Largest value of parameter [index] that [response] tells from larger ones, in its unit. */
     internal fun most(index: Int): Double =
         if (parameters[index] == TWO_PATH.parameters.last()) LARGEST_SHARE else Double.POSITIVE_INFINITY
+
+    /** Whether it has a slow path; its share is then the last parameter. */
+    public val hasTwoPaths: Boolean get() = this == TWO_PATH || this == DEAD_TIME_AND_TWO_PATH
 
     /** Whether parameter [index] is the time of a slow path, whose length is limited by [belief] alone. */
     internal fun isSlow(index: Int): Boolean = parameters[index] == TWO_PATH.parameters[1]

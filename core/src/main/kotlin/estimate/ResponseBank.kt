@@ -10,7 +10,8 @@ package stillwater.estimate
  * once the cells' memory has grown.
  */
 internal class ResponseBank : ReadingPlayer {
-    private val filters = ResponseFilter()
+    override val filters: Int get() = nodes * kind.branches
+    private val bank = ResponseFilter()
     private var memory = DoubleArray(FIRST_SLOTS * SLOT)
 
     /** Entries into cells that the delayed water has not reached yet: when, and where to. */
@@ -60,7 +61,7 @@ internal class ResponseBank : ReadingPlayer {
     val before: Int get() = maxOf(previous[0], LagBank.NONE)
 
     /** Sum of the products of successive scaled innovations at the middle. */
-    val succession: Double get() = filters.succession(branch())
+    val succession: Double get() = bank.succession(branch())
 
     /** Forgets all and takes [kind] with these parameters and steps; [noise] is the noise's variance, scaled. */
     fun reset(
@@ -83,10 +84,10 @@ internal class ResponseBank : ReadingPlayer {
             val other = second + secondStep * SECOND_PLACE[i]
             delays[i] = kind.deadTime(other)
             for (branch in 0..1) {
-                filters.set(i, branch, kind.timeConstant(one, other, branch), kind.secondLag(one, other))
+                bank.set(i, branch, kind.timeConstant(one, other, branch), kind.secondLag(one, other))
             }
         }
-        filters.clear(priorVariance)
+        bank.clear(priorVariance)
         memory.fill(0.0)
         freedom = 0.0
         idle()
@@ -110,7 +111,7 @@ internal class ResponseBank : ReadingPlayer {
         if (lastSlot == LagBank.NONE) return
         val chosen = branch()
         for (i in 0 until nodes) {
-            filters.choose(i, chosen)
+            bank.choose(i, chosen)
             pool(i, previous[i], before = true)
             pool(i, current[i], before = false)
         }
@@ -121,7 +122,7 @@ internal class ResponseBank : ReadingPlayer {
     override fun take(slot: Int, seconds: Double, value: Double) {
         if (lastSlot == LagBank.NONE) {
             for (i in 0 until nodes) {
-                filters.begin(i, kind.lags)
+                bank.begin(i, kind.lags)
                 current[i] = ELSEWHERE
                 clocks[i] = seconds
             }
@@ -142,7 +143,7 @@ internal class ResponseBank : ReadingPlayer {
                 enter(i, entry)
             }
             advance(i, seconds)
-            for (branch in 0 until kind.branches) filters.correct(i, branch, value)
+            for (branch in 0 until kind.branches) bank.correct(i, branch, value)
         }
         freedom++
     }
@@ -157,16 +158,16 @@ internal class ResponseBank : ReadingPlayer {
         val elapsed = time - clocks[i]
         if (!(elapsed > 0)) return
         clocks[i] = time
-        for (branch in 0 until kind.branches) filters.predict(i, branch, elapsed)
+        for (branch in 0 until kind.branches) bank.predict(i, branch, elapsed)
     }
 
     private fun enter(i: Int, entry: Int) {
         // The middle filter decides for all whether the visit was a rise or a fall.
         if (i == 0) entryBranches[entry] = branch()
-        filters.choose(i, entryBranches[entry])
-        if (i == 0) stateBefore = filters.state(0, 0)
+        bank.choose(i, entryBranches[entry])
+        if (i == 0) stateBefore = bank.state(0, 0)
         pool(i, previous[i], before = true)
-        filters.enter(i)
+        bank.enter(i)
         previous[i] = current[i]
         current[i] = entrySlots[entry]
         if (i == 0) freedom--
@@ -176,24 +177,24 @@ internal class ResponseBank : ReadingPlayer {
     /** Whether the visit at the middle filter is a rise (0) or a fall (1): which of the two agrees with itself. */
     private fun branch(): Int {
         if (kind.branches == 1) return 0
-        val rises = filters.truth(0, 0) >= stateBefore
-        val falls = filters.truth(0, 1) < stateBefore
+        val rises = bank.truth(0, 0) >= stateBefore
+        val falls = bank.truth(0, 1) < stateBefore
         return when {
             rises != falls -> if (rises) 0 else 1
-            else -> if (filters.misfit(0, 0) <= filters.misfit(0, 1)) 0 else 1
+            else -> if (bank.misfit(0, 0) <= bank.misfit(0, 1)) 0 else 1
         }
     }
 
     /** Sum of squared innovations over their variances at filter [i]. */
-    fun misfit(i: Int): Double = filters.misfit(i, branch())
+    fun misfit(i: Int): Double = bank.misfit(i, branch())
 
     /** The scaled truth of the cell with [slot] at filter [i]. */
     fun truth(slot: Int, i: Int): Double {
         var sum = 0.0
         if (isPooled(slot)) sum = memory[slot * SLOT + 2 * i] * memory[slot * SLOT + 2 * i + 1]
         val branch = branch()
-        if (slot == current[i]) sum += filters.truth(i, branch) / filters.variance(i, branch)
-        if (slot == previous[i]) sum += filters.truthBefore(i, branch) / filters.varianceBefore(i, branch)
+        if (slot == current[i]) sum += bank.truth(i, branch) / bank.variance(i, branch)
+        if (slot == previous[i]) sum += bank.truthBefore(i, branch) / bank.varianceBefore(i, branch)
         return sum / information(slot, i)
     }
 
@@ -202,8 +203,8 @@ internal class ResponseBank : ReadingPlayer {
         var information = if (isPooled(slot)) memory[slot * SLOT + 2 * i + 1] else 0.0
         val own = 1 / priorVariance
         val branch = branch()
-        if (slot == current[i]) information += 1 / filters.variance(i, branch) - own
-        if (slot == previous[i]) information += 1 / filters.varianceBefore(i, branch) - own
+        if (slot == current[i]) information += 1 / bank.variance(i, branch) - own
+        if (slot == previous[i]) information += 1 / bank.varianceBefore(i, branch) - own
         return information + own
     }
 
@@ -214,14 +215,14 @@ internal class ResponseBank : ReadingPlayer {
         if (slot < 0) return
         while (memory.size < (slot + 1) * SLOT) memory = memory.copyOf(2 * memory.size)
         val at = slot * SLOT + 2 * i
-        val spread = if (before) filters.varianceBefore(i, 0) else filters.variance(i, 0)
-        val mean = if (before) filters.truthBefore(i, 0) else filters.truth(i, 0)
+        val spread = if (before) bank.varianceBefore(i, 0) else bank.variance(i, 0)
+        val mean = if (before) bank.truthBefore(i, 0) else bank.truth(i, 0)
         val information = maxOf(1 / spread - 1 / priorVariance, LEAST_INFORMATION)
         val truth = mean / spread / information
         val known = memory[at + 1]
         if (known > 0) {
             val gap = truth - memory[at]
-            filters.addMisfit(i, gap * gap / (1 / information + 1 / known))
+            bank.addMisfit(i, gap * gap / (1 / information + 1 / known))
             if (i == 0) freedom++
         }
         memory[at] += information / (known + information) * (truth - memory[at])

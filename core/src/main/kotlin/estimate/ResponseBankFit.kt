@@ -69,6 +69,25 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     /** How much the first parameter gives way when the second moves, in the bank's steps. */
     private val tilt: Double get() = curveBoth / curveFirst
 
+    /** As [other] is, but for what it knows of the cells. */
+    fun becomeLike(other: ResponseBankFit) {
+        val from = other.bank
+        bank.reset(kind, from.first, from.firstStep, from.second, from.secondStep, other.noiseVariance)
+        slopeFirst = other.slopeFirst
+        slopeSecond = other.slopeSecond
+        curveFirst = other.curveFirst
+        curveSecond = other.curveSecond
+        curveBoth = other.curveBoth
+        placeFirst = other.placeFirst
+        placeSecond = other.placeSecond
+        spreadSecond = other.spreadSecond
+        startFirst = other.startFirst
+        startSecond = other.startSecond
+        isFitted = other.isFitted
+        most = other.most
+        judgeAs(other)
+    }
+
     override val here: Int get() = bank.here
     override val before: Int get() = bank.before
 
@@ -85,7 +104,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     }
 
     /** A coarse search over both parameters, then Newton's steps within a region that shrinks with the uncertainty. */
-    override fun calibrate(tape: ReadingTape) {
+    override suspend fun calibrate(tape: Recording) {
         limit(tape)
         if (!isFitted) search(tape)
         descend(tape)
@@ -124,7 +143,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private var isFitted = false
 
     /** How much of [lag]'s misfit over its σ² this kind promises to explain, from one look near that lag. */
-    fun glance(tape: ReadingTape, lag: LagFit): Double {
+    suspend fun glance(tape: Recording, lag: LagFit): Double {
         isFitted = false
         startFirst = ln(lag.timeConstant)
         startSecond = kind.least.coerceAtLeast(0.0)
@@ -147,11 +166,11 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
      */
     private var most = 0.0
 
-    private fun limit(tape: ReadingTape) {
+    private fun limit(tape: Recording) {
         most = if (kind == ResponseBankKind.DEAD_TIME) tape.meanStay() else kind.most
     }
 
-    private fun search(tape: ReadingTape) {
+    private suspend fun search(tape: Recording) {
         val from = startFirst
         var least = Double.POSITIVE_INFINITY
         for (stretch in STRETCHES) {
@@ -168,7 +187,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     }
 
     /** A compass search: downhill along either parameter or both, with steps that halve where neither leads down. */
-    private fun descend(tape: ReadingTape) {
+    private suspend fun descend(tape: Recording) {
         var bestFirst = startFirst
         var bestSecond = startSecond.coerceIn(kind.least, most)
         var least = cost(tape, bestFirst, bestSecond)
@@ -202,7 +221,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         judge(bank.misfit(0), bank.freedom, bank.succession)
     }
 
-    private fun cost(tape: ReadingTape, first: Double, second: Double): Double {
+    private suspend fun cost(tape: Recording, first: Double, second: Double): Double {
         bank.resetMiddle(kind, first, second, noiseVariance)
         tape.play(bank)
         val off = first - belief.mean
@@ -215,7 +234,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         ResponseBankKind.SECOND_ORDER -> PRODUCTS
     }
 
-    private fun play(tape: ReadingTape, firstStep: Double, secondStep: Double) {
+    private suspend fun play(tape: Recording, firstStep: Double, secondStep: Double) {
         // The nodes must not leave what a sensor can be.
         val reach = minOf(secondStep, (most - kind.least) / 2)
         startSecond = startSecond.coerceIn(kind.least + reach, most - reach)

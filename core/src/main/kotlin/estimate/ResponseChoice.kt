@@ -31,8 +31,13 @@ public class CandidateStanding internal constructor(
  * errors and the log says more of the slow path than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
+ * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is not ruled out, and
+ *   its share is known better than it was believed beforehand. Null without one, or where two paths are open.
  */
-public class ResponseChoice private constructor(public val standings: List<CandidateStanding>) {
+public class ResponseChoice private constructor(
+    public val standings: List<CandidateStanding>,
+    public val hinted: CandidateResponse?,
+) {
     /** What the log leaves open, the most likely first; not empty. */
     public val open: List<CandidateResponse> get() = standings.filter { it.isOpen }.map { it.candidate }
 
@@ -85,19 +90,17 @@ public class ResponseChoice private constructor(public val standings: List<Candi
                     candidates[i],
                     behind[i],
                     errors[i],
-                    open.indexOf(i).let {
-                        if (it <
-                            0
-                        ) {
-                            0.0
-                        } else {
-                            weights[it]
-                        }
-                    },
+                    weights.getOrElse(open.indexOf(i)) { 0.0 },
                 )
             }
-            return ResponseChoice(standings.sortedWith(compareBy({ -it.weight }, { it.behind })))
+            val inOrder = standings.sortedWith(compareBy({ -it.weight }, { it.behind }))
+            return ResponseChoice(inOrder, hinted(open.map { candidates[it] }, notRuledOut.map { candidates[it] }))
         }
+
+        private fun hinted(open: List<CandidateResponse>, notRuledOut: List<CandidateResponse>): CandidateResponse? =
+            notRuledOut.filter { it.kind.hasTwoPaths && it.relativeErrors.last() < ResponseKind.BELIEVED }
+                .maxByOrNull { it.heldOutScore }
+                .takeIf { open.none { it.kind.hasTwoPaths } }
 
         /** Not the best alone: how far it is behind that may be told less well than how far behind another. */
         private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean =

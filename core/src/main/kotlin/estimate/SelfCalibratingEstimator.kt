@@ -37,27 +37,31 @@ import kotlin.math.sqrt
  * @param prior the range of the field: a cell's value before it is measured has its midpoint, and, for what is computed,
  *   its width as standard deviation; sensor units.
  * @property settings what is believed of the sensor beforehand.
+ * @property work most to be done for a reading in going through the kept readings again, steps of a filter, above 0:
+ *   [AT_ONCE] or [AFLOAT].
+ * @throws IllegalArgumentException if [work] is not above 0.
  */
 public class SelfCalibratingEstimator(
     private val grid: Grid,
     prior: Interval,
     public val settings: SelfCalibratingSettings = SelfCalibratingSettings(),
+    public val work: Double = AT_ONCE,
 ) : CellEstimator(grid, prior) {
     private val middle = prior.midpoint
     private val scale = if (prior.width > 0 && prior.width.isFinite()) prior.width else 1.0
-    private val plain = SensorChoice(settings)
-
-    /** The same with borders heeded: each has its own history, since a fit begins where its last one ended. */
-    private val heeding by lazy(LazyThreadSafetyMode.NONE) { SensorChoice(settings) }
-    private var choice = plain
-    private val tape = ReadingTape(settings.recalled)
-    private var nextReplay = FIRST_REPLAY
+    private val learner: SensorLearner
+    private val choice: SensorChoice get() = learner.choice
     private val slots = IntArray(grid.size) { LagBank.NONE }
     private var visited = IntArray(FIRST_CELLS)
     private var visitedCount = 0
     private var refreshed = 0
     private var lastCell = Grid.OUTSIDE
     private val fallback = Fallback(grid, prior)
+
+    init {
+        require(work > 0) { "work ($work filters' steps a reading) must be above 0" }
+        learner = SensorLearner(settings, work)
+    }
 
     /**
      * The most likely time constant τ of a first-order lag, s; with an asymmetric response the geometric mean of the
@@ -101,16 +105,14 @@ public class SelfCalibratingEstimator(
         }
         if (cell != lastCell) enter(cell)
         val place = placeOf(conditions)
-        tape.add(slots[cell], seconds, scaled, place)
-        val slot = tape.crossings.slot(slots[cell], place)
+        if (learner.add(slots[cell], seconds, scaled, place)) writeAll()
+        val slot = choice.crossings.slot(slots[cell], place)
         if (slot < 0) unplaced++
-        if (tape.isComplete && tape.size >= nextReplay) {
-            while (nextReplay <= tape.size) nextReplay += nextReplay / 2
-            decide()
+        if (learner.learn()) {
             writeAll()
             return
         }
-        if (!tape.isComplete) choice.follow()
+        if (!learner.isComplete) choice.follow()
         val wasExplained = isExplained
         if (slot != Crossings.PASSED_OVER) choice.take(slot, seconds, scaled)
         if (isExplained != wasExplained) {
@@ -141,27 +143,6 @@ public class SelfCalibratingEstimator(
         }
     }
 
-    /**
-     * Chooses and fits the sensor's model anew, and whether borders are heeded. In water that changes evenly within a cell a
-     * stay looks the same as one with a slow sensor; what happens at borders tells them apart. Heeding them hides that, and
-     * the sensor seems slower than it is; where cells are even it takes readings of the wrong cell away, and it does not.
-     */
-    private fun decide() {
-        val crossings = tape.crossings
-        crossings.areHeeded = false
-        choice = plain
-        plain.decide(tape)
-        if (!tape.tellsOfPlaces || tape.shareOfStays(FEWEST_SURE) < MOST_STAYS) return
-        crossings.areHeeded = true
-        heeding.decide(tape)
-        val longest = minOf(LONGER * plain.timeConstant, LONGEST * tape.meanStay())
-        if (heeding.isExplained && heeding.timeConstant <= longest) {
-            choice = heeding
-        } else {
-            crossings.areHeeded = false
-        }
-    }
-
     private fun writeAll() {
         compareWithFallback()
         for (i in 0 until visitedCount) write(i)
@@ -172,7 +153,7 @@ public class SelfCalibratingEstimator(
         if (isExplained) return
         fallback.begin()
         for (i in 0 until visitedCount) fallback.compare(visited[i], middle + scale * choice.active.truth(i))
-        fallback.decide(choice.timeConstant / tape.meanStay())
+        fallback.decide(choice.timeConstant / learner.meanStay())
     }
 
     private fun enter(cell: Int) {
@@ -189,9 +170,9 @@ public class SelfCalibratingEstimator(
         if (lastCell == Grid.OUTSIDE) return
         lastCell = Grid.OUTSIDE
         fallback.leave()
+        if (learner.add(LagBank.NONE, 0.0, 0.0)) writeAll()
         choice.leave()
-        tape.crossings.leave()
-        tape.add(LagBank.NONE, 0.0, 0.0)
+        choice.crossings.leave()
     }
 
     private fun touch(one: Int, other: Int): Boolean {
@@ -241,14 +222,11 @@ public class SelfCalibratingEstimator(
         /** Largest distance of a usable reading from the prior's middle, in widths of the prior. */
         public const val FARTHEST: Double = 100.0
 
-        /** Borders are heeded where so large a share of the stays has so many readings that are surely of its cell. */
-        private const val MOST_STAYS = 0.95
-        private const val FEWEST_SURE = 2
+        /** [work] of an estimator that has always learned from all its readings. */
+        public const val AT_ONCE: Double = Double.POSITIVE_INFINITY
 
-        /** Time constant over that without borders heeded, and over the mean stay, beyond which they are not. */
-        private const val LONGER = 1.15
-        private const val LONGEST = 2.0
+        /** [work] of some 0.4 ms on a desk's core. */
+        public const val AFLOAT: Double = 16_000.0
         private const val FIRST_CELLS = 128
-        private const val FIRST_REPLAY = 16
     }
 }

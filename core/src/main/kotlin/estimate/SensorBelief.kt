@@ -77,7 +77,7 @@ public data class SensorCandidate(
  * What a [SelfCalibratingEstimator] believes of its sensor.
  *
  * @property isExplained whether the chosen model explains the readings. If not, no model does and the map's bounds are
- *   the prior's.
+ *   those of the extended bounded filter.
  * @property candidates all models, the chosen one first.
  */
 public data class SensorBelief(val isExplained: Boolean, val candidates: List<SensorCandidate>) {

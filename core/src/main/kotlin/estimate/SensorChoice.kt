@@ -11,7 +11,7 @@ import kotlin.math.sqrt
  * The first-order lag is fitted always. The others are fitted where it leaves something to explain; the Bayesian
  * information criterion decides. Source: core/docs/SelfCalibratingEstimator.md, section "Choosing".
  */
-internal class SensorChoice(private val settings: SelfCalibratingSettings) {
+internal class SensorChoice(settings: SelfCalibratingSettings, private val tape: Recording) : ReadingPlayer {
     private val lag = LagFit(settings)
     private val responses = ResponseBankKind.entries.map { kind -> ResponseBankFit(settings).also { it.kind = kind } }
     private val slew = SlewFit(settings)
@@ -27,6 +27,9 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
 
     /** Logarithm of the odds against each model; NaN if not tried. */
     private val odds = DoubleArray(fits.size) { Double.NaN }.also { it[0] = 0.0 }
+
+    /** What readings near borders count for. */
+    val crossings: Crossings get() = tape.crossings
 
     /** The model that values rest on. */
     var active: SensorFit = lag
@@ -55,7 +58,9 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         for (k in responses.indices) responses[k].follow()
     }
 
-    fun take(slot: Int, seconds: Double, value: Double) {
+    override val filters: Int get() = MOST_FILTERS
+
+    override fun take(slot: Int, seconds: Double, value: Double) {
         active.take(slot, seconds, value)
         rival?.take(slot, seconds, value)
         judge()
@@ -65,13 +70,23 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         isExplained = if (isExplained) active.isWhite else active.isClearlyWhite
     }
 
-    fun leave() {
+    override fun leave() {
         active.leave()
         rival?.leave()
     }
 
-    /** Fits to [tape], and chooses. */
-    fun decide(tape: ReadingTape) {
+    /** Begins where [other] is, with what it believes of the sensor but not of the cells; [decide] comes next. */
+    fun becomeLike(other: SensorChoice) {
+        lag.becomeLike(other.lag)
+        for (k in responses.indices) responses[k].becomeLike(other.responses[k])
+        slew.becomeLike(other.slew)
+        other.odds.copyInto(odds)
+        isExplained = other.isExplained
+    }
+
+    /** Fits to the first [size] on the tape, and chooses. */
+    suspend fun decide(size: Int) {
+        tape.begin(size)
         // What was far behind a model that explained the readings is not tried again.
         if (!isExplained) odds.fill(Double.NaN)
         active = lag
@@ -83,7 +98,7 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         criteria[0] = lag.freedom * ln(lag.misfit) + penalty
         for (k in 1 until fits.size) {
             if (odds[k] > HOPELESS) continue
-            criteria[k] = criterion(fits[k], tape, penalty)
+            criteria[k] = criterion(fits[k], penalty)
         }
         var best = 0
         // A freer model that does not explain the readings either fits what is not the sensor's.
@@ -98,7 +113,10 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         judge()
     }
 
-    private fun criterion(fit: SensorFit, tape: ReadingTape, penalty: Double): Double {
+    /** Takes what came since [decide] began. */
+    suspend fun catchUp() = tape.playOn(this)
+
+    private suspend fun criterion(fit: SensorFit, penalty: Double): Double {
         if (fit is ResponseBankFit) {
             if (lag.isWhite && fit.glance(tape, lag) < WORTH_A_FIT) return Double.NaN
             fit.startFrom(lag.timeConstant)
@@ -187,6 +205,9 @@ internal class SensorChoice(private val settings: SelfCalibratingSettings) {
         /** A model with smaller logarithm of the odds against it is still possible. */
         private const val POSSIBLE = 5.0
         private const val HOPELESS = 50.0
+
+        /** Filters of two models of two parameters, an asymmetric one among them. */
+        private const val MOST_FILTERS = 21
 
         /** 97.5 % quantile of the normal distribution. */
         private const val NORMAL = 1.959963984540054

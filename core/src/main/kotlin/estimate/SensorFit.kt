@@ -37,8 +37,8 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
     /** Slot of the cell it was in before. */
     abstract val before: Int
 
-    /** Fits the parameters to [tape], all that was read so far, and is then as if it had taken all of it. */
-    abstract fun calibrate(tape: ReadingTape)
+    /** Fits the parameters to [tape] and is then as if it had taken all of it. */
+    abstract suspend fun calibrate(tape: Recording)
 
     /** Takes a reading in the cell with [slot]; equal slots in a row are one visit. */
     abstract fun take(slot: Int, seconds: Double, value: Double)
@@ -51,6 +51,15 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
 
     /** Variance of the [truth] last asked for, what the parameters and the noise leave open included. */
     abstract fun variance(): Double
+
+    /** Judged as [other] was. */
+    protected fun judgeAs(other: SensorFit) {
+        noiseVariance = other.noiseVariance
+        misfit = other.misfit
+        freedom = other.freedom
+        isWhite = other.isWhite
+        isClearlyWhite = other.isClearlyWhite
+    }
 
     /** From the sum of squares left, the degrees of freedom and the sum of products of successive innovations. */
     protected fun judge(left: Double, free: Double, succession: Double) {

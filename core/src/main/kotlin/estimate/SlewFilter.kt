@@ -13,6 +13,7 @@ import kotlin.math.sqrt
  * core/docs/SelfCalibratingEstimator.md. O(1) a reading, no allocation once the cells' memory has grown.
  */
 internal class SlewFilter : ReadingPlayer {
+    override val filters: Int get() = WAYS
     private val ways = DoubleArray(WAYS * STRIDE)
     private var memory = DoubleArray(FIRST_SLOTS * SLOT)
     private var noise = 1.0

@@ -30,9 +30,10 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     override fun leave() = filter.leave()
 
-    override fun calibrate(tape: ReadingTape) {
+    override suspend fun calibrate(tape: Recording) {
         moves = false
         val count = slopes(tape)
+        tape.spend(tape.size)
         if (count == 0) return
         val slowest = slopes[count / 2]
         val fastest = slopes[count - 1]
@@ -50,15 +51,23 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         learn()
     }
 
+    /** As [other] is, but for what it knows of the cells. */
+    fun becomeLike(other: SlewFit) {
+        moves = other.moves
+        start = other.start
+        if (other.rate > 0) filter.reset(other.rate, other.relativeUncertainty, other.noiseVariance)
+        judgeAs(other)
+    }
+
     private fun learn() = judge(filter.misfit, filter.freedom, filter.succession)
 
-    private fun score(tape: ReadingTape, rate: Double): Double {
+    private suspend fun score(tape: Recording, rate: Double): Double {
         filter.reset(rate, KNOWN, noiseVariance)
         tape.play(filter)
         return filter.score
     }
 
-    private fun scan(tape: ReadingTape, slowest: Double, fastest: Double) {
+    private suspend fun scan(tape: Recording, slowest: Double, fastest: Double) {
         var least = Double.POSITIVE_INFINITY
         var candidate = slowest
         while (candidate <= MARGIN * fastest) {
@@ -72,7 +81,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     }
 
     /** Slopes over [SPAN] readings of a visit, without sign, ascending. */
-    private fun slopes(tape: ReadingTape): Int {
+    private fun slopes(tape: Recording): Int {
         var count = 0
         for (i in SPAN until tape.size) {
             if (tape.slot(i) == LagBank.NONE || !isOneStay(tape, i, SPAN)) continue
@@ -83,13 +92,13 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         return count
     }
 
-    private fun isOneStay(tape: ReadingTape, i: Int, span: Int): Boolean {
+    private fun isOneStay(tape: Recording, i: Int, span: Int): Boolean {
         for (before in i - span until i) if (tape.slot(before) != tape.slot(i)) return false
         return true
     }
 
     /** Second differences are mostly noise: their median gives the noise's variance. */
-    private fun firstNoise(tape: ReadingTape): Double {
+    private fun firstNoise(tape: Recording): Double {
         var count = 0
         for (i in 2 until tape.size) {
             if (tape.slot(i) == LagBank.NONE || !isOneStay(tape, i, 2)) continue

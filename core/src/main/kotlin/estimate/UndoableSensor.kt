@@ -103,14 +103,12 @@ public class UndoableSensor private constructor(
             }
             val ratio = sqrt(stage.risingOverFalling)
             val fast = ResponseLag(stage.timeConstant * ratio, stage.timeConstant / ratio)
-            if (stage.slowShare > 0) {
-                beside(fast, stage.timeConstant * stage.slowOverFast, stage.slowShare)
-            } else {
-                follows(response.copy(lags = response.lags + fast))
-            }
+            beside(fast, stage.timeConstant * stage.slowOverFast, stage.slowShare)
         }
 
         fun beside(fast: ResponseLag, slow: Double, share: Double) {
+            // Two lags without a share would be in a row.
+            if (share == 0.0) return follows(response.copy(lags = response.lags + fast))
             require(response.lags.isEmpty()) { "two paths beside another lag cannot be undone" }
             follows(response.copy(lags = listOf(fast, ResponseLag(slow)), slowShare = share))
         }

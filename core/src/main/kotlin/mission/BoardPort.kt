@@ -48,8 +48,11 @@ public class BoardPort(
     private var restedFrom = Double.POSITIVE_INFINITY
     private var echoedAt = Double.NEGATIVE_INFINITY
     private var ranAt = Double.NEGATIVE_INFINITY
+    private var isAsked = false
+    private var isAnswerOld = false
+    private var ordered: Command? = null
 
-    /** What the board last said of itself; null before it said anything. */
+    /** What the board last said of itself; null where it has said nothing since it was last told to be otherwise. */
     public var state: BoardState? = null
         private set
 
@@ -112,8 +115,16 @@ public class BoardPort(
         now.seconds - echoedAt < ECHO &&
         now.seconds - ranAt > ECHO
 
-    /** Sends [command] at once. */
+    /**
+     * Sends [command] at once. One to arm or to disarm makes what the board said before worthless, and so the answer to a
+     * question that it was asked before; one that only repeats the last does not.
+     */
     public fun order(command: Command) {
+        if (command == Command.Arm || (command == Command.Disarm && ordered != Command.Disarm)) {
+            state = null
+            isAnswerOld = isAsked
+        }
+        ordered = command
         send(command)
     }
 
@@ -121,6 +132,7 @@ public class BoardPort(
     public fun askState(now: BoatTime): Boolean {
         if (now.seconds - askedAt < PATIENCE) return false
         askedAt = now.seconds
+        isAsked = true
         send(Command.AskState)
         return true
     }
@@ -133,7 +145,7 @@ public class BoardPort(
         // What the board could not read is no sign that it obeys, but it is one that it hears and speaks.
         heardAt = now.seconds
         when (message) {
-            is Message.State -> state = message.state
+            is Message.State -> takeState(message.state)
             is Message.Battery -> volts = message.volts
             is Message.Refused -> refusals++
             is Message.Motor -> {
@@ -143,6 +155,13 @@ public class BoardPort(
             else -> Unit
         }
         sink.message(message)
+    }
+
+    /** Where the old answer was lost on the way a new one is passed over in its place, and the next one counts. */
+    private fun takeState(said: BoardState) {
+        if (!isAnswerOld) state = said
+        isAnswerOld = false
+        isAsked = false
     }
 
     public companion object {

@@ -3,7 +3,6 @@ package stillwater.mission
 import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.Fence
-import stillwater.control.Mixing
 import stillwater.control.Ruling
 import stillwater.control.SafetyGate
 import stillwater.control.Situation
@@ -33,7 +32,6 @@ import stillwater.wire.Message
  * @property spec the mission.
  * @param link to the board. Retained.
  * @param log where it is written down. Retained.
- * @param mixing how a drive becomes thrust.
  * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null to
  *   begin anew.
  * @param taken takes the readings that go into the map, after they did. Retained.
@@ -43,7 +41,6 @@ public class Mission(
     public val spec: MissionSpec,
     link: ByteLink,
     private val log: MissionLog,
-    mixing: Mixing = Mixing.DIFFERENTIAL,
     private val recovered: RecoveredMission? = null,
     private val taken: ReadingSink = ReadingSink { },
 ) {
@@ -54,8 +51,14 @@ public class Mission(
     }
 
     private val water = spec.area.water()
+    private val mixing = spec.boat.mixing
     private val pose =
-        PoseInput(LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)), spec.boat.topSpeed, mixing)
+        PoseInput(
+            LocalFrame(LatLon(spec.origin.latitude, spec.origin.longitude)),
+            spec.boat.topSpeed,
+            mixing,
+            spec.failsafe.settings().oldestFix,
+        )
     private val survey = Survey(
         spec.probe,
         recovered?.estimator ?: spec.estimator.build(spec.grid.grid(), spec.probe),
@@ -69,7 +72,13 @@ public class Mission(
         },
     )
     private val port =
-        BoardPort(link, mixing, { if (!survey.take(it, now)) log.sensor(now, it) }, lines = log::heard)
+        BoardPort(
+            link,
+            mixing,
+            { if (survey.take(it, now)) probe.heard(now) else log.sensor(now, it) },
+            lines = log::heard,
+        )
+    private val probe = ProbeWatch(spec.probe)
     private val use = BudgetUse(spec.budget)
     private val fence = Fence(water.outlines[0], water.outlines.drop(1))
     private val navigator = Navigator(spec, water, fence, pose.track, use, mixing)
@@ -119,6 +128,12 @@ public class Mission(
 
     /** What was left out of the readings, by reason. */
     public val readings: PlausibilityGate get() = survey.gate
+
+    /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
+    public val probeSilence: Double get() = probe.silence(now)
+
+    /** Waypoints given up because the boat came no nearer for a minute; after three on end the mission is over. */
+    public val givenUp: Long get() = navigator.givenUp
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -183,6 +198,7 @@ public class Mission(
     }
 
     private fun begin(time: BoatTime): Double {
+        probe.begin(time)
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
@@ -206,8 +222,8 @@ public class Mission(
     /** What the mission would do if the gate let it. */
     private fun wanted(ruling: Ruling): Drive {
         when (state) {
-            MissionState.Surveying -> navigator.survey(survey.map, survey.lastValue)
-            is MissionState.Returning -> navigator.goHome()
+            MissionState.Surveying -> navigator.survey(now.seconds, survey.map, survey.lastValue)
+            is MissionState.Returning -> navigator.goHome(now.seconds)
             is MissionState.Holding ->
                 if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.HOLD) navigator.hold() else navigator.rest()
             else -> navigator.rest()
@@ -219,13 +235,21 @@ public class Mission(
         when (state) {
             MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
-                if (before !is MissionState.Stopped) port.tell(now, Drive.NONE)
+                if (before !is MissionState.Stopped) {
+                    port.tell(now, Drive.NONE)
+                    // What it said of itself before it was told so does not count.
+                    port.order(Command.Disarm)
+                }
                 leaveDisarmed()
             }
             else -> {
-                if (state == MissionState.Arming) arm(before)
-                if (!isDeaf()) port.tell(now, drive, isCalm = state != MissionState.Arming)
-                port.askState(now)
+                if (state == MissionState.Arming) arm(before) else if (probe.isDue(now) && !isDeaf()) setProbeUp()
+                // However long the silence is when it is noticed, rest is said once. After that any line would keep the
+                // watchdog quiet, a question too; the board speaks unasked when it is heard again.
+                if (state != before || !isDeaf()) {
+                    port.tell(now, drive, isCalm = state != MissionState.Arming)
+                    port.askState(now)
+                }
             }
         }
     }
@@ -243,7 +267,13 @@ public class Mission(
     private fun arm(before: MissionState) {
         if (before == MissionState.Arming && now.seconds - armedAt < LONGEST_ARMING) return
         armedAt = now.seconds
+        setProbeUp()
         port.order(Command.Arm)
+    }
+
+    private fun setProbeUp() {
+        probe.told(now)
+        probe.setUp?.let(port::order)
     }
 
     /** A boat that waits to be sent off has not begun to use its budget. */

@@ -1,5 +1,6 @@
 package stillwater.mission
 
+import kotlinx.serialization.json.JsonPrimitive
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.Drive
@@ -23,8 +24,16 @@ public fun interface LogSink {
  *
  * @property epochMillis Unix time, ms.
  * @property date the same for people; free text.
+ * @property boat what the boat, or the link to it, is called; free text; null where nobody says.
+ * @property isVirtual whether boat and water are virtual ones, so that nothing in the log was measured; null where
+ *   nobody says.
  */
-public data class LogStart(val epochMillis: Long, val date: String)
+public data class LogStart(
+    val epochMillis: Long,
+    val date: String,
+    val boat: String? = null,
+    val isVirtual: Boolean? = null,
+)
 
 /**
  * What a mission records of one step.
@@ -52,7 +61,8 @@ public data class StepRecord(
  *
  * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step) and `in` (all that came
  * in since the step before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the place's
- * standard deviation) or `pass` (a cell left without a reading); the first line has the whole mission.
+ * standard deviation) or `pass` (a cell left without a reading); the first line has the whole mission, and, where that
+ * is known, which `boat` it is of and whether that is a `virtual` one.
  * Numbers are written so that they are read back to the last bit; what
  * is not finite is `null`. [MissionRecovery] reads it back.
  *
@@ -137,10 +147,12 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
     private fun write(now: BoatTime, content: String) {
         if (begun.isNaN()) {
             begun = now.seconds
+            val boat = header.boat?.let { """"boat":${JsonPrimitive(it)},""" }.orEmpty()
+            val virtual = header.isVirtual?.let { """"virtual":$it,""" }.orEmpty()
             line(
                 0,
                 """"date":"${header.date.filter { it.isLetterOrDigit() || it in " -:.+" }}",""" +
-                    """"time":${header.epochMillis},"spec":${spec.toJson()}""",
+                    """"time":${header.epochMillis},$boat$virtual"spec":${spec.toJson()}""",
             )
         }
         // Each line has a time of its own: readers take equal stamps of one sensor for one reading.

@@ -32,10 +32,7 @@ import stillwater.plan.PolygonRrt
 import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.RandomWalk
 import stillwater.plan.SettlingLawnmower
-import stillwater.plan.StraightHome
-import stillwater.plan.WaterHome
 import stillwater.plan.WaterRoutes
-import stillwater.plan.WayHome
 import kotlin.random.Random
 
 /** The estimators a mission can name; the names are the command line's. */
@@ -93,7 +90,12 @@ public enum class EstimatorName {
     }
 
     private fun selfCalibrating(grid: Grid, probe: ProbeSpec) =
-        SelfCalibratingEstimator(grid, probe.range, SelfCalibratingSettings(probe.longestTimeConstant))
+        SelfCalibratingEstimator(
+            grid,
+            probe.range,
+            SelfCalibratingSettings(probe.longestTimeConstant),
+            SelfCalibratingEstimator.AFLOAT,
+        )
 }
 
 /**
@@ -182,13 +184,26 @@ public enum class PlannerName(public val keepsToWater: Boolean = false) {
         SETTLING_LAWNMOWER -> SettlingLawnmower(
             mostStays = (SETTLING * spec.probe.longestTimeConstant * STEPS_PER_SECOND).toInt().coerceAtLeast(1),
         )
-        POLYGON_RRT -> PolygonRrt(random, water, PolygonRrtSettings(margin = spec.boat.arrival))
+        POLYGON_RRT -> PolygonRrt(
+            random,
+            water,
+            PolygonRrtSettings(
+                margin = spec.boat.arrival,
+                resolution = WaterRoutes.resolution(water, spec.grid.cell / 2),
+            ),
+        )
     }
 }
 
-/** The way home over [water]: straight in a rectangle, else round what is in the way. */
-internal fun wayHome(spec: MissionSpec, water: WaterArea): WayHome {
-    val home = spec.home.position
-    if (spec.area.shore == null && spec.area.keepOuts.isEmpty()) return StraightHome(home)
-    return WaterHome(WaterRoutes(water, spec.boat.arrival / 2, spec.grid.cell / 2), home)
+/** Whether nothing is in the way of any straight line over a mission's water. */
+internal val AreaSpec.isOpen: Boolean get() = shore == null && keepOuts.isEmpty()
+
+/** What ways keep from land on the mission's water, m. */
+internal val BoatSpec.wayMargin: Double get() = arrival / 2
+
+/** The ways over [water] that [spec]'s boat may take; null where it may take any. */
+internal fun ways(spec: MissionSpec, water: WaterArea): WaterRoutes? = if (spec.area.isOpen) {
+    null
+} else {
+    WaterRoutes(water, spec.boat.wayMargin, WaterRoutes.resolution(water, spec.grid.cell / 2))
 }

@@ -4,6 +4,7 @@ import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.booleanOrNull
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.intOrNull
@@ -32,6 +33,8 @@ import stillwater.model.Utm
  * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
+ * @property boat what the boat was called when the log last began, or went on; null where the log does not say.
+ * @property isVirtual whether the log is of a virtual boat; null where it does not say.
  */
 public class RecoveredMission internal constructor(
     public val spec: MissionSpec,
@@ -45,6 +48,8 @@ public class RecoveredMission internal constructor(
     public val lastState: String,
     public val readings: Long,
     public val unreadable: Long,
+    public val boat: String?,
+    public val isVirtual: Boolean?,
 )
 
 /** Hears what a log tells besides the map, in the log's order, and keeps of it what it likes. */
@@ -78,6 +83,8 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
     private var readings = 0L
     private var unreadable = 0L
     private var frame: LocalFrame? = null
+    private var boat: String? = null
+    private var isVirtual: Boolean? = null
 
     /** Takes one line of the log. Never throws. */
     public fun line(line: String) {
@@ -102,11 +109,13 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
             lastState,
             readings,
             unreadable,
+            boat,
+            isVirtual,
         )
     }
 
     private fun take(json: JsonObject): Boolean {
-        json["spec"]?.let { return begin(it) }
+        json["spec"]?.let { return begin(it, json) }
         val known = estimator ?: return false
         json["pass"]?.let { return pass(known, it) }
         (json["reading"] as? JsonObject)?.let { return read(known, it) }
@@ -115,7 +124,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
     }
 
     /** A log that was gone on with has the mission again; another mission's lines are not this one's. */
-    private fun begin(json: JsonElement): Boolean {
+    private fun begin(json: JsonElement, header: JsonObject): Boolean {
         val found = try {
             MissionSpec.fromJson(json.toString())
         } catch (_: IllegalArgumentException) {
@@ -126,7 +135,10 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
             estimator = found.estimator.build(found.grid.grid(), found.probe)
             frame = LocalFrame(LatLon(found.origin.latitude, found.origin.longitude))
         }
-        return spec == found
+        if (spec != found) return false
+        boat = (header["boat"] as? JsonPrimitive)?.contentOrNull ?: boat
+        isVirtual = (header["virtual"] as? JsonPrimitive)?.booleanOrNull ?: isVirtual
+        return true
     }
 
     private fun pass(estimator: FieldEstimator, json: JsonElement): Boolean {
@@ -150,6 +162,8 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         held = json["held"]?.let { reading(it) }
         same = (json["same"] as? JsonArray)?.mapNotNull { reading(it) }.orEmpty()
         run = (json["run"] as? JsonPrimitive)?.intOrNull ?: (same.size + 1)
+        // What waits is of the map's time, too, which after a restart is ahead of the steps'.
+        for (waiting in same + listOfNotNull(held)) lastTime = maxOf(lastTime, waiting.time.seconds)
         return true
     }
 

@@ -6,6 +6,7 @@ import kotlinx.serialization.json.Json
 import stillwater.control.Danger
 import stillwater.control.Failsafe
 import stillwater.control.FollowerSettings
+import stillwater.control.Mixing
 import stillwater.control.SafetySettings
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -14,6 +15,7 @@ import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.WaterArea
+import stillwater.plan.WaterRoutes
 import kotlin.math.abs
 
 /** A place as JSON has it, in metres [x] east and [y] north of the mission's origin. */
@@ -227,17 +229,19 @@ public data class BudgetSpec(
 }
 
 /**
- * Speeds of the boat.
+ * The boat: its speeds and its thrusters.
  *
  * @property topSpeed at full thrust, m/s.
  * @property cruise on the way, m/s.
  * @property arrival a waypoint is reached within this distance, m.
+ * @property mixing what thrusters it has: a boat with one that swivels does not understand what is said to two.
  */
 @Serializable
 public data class BoatSpec(
     @SerialName("top_speed_m_s") val topSpeed: Double = 1.6,
     @SerialName("cruise_m_s") val cruise: Double = 1.0,
     @SerialName("arrival_m") val arrival: Double = 1.5,
+    val mixing: Mixing = Mixing.DIFFERENTIAL,
 ) {
     init {
         follower()
@@ -309,11 +313,11 @@ public data class FailsafePolicy(
  * @property planner by its name.
  * @property budget what may be used.
  * @property home where the mission ends; in the water.
- * @property boat its speeds.
+ * @property boat its speeds and thrusters.
  * @property failsafe policy.
  * @property seed of planners that draw.
  * @throws IllegalArgumentException if the parts do not fit together: home off the water, a grid off the water, or a planner
- *   that goes from cell to cell where land lies between two cells.
+ *   that goes from cell to cell where land lies between two cells, or home where no way leads away from it.
  */
 @Serializable
 public data class MissionSpec(
@@ -333,6 +337,7 @@ public data class MissionSpec(
     init {
         val water = area.water()
         require(home.position in water) { "home (${home.x}, ${home.y}) must lie on the water" }
+        requireWay(water)
         val cells = grid.grid()
         if (!planner.keepsToWater) {
             for (cell in 0 until cells.size) requireWater(water, cells, cell)
@@ -343,6 +348,15 @@ public data class MissionSpec(
 
     /** The JSON form, on one line. */
     public fun toJson(): String = Json.encodeToString(serializer(), this)
+
+    private fun requireWay(water: WaterArea) {
+        if (area.isOpen) return
+        val resolution = WaterRoutes.resolution(water, grid.cell / 2)
+        require(WaterRoutes.leadsFrom(water, boat.wayMargin, resolution, home.x, home.y)) {
+            "home (${home.x}, ${home.y}) must have water about it that is farther than ${boat.wayMargin} m from land " +
+                "and keep-outs; move it away from them"
+        }
+    }
 
     private fun requireWater(water: WaterArea, cells: Grid, cell: Int) {
         val x = cells.centerX(cell)

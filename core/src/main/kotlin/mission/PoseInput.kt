@@ -15,8 +15,14 @@ import stillwater.model.LocalFrame
  *
  * @property frame in which the track has its metres.
  * @property track the estimate.
+ * @param oldestFix after a longer pause between two fixes they have to agree again, s.
  */
-internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mixing: Mixing) {
+internal class PoseInput(
+    val frame: LocalFrame,
+    topSpeed: Double,
+    private val mixing: Mixing,
+    private val oldestFix: Double = 3.0,
+) {
     val track = TrackEstimator()
     private var fixTime = Double.NEGATIVE_INFINITY
     private var compassTime = Double.NEGATIVE_INFINITY
@@ -27,8 +33,9 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
     private var now = 0.0
     private var agreeSince = Double.NaN
     private var isBelieved = false
+    private var agreement = AGREEMENT
 
-    /** Fixes refused: not finite, older than one before, or where the boat cannot be. */
+    /** Fixes refused: not finite, older than one before, of a time to come, or where the boat cannot be. */
     var refused = 0L
         private set
 
@@ -40,6 +47,8 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
     val heading: Double get() = if (now - compassTime <= OLDEST_COMPASS) lastHeading else Double.NaN
 
     fun fix(time: BoatTime, place: LatLon) {
+        // A receiver says one fix in two sentences, whose times differ by rounding.
+        if (Math.abs(time.seconds - fixTime) < SAME_FIX) return
         val isNewer = time.seconds > fixTime && !(time.seconds <= waitingTime)
         if (!isNewer || !time.seconds.isFinite()) {
             refused++
@@ -62,6 +71,8 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
      */
     fun advance(now: BoatTime, dt: Double, drive: Drive) {
         this.now = now.seconds
+        // What a clock in the future stamped would never grow old.
+        compassTime = minOf(compassTime, now.seconds)
         var left = dt
         var ahead = mixing.ahead(drive)
         while (left > 0) {
@@ -71,24 +82,43 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
             left -= step
             ahead = 0.0
         }
-        val place = waiting ?: return
+        waiting?.let { take(it) }
         waiting = null
+    }
+
+    private fun take(place: LatLon) {
+        if (waitingTime > now + FAST_CLOCK) {
+            refused++
+            waitingTime = Double.NaN
+            return
+        }
         val local = frame.toLocal(place)
-        if (track.fix(local.x, local.y) == FixUse.USED) {
-            fixTime = waitingTime
-            if (agreeSince.isNaN()) agreeSince = waitingTime
-            if (waitingTime - agreeSince >= AGREEMENT) isBelieved = true
-        } else {
+        if (track.fix(local.x, local.y) != FixUse.USED) {
             refused++
             doubt()
+            return
+        }
+        val time = minOf(waitingTime, now)
+        // The longer without a fix, the farther off the first one may be that is taken.
+        if (time - fixTime > oldestFix) {
+            isBelieved = false
+            agreeSince = Double.NaN
+        }
+        fixTime = time
+        if (agreeSince.isNaN()) agreeSince = time
+        if (time - agreeSince >= agreement) {
+            isBelieved = true
+            agreement = RENEWED
         }
     }
 
-    /** The first fix after a start may be the wrong one: until a place is believed, another takes over soon. */
+    /** The first fix after a start or a pause may be the wrong one: until a place is believed, another takes over soon. */
     private fun doubt() {
         if (isBelieved) return
         agreeSince = Double.NaN
-        if (track.jumps > MOST_JUMPS) track.reset()
+        if (track.jumps <= MOST_JUMPS) return
+        track.reset()
+        agreement = AGREEMENT
     }
 
     /** Fills in what [situation] has of the pose. */
@@ -106,6 +136,15 @@ internal class PoseInput(val frame: LocalFrame, topSpeed: Double, private val mi
     private companion object {
         /** For so long fixes agree before the boat moves, s: receivers wander most while they settle. */
         const val AGREEMENT = 15.0
+
+        /** The same after a pause, s, where they agree with what was believed before it. */
+        const val RENEWED = 5.0
+
+        /** Fixes nearer in time are one, s. */
+        const val SAME_FIX = 0.02
+
+        /** So far ahead of the boat's clock a fix may be stamped, s. */
+        const val FAST_CLOCK = 1.0
 
         /** Fixes refused in a row that an unbelieved place survives. */
         const val MOST_JUMPS = 2

@@ -2,7 +2,6 @@ package stillwater.model
 
 import kotlin.math.abs
 import kotlin.math.cos
-import kotlin.math.floor
 import kotlin.math.round
 import kotlin.math.sin
 
@@ -69,8 +68,9 @@ public data class Grid(
     public fun cellAt(x: Double, y: Double): Int {
         val east = x - origin.x
         val north = y - origin.y
-        val column = floor((cosine * east + sine * north) / cellWidth)
-        val row = floor((cosine * north - sine * east) / cellHeight)
+        val column = (cosine * east + sine * north) / cellWidth
+        val row = (cosine * north - sine * east) / cellHeight
+        // From 0 on, cutting off the decimals is the floor.
         val inside = column >= 0 && column < columns && row >= 0 && row < rows
         return if (inside) row.toInt() * columns + column.toInt() else OUTSIDE
     }

@@ -44,7 +44,8 @@ public fun interface WayHome {
  * comes after the first that is not is dropped. Where none is kept the way home is planned, and [PlanOutcome.BudgetSpent]
  * is said once the boat is there. So, if home was within the budget when the boat set out and travel costs what [cost]
  * says, the boat never uses more than [limit] (but for rounding) and ends at home. Wind, current and detours cost more: [reserve] is kept
- * back for them. Where no way home is known the boat goes nowhere.
+ * back for them, and a boat that is held up on its way to a waypoint has [mustTurnBack] to ask. Where no way home is known
+ * the boat goes nowhere.
  *
  * No allocation once the buffers have grown, if the other planner and the way home have none. Confined to one thread.
  *
@@ -67,6 +68,7 @@ public class BudgetedPlanner(
     public val reserve: Double = 0.0,
 ) : Planner {
     private val back = Plan()
+    private var lookAt = 0.0
 
     /** Whether the last plan was the way home because the budget allowed nothing else. */
     public var isHomeBound: Boolean = false
@@ -93,6 +95,21 @@ public class BudgetedPlanner(
         }
         plan.truncate(affordable(from, plan, left))
         return if (plan.size > 0) PlanOutcome.Planned else goHome(from, plan)
+    }
+
+    /**
+     * Whether a boat on its way to a waypoint, at ([x], [y]) m, has to turn back: what is left is less than the way home
+     * costs from there, or nothing is left where no way home is known. Cheap as long as much is left: the way home is
+     * looked for again when an eighth of what was to spare is used up, which a boat needs that goes away from home at seven
+     * times the speed that [cost] reckons with.
+     */
+    public fun mustTurnBack(x: Double, y: Double): Boolean {
+        val used = meter.used()
+        if (used < lookAt) return false
+        val spare = limit - used - costHome(x, y)
+        if (spare == Double.NEGATIVE_INFINITY) return used >= limit
+        lookAt = used + maxOf(spare / LOOKS, if (cost.perMetre > 0) cost.perMetre else cost.perWaypoint)
+        return spare < 0
     }
 
     /** How many waypoints of [plan] can be passed with [left] to be spent. */
@@ -140,5 +157,8 @@ public class BudgetedPlanner(
     private companion object {
         /** Share of the limit by which sums along the way may round otherwise than the meter. */
         const val ROUNDING = 1e-12
+
+        /** Share of what is to spare after which the way home is looked for again. */
+        const val LOOKS = 8.0
     }
 }

@@ -24,10 +24,7 @@ import kotlin.math.sqrt
  * @throws IllegalArgumentException if a number is out of its range, or the lattice would have more than [MAX_POINTS].
  */
 public class WaterRoutes(public val area: WaterArea, public val margin: Double, public val resolution: Double) {
-    private val columns: Int
-    private val rows: Int
-    private val westmost: Double
-    private val southmost: Double
+    private val lattice: RouteLattice
 
     /** For each point and each of [STEPS] whether the leg there is clear, one bit each. */
     private val ways: ByteArray
@@ -42,19 +39,11 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
     init {
         require(margin >= 0 && margin.isFinite()) { "margin ($margin m) must be at least 0 and finite" }
         require(resolution > 0 && resolution.isFinite()) { "resolution ($resolution m) must be above 0 and finite" }
-        val wide = ceil((area.east - area.west) / resolution)
-        val high = ceil((area.north - area.south) / resolution)
-        require(wide * high <= MAX_POINTS) {
-            "a resolution of $resolution m makes ${wide.toLong()} x ${high.toLong()} points; $MAX_POINTS are allowed"
-        }
-        columns = maxOf(1, wide.toInt())
-        rows = maxOf(1, high.toInt())
-        westmost = (area.west + area.east - (columns - 1) * resolution) / 2
-        southmost = (area.south + area.north - (rows - 1) * resolution) / 2
-        clear = BooleanArray(columns * rows) { area.isClear(x(it), y(it), margin) }
-        ways = ByteArray(columns * rows)
-        distances = DoubleArray(columns * rows)
-        parents = IntArray(columns * rows)
+        lattice = RouteLattice(area, resolution)
+        clear = BooleanArray(lattice.size) { area.isClear(x(it), y(it), margin) }
+        ways = ByteArray(lattice.size)
+        distances = DoubleArray(lattice.size)
+        parents = IntArray(lattice.size)
         queue = PointQueue(distances)
         for (point in clear.indices) if (clear[point]) join(point)
     }
@@ -63,25 +52,25 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
     public val points: Int get() = clear.size
 
     /** Metres east of [point], 0 until [points]. */
-    public fun x(point: Int): Double = westmost + point % columns * resolution
+    public fun x(point: Int): Double = lattice.x(point)
 
     /** Metres north of [point], 0 until [points]. */
-    public fun y(point: Int): Double = southmost + point / columns * resolution
+    public fun y(point: Int): Double = lattice.y(point)
 
     /** Length of the way from [start]'s place to [point], m; infinite where there is none. */
     public fun distance(point: Int): Double = distances[point]
 
     private fun join(point: Int) {
-        val column = point % columns
-        val row = point / columns
+        val column = point % lattice.columns
+        val row = point / lattice.columns
         // Far from land every neighbour is clear too.
         val isOpen = area.distanceToOutline(x(point), y(point)) > margin + SQRT_2 * resolution * (1 + ROUNDING)
         var bits = 0
         for (step in 0 until STEPS) {
             val toColumn = column + COLUMN_STEPS[step]
             val toRow = row + ROW_STEPS[step]
-            if (toColumn !in 0 until columns || toRow !in 0 until rows) continue
-            val to = toRow * columns + toColumn
+            if (toColumn !in 0 until lattice.columns || toRow !in 0 until lattice.rows) continue
+            val to = toRow * lattice.columns + toColumn
             if (isOpen ||
                 (clear[to] && area.isClear(x(point), y(point), x(to), y(to), margin))
             ) {
@@ -120,7 +109,7 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
     private fun expand(point: Int) {
         for (step in 0 until STEPS) {
             if (ways[point].toInt() shr step and 1 == 0) continue
-            val to = point + ROW_STEPS[step] * columns + COLUMN_STEPS[step]
+            val to = point + ROW_STEPS[step] * lattice.columns + COLUMN_STEPS[step]
             val length = distances[point] + resolution * (if (step < EDGE_STEPS) 1.0 else SQRT_2)
             if (length < distances[to]) {
                 distances[to] = length
@@ -198,29 +187,91 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
 
     /** Calls [use] with the clear points within two steps of the lattice, or with the margin's more. */
     private inline fun forNear(x: Double, y: Double, use: (Int) -> Unit) {
-        if (!x.isFinite() || !y.isFinite()) return
-        val reach = NEAR + ceil(margin / resolution).toInt()
-        val column = Math.round((x - westmost) / resolution).coerceIn(0L, columns - 1L).toInt()
-        val row = Math.round((y - southmost) / resolution).coerceIn(0L, rows - 1L).toInt()
-        for (r in maxOf(0, row - reach)..minOf(rows - 1, row + reach)) {
-            for (c in maxOf(0, column - reach)..minOf(columns - 1, column + reach)) {
-                if (clear[r * columns + c]) use(r * columns + c)
-            }
-        }
+        lattice.forNear(x, y, margin) { point -> if (clear[point]) use(point) }
     }
 
     public companion object {
         /** The most points a lattice may have. */
         public const val MAX_POINTS: Int = 250_000
 
+        /**
+         * The least distance of a lattice's points over [area], m, that is at least [wanted] m and needs no more points than
+         * [MAX_POINTS]. Passages narrower than some two of it may not be found.
+         */
+        public fun resolution(area: WaterArea, wanted: Double): Double {
+            var resolution = wanted
+            while (RouteLattice.points(area, resolution) > MAX_POINTS) resolution *= COARSER
+            return resolution
+        }
+
+        /** Whether [start] would find a way from ([x], [y]), without a lattice having to be laid. */
+        public fun leadsFrom(area: WaterArea, margin: Double, resolution: Double, x: Double, y: Double): Boolean {
+            val lattice = RouteLattice(area, resolution)
+            val kept = if (area.isClear(x, y, margin)) margin else 0.0
+            var leads = false
+            lattice.forNear(x, y, margin) { point ->
+                leads = leads ||
+                    (
+                        area.isClear(lattice.x(point), lattice.y(point), margin) &&
+                            area.isClear(x, y, lattice.x(point), lattice.y(point), kept)
+                    )
+            }
+            return leads
+        }
+
         private const val START = -1
-        private const val NEAR = 2
+        private const val COARSER = 1.05
         private const val STEPS = 8
         private const val EDGE_STEPS = 4
         private const val ROUNDING = 1e-9
         private val SQRT_2 = sqrt(2.0)
         private val COLUMN_STEPS = intArrayOf(-1, 1, 0, 0, -1, -1, 1, 1)
         private val ROW_STEPS = intArrayOf(0, 0, -1, 1, -1, 1, -1, 1)
+    }
+}
+
+/** Where the points of a lattice over [area] are, [resolution] m apart. */
+private class RouteLattice(area: WaterArea, private val resolution: Double) {
+    val columns: Int
+    val rows: Int
+    private val westmost: Double
+    private val southmost: Double
+
+    init {
+        val wide = ceil((area.east - area.west) / resolution)
+        val high = ceil((area.north - area.south) / resolution)
+        require(wide * high <= WaterRoutes.MAX_POINTS) {
+            "a resolution of $resolution m makes ${wide.toLong()} x ${high.toLong()} points; " +
+                "${WaterRoutes.MAX_POINTS} are allowed"
+        }
+        columns = maxOf(1, wide.toInt())
+        rows = maxOf(1, high.toInt())
+        westmost = (area.west + area.east - (columns - 1) * resolution) / 2
+        southmost = (area.south + area.north - (rows - 1) * resolution) / 2
+    }
+
+    val size get() = columns * rows
+
+    fun x(point: Int) = westmost + point % columns * resolution
+
+    fun y(point: Int) = southmost + point / columns * resolution
+
+    /** Calls [use] with the points within two steps of the lattice, or with the [margin]'s more. */
+    inline fun forNear(x: Double, y: Double, margin: Double, use: (Int) -> Unit) {
+        if (!x.isFinite() || !y.isFinite()) return
+        val reach = NEAR + ceil(margin / resolution).toInt()
+        val column = Math.round((x - westmost) / resolution).coerceIn(0L, columns - 1L).toInt()
+        val row = Math.round((y - southmost) / resolution).coerceIn(0L, rows - 1L).toInt()
+        for (r in maxOf(0, row - reach)..minOf(rows - 1, row + reach)) {
+            for (c in maxOf(0, column - reach)..minOf(columns - 1, column + reach)) use(r * columns + c)
+        }
+    }
+
+    companion object {
+        const val NEAR = 2
+
+        fun points(area: WaterArea, resolution: Double): Double =
+            ceil((area.east - area.west) / resolution) * ceil((area.north - area.south) / resolution)
     }
 }
 

@@ -16,6 +16,8 @@ import kotlin.math.roundToInt
  * @property sendsCurrent whether motor lines have the current, as the older boards' do.
  * @property oxygenPeriod time between readings of the probe on port 1, s: about 3, on older boards 0.5.
  * @property volts of the battery, V.
+ * @property knowsProbe whether port 1 has its probe built in; else it is silent until it was told, as on firmware v4.2.0,
+ *   and again after each reset.
  * @throws IllegalArgumentException if a number is out of its range.
  */
 public data class BoardSpec(
@@ -26,6 +28,7 @@ public data class BoardSpec(
     val sendsCurrent: Boolean = true,
     val oxygenPeriod: Double = 3.0,
     val volts: Double = 15.3,
+    val knowsProbe: Boolean = true,
 ) {
     init {
         for ((name, value) in listOf(
@@ -88,6 +91,7 @@ public class VirtualBoard(
     private var probeLine = 0.0
     private var first = 0.0
     private var second = 0.0
+    private var isProbeNamed = spec.knowsProbe
 
     /** Volts, V; may be set to let the battery sag. */
     public var volts: Double = spec.volts
@@ -107,7 +111,13 @@ public class VirtualBoard(
     /** Starts the board anew, as opening its port does: disarmed, and silent while it boots. */
     public fun reset() {
         enter(Mode.BOOTING)
+        forgetProbe()
         framer.reset()
+    }
+
+    /** What was said of the probe's port is forgotten, as if it had not been heard. */
+    public fun forgetProbe() {
+        isProbeNamed = spec.knowsProbe
     }
 
     /** Takes bytes from the phone. Not modified, not retained. */
@@ -152,7 +162,7 @@ public class VirtualBoard(
         if (now - probeLine >= spec.oxygenPeriod) {
             val value = probe.read(BoatTime(now), now - probeLine)
             probeLine = now
-            if (!value.isNaN()) {
+            if (!value.isNaN() && isProbeNamed) {
                 readings++
                 output.line("{\"s1\":{\"type\":\"atlas_do\",\"data\":\"${fixed(value, 100)}\"}}\r\n")
             }
@@ -176,6 +186,7 @@ public class VirtualBoard(
                 val word = if (mode == Mode.ARMING) "standby" else mode.name.lowercase()
                 output.line("{\"e\":{\"type\":\"state\",\"data\":\"$word\"}}\r\n")
             }
+            line == """{"e":{"s1":"AtlasDO"}}""" -> isProbeNamed = true
             SETTING.matches(line) -> Unit
             !line.startsWith("{") || !line.endsWith("}") -> error("Failed to parse JSON command.", line)
             else -> error("Unknown command target.", line)

@@ -23,7 +23,13 @@ public sealed interface Command {
         }
     }
 
-    /** Tells the oxygen probe on [port] the water's temperature, [celsius], −5 to 60 °C. */
+    /**
+     * Tells the oxygen probe on [port] the water's temperature, [celsius], −5 to 60 °C.
+     *
+     * No mission sends it: by the source of the firmware (master and v4.2.0) a probe that was told waits for an answer
+     * that the firmware does not know, and gives no reading until the board is reset; and readings before and after
+     * are not of one scale. So with [CompensateConductivity].
+     */
     public data class CompensateTemperature(val port: Int, val celsius: Double) : Command {
         init {
             requirePort(port)

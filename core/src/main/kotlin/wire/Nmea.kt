@@ -22,6 +22,18 @@ internal sealed interface Sentence {
 internal object Nmea {
     private const val KNOT = 1852.0 / 3600
     private const val LONGEST = 120
+
+    /** Of $--RMC, since NMEA 2.3. */
+    private const val MODE = 12
+
+    /** Modes in which a receiver did not measure its place: estimated, manual, simulated, not valid. */
+    private val NOT_FIXED = setOf("E", "M", "S", "N")
+
+    /** Qualities that are fixes: GPS, differential, PPS, RTK fixed and float; some receivers say 9 with an augmentation. */
+    private val QUALITIES = setOf("1", "2", "3", "4", "5", "9")
+
+    /** No fix, and what is none: estimated (a receiver that goes on by dead reckoning), entered by hand, simulated. */
+    private val NO_FIX = setOf("0", "6", "7", "8")
     private val UNUSED = setOf("GSA", "GSV", "VTG", "GLL", "GNS", "ZDA", "DPT", "VHW", "VLW", "HDG", "TXT")
 
     /** What the sentence in [bytes] from [start] until [end] says, heard on [port]. */
@@ -51,7 +63,7 @@ internal object Nmea {
         val seconds = secondsOfDay(fields[1]) ?: return null
         if (fields[2] == "V") return Message.Fix(port, seconds, null, Double.NaN, Double.NaN)
         if (fields[2] != "A") return null
-        val place = place(fields, 3) ?: return null
+        val place = if (fields.getOrNull(MODE) in NOT_FIXED) null else (place(fields, 3) ?: return null)
         val speed = number(fields, 7)?.let { it * KNOT } ?: Double.NaN
         return Message.Fix(port, seconds, place, speed, number(fields, 8) ?: Double.NaN)
     }
@@ -59,12 +71,10 @@ internal object Nmea {
     private fun gga(port: Int, fields: List<String>): Message? {
         if (fields.size < 7) return null
         val seconds = secondsOfDay(fields[1]) ?: return null
-        if (fields[6] == "0") return Message.Fix(port, seconds, null, Double.NaN, Double.NaN)
+        if (fields[6] in NO_FIX) return Message.Fix(port, seconds, null, Double.NaN, Double.NaN)
         if (fields[6] !in QUALITIES) return null
         return place(fields, 2)?.let { Message.Fix(port, seconds, it, Double.NaN, Double.NaN) }
     }
-
-    private val QUALITIES = (1..9).map { it.toString() }.toSet()
 
     /** ddmm.mmm, N or S, dddmm.mmm, E or W from field [first] on. */
     private fun place(fields: List<String>, first: Int): LatLon? {

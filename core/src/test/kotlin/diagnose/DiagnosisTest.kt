@@ -32,6 +32,17 @@ class DiagnosisTest {
     }
 
     @Test
+    fun aFewRowsAreTooFew() {
+        for (rows in 5..12) {
+            val few = log(SensorStage.Lag(6.0)).let { all ->
+                fun first(column: DoubleArray) = column.copyOf(rows)
+                MeasuredSeries(first(all.times), DoubleArray(rows), DoubleArray(rows), first(all.values), first(truth))
+            }
+            assertIs<Verdict.InsufficientData>(Diagnosis(few).run().verdict, "$rows rows")
+        }
+    }
+
+    @Test
     fun aDriftIsNamedOrCannotBeToldFromJumps() {
         val verdict = Diagnosis(log(SensorStage.Lag(6.0), SensorStage.Drifting(1e-4))).run().verdict
         val causes = when (verdict) {

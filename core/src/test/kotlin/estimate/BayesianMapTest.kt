@@ -162,6 +162,20 @@ class BayesianMapTest {
     }
 
     @Test
+    fun aNewCellInTheMiddleOfThePriorIsToldToItsNeighbours() {
+        val grid = Grid.unit(10, 10)
+        val estimator = BayesianMap(grid, Interval.UNIT, Oracle(grid, 1e-3))
+        val shift = 0.5 - smooth(grid, 55)
+        for (cell in 0 until grid.size) {
+            if (cell % 10 % 2 == 0 && cell / 10 % 2 == 0) estimator.see(cell, smooth(grid, cell) + shift)
+        }
+        val before = estimator.map.width(54)
+        // The covariance is learned anew at 31 cells only: at the 26th nothing but the cell itself is news.
+        estimator.see(55, 0.5)
+        assertTrue(estimator.map.width(54) < 0.9 * before, "${estimator.map.width(54)} after $before")
+    }
+
+    @Test
     fun workMustBeAboveNothing() {
         val grid = Grid.unit(3, 4)
         for (work in listOf(0.0, -1.0, Double.NaN)) {

@@ -1,5 +1,7 @@
 package stillwater.estimate
 
+import kotlin.math.ln
+import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -41,6 +43,20 @@ class ResponseChoiceTest {
     }
 
     @Test
+    fun aSlowPathThatIsToldTooWeaklyToStayOpenIsHintedAt() {
+        fun hinted(vararg of: CandidateResponse) = ResponseChoice.of(of.toList(), Random(1)).hinted?.kind
+        val level = candidate(ResponseKind.TWO_PATH, 100.1, 0.0)
+        assertEquals(ResponseKind.TWO_PATH, hinted(lag, level))
+        val better = candidate(ResponseKind.DEAD_TIME_AND_TWO_PATH, 100.15, 0.0)
+        assertEquals(ResponseKind.DEAD_TIME_AND_TWO_PATH, hinted(lag, level, better))
+        // Not where its share is as open as beforehand, where it is ruled out, or where it is open anyway.
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 100.1, 0.0, error = 1.1)))
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 98.0, 0.1)))
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 102.0, 3.0)))
+        assertEquals(null, hinted(lag))
+    }
+
+    @Test
     fun asymmetryGivesWayToALagThatIsNotRuledOut() {
         assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 3.0)))
     }
@@ -55,6 +71,20 @@ class ResponseChoiceTest {
         assertEquals(ResponseKind.LARGEST_SHARE, beyond.parameter(2))
         assertEquals(beyond.response.slowShare, beyond.parameter(2))
         assertEquals(40.0, beyond.parameter(1))
+    }
+
+    @Test
+    fun likelyResponsesSpreadAsTheFitIsUncertain() {
+        val axes = listOf(listOf(0.1, 0.05), listOf(-0.02, 0.2))
+        val errors = axes[0].indices.map { i -> sqrt(axes.sumOf { it[i] * it[i] }) }
+        val kind = ResponseKind.ASYMMETRIC
+        val two = CandidateResponse(kind, listOf(5.0, 2.0), errors, axes, 0.0, doubleArrayOf())
+        val drawn = two.likely().map { likely -> likely.lags.single().let { listOf(ln(it.rising), ln(it.falling)) } }
+        for (i in errors.indices) {
+            val mean = drawn.map { it[i] }.average()
+            assertEquals(ln(two.parameters[i]), mean, 1e-12)
+            assertEquals(errors[i], sqrt(drawn.map { (it[i] - mean) * (it[i] - mean) }.average()), 1e-12)
+        }
     }
 
     private companion object {

@@ -56,6 +56,7 @@ class UndoableSensorTest {
     @TestFactory
     fun whatASensorDidIsUndone(): List<DynamicTest> = listOf(
         listOf(SensorStage.TwoPath(4.0, 30.0, 0.3)),
+        listOf(SensorStage.TwoPath(4.0, 30.0, 0.0)),
         listOf(SensorStage.FlowLag(6.0, 1.0, 0.8)),
         listOf(SensorStage.TemperatureLag(6.0, 15.0, 0.08)),
         listOf(SensorStage.Combined(6.0, 1.0, 0.6, 15.0, 0.05, 1.4)),

@@ -11,6 +11,7 @@ import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 import stillwater.virtual.VirtualBoat
 import stillwater.virtual.VirtualBoatSpec
+import stillwater.wire.ByteLink
 import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.math.sqrt
@@ -24,6 +25,7 @@ internal class Desk(
     board: BoardSpec = BoardSpec(oxygenPeriod = 1.0),
     pose: PoseSpec = PoseSpec(),
     recovered: RecoveredMission? = null,
+    wrapped: (ByteLink) -> ByteLink = { it },
 ) {
     private val grid = spec.grid.grid()
     val field = field(Random(seed))
@@ -35,7 +37,7 @@ internal class Desk(
     )
     val lines = ArrayList<String>()
     val log = MissionLog(lines::add, LogStart(1_700_000_000_000, "2023-11-14 22:13:20"), spec)
-    val mission = Mission(spec, boat.phone, log, recovered = recovered)
+    val mission = Mission(spec, wrapped(boat.phone), log, recovered = recovered)
 
     /** Where the boat really was, by the tick of a tenth of a second. */
     val trueX = ArrayList<Double>()

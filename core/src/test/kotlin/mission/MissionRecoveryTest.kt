@@ -3,6 +3,7 @@ package stillwater.mission
 import org.junit.jupiter.api.Test
 import stillwater.field.FieldMap
 import stillwater.model.BoatTime
+import stillwater.model.Drive
 import stillwater.model.Position
 import stillwater.model.Reading
 import stillwater.wire.Message
@@ -86,6 +87,19 @@ class MissionRecoveryTest {
         }
     }
 
+    /** After a restart readings are of a time ahead of the steps', and so is one that waits. */
+    @Test
+    fun theLatestTimeOfALogIsThatOfAReadingThatWaitsWhereThatIsLater() {
+        val lines = ArrayList<String>()
+        val log = MissionLog(lines::add, LogStart(0, "a day"), Desk.small())
+        val message = Message.Oxygen(1, 7.1)
+        fun at(seconds: Double) = Reading(BoatTime(seconds), Position(1.0, 1.0), 7.1)
+        log.reading(BoatTime(1.0), message, ReadingVerdict.HELD, emptyList(), at(500.0), emptyList())
+        assertEquals(500.0, checkNotNull(Desk.replay(lines).recovered()).lastTime)
+        log.reading(BoatTime(2.0), message, ReadingVerdict.SAME, emptyList(), null, listOf(at(501.0), at(502.0)))
+        assertEquals(502.0, checkNotNull(Desk.replay(lines).recovered()).lastTime)
+    }
+
     /** A probe that was stuck before the restart is stuck after it, not for the first time. */
     @Test
     fun howLongAProbeHasSaidTheSameIsNotForgotten() {
@@ -97,6 +111,27 @@ class MissionRecoveryTest {
         assertEquals(1, checkNotNull(Desk.replay(lines).recovered()).run)
         said(ReadingVerdict.STUCK, 7)
         assertEquals(7, checkNotNull(Desk.replay(lines).recovered()).run)
+    }
+
+    /** Nobody is to take what a virtual boat wrote for measured water, nor to go on with it on a real one. */
+    @Test
+    fun aLogSaysOfWhichBoatItIs() {
+        val spec = Desk.small()
+        val record = StepRecord(BoatTime(1.0), MissionState.Idle, null, Double.NaN, Drive.NONE, 0.0, 0)
+
+        fun begun(boat: String?, isVirtual: Boolean?): List<String> =
+            ArrayList<String>().also { MissionLog(it::add, LogStart(0, "a day", boat, isVirtual), spec).step(record) }
+
+        val odd = "Boat \"3\"\n\u0001"
+        val cases = listOf("Boat 3" to false, odd to true, null to null)
+        for ((boat, isVirtual) in cases) {
+            val found = checkNotNull(Desk.replay(begun(boat, isVirtual)).recovered())
+            assertEquals(0, found.unreadable)
+            assertEquals(boat to isVirtual, found.boat to found.isVirtual)
+        }
+        // It went on with another cable.
+        val found = checkNotNull(Desk.replay(begun("Boat 3", false) + begun("USB serial", false)).recovered())
+        assertEquals("USB serial" to false, found.boat to found.isVirtual)
     }
 
     @Test

@@ -65,6 +65,25 @@ class PlatypusCodecTest {
         assertEquals(null, (none as Message.Fix).place)
     }
 
+    /** A receiver that goes on by dead reckoning, or was told where it is, has no fix: the mission is to see it grow old. */
+    @Test
+    fun aPlaceThatWasNotMeasuredIsNoFix() {
+        fun place(sentence: String) =
+            (read("""{"s1":{"type":"gps","data":"${'$'}$sentence"}}""").single() as Message.Fix).place
+        val there = LatLon(48 + 7.038 / 60, 11 + 31.0 / 60)
+        for (quality in 0..9) {
+            val expected = there.takeIf { quality in setOf(1, 2, 3, 4, 5, 9) }
+            val found = place("GPGGA,123519,4807.038,N,01131.000,E,$quality,08,0.9,545.4,M,46.9,M,,")
+            assertEquals(expected, found, "quality $quality")
+        }
+        for (mode in listOf("", ",A", ",D", ",F", ",P", ",R", ",E", ",M", ",S", ",N")) {
+            val expected = there.takeIf { mode.takeLast(1) !in setOf("E", "M", "S", "N") }
+            val found = place("GPRMC,123519,A,4807.038,N,01131.000,E,022.4,084.4,230394,003.1,W$mode")
+            assertEquals(expected, found, "mode $mode")
+        }
+        assertEquals(0, codec.malformed.total)
+    }
+
     @Test
     fun errorsEchoWhatTheyGotAndNothingInThemIsRead() {
         assertEquals(

@@ -101,12 +101,13 @@ class CorrectCommand : WorkCommand("correct") {
             throw failure("--between: expected --held-out and a transect (--x without --y), found none")
         }
         for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
-        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
+        OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
+            val places = CorrectFiles.places(logs.map { it.quantity })
             val files = CorrectOutput(
                 logs.mapIndexed { i, opened ->
                     val result = corrected(opened, spec)
                     val scores = if (heldOut) result.heldOut(between) else null
-                    CorrectFiles(result, units.getOrNull(i), commandLine(), scores, logs.size == 1)
+                    CorrectFiles(result, units.getOrNull(i), commandLine(), scores, places[i])
                 },
             )
             files.write(directory)

@@ -35,8 +35,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         help = "column with the truth up to noise: a fast sensor, or known samples on a bench",
     )
     private val conditions by conditions(
-        "further quantity; speed (m/s), temperature (degrees Celsius) and heading (radians) have their own causes. " +
-            "Repeatable",
+        "further quantity; speed (m/s), temperature (degrees Celsius) and heading are looked at as such. Headings " +
+            "are degrees if the column's name says so (heading_deg) or one is beyond a full turn of radians, and " +
+            "radians if not. Repeatable",
     )
     private val compare by option(
         "--compare",
@@ -75,22 +76,23 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it }) +
             compare.map { DiagnosisLog.compared(it) to it }
-        val opened = SurveyLog.open(Path.of(log), logOptions.choice().copy(conditions = wanted))
+        // Beside a reference the probe need not have been anywhere: on a bench it is put from one sample into another.
+        val choice = logOptions.choice().copy(conditions = wanted, needsPlace = reference == null)
+        val opened = SurveyLog.open(Path.of(log), choice)
         compare.firstOrNull { it == opened.quantity }?.let {
             throw BadFlag("--compare", "another column than the readings'", "'$it'")
         }
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
-        OutputDirectory(Path.of(out), listOf(Path.of(log))).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.map { it.first }, reference, compare.distinct())
+        OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
+            val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
             if (read.series.size < FEWEST_ROWS) {
                 throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
             }
             val shown = !quiet && !json
             val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
-                val settings = DiagnosisSettings(base = given)
-                Diagnosis(read.series, settings) { progress.advance((it * WHOLE).toLong()) }.run()
+                diagnosis(read, given) { progress.advance((it * WHOLE).toLong()) }.run()
             }
             val isShown = shown && read.isCompared
             val channels = WorkProgress(terminal, "comparing channels", unit = "%", WHOLE, isShown).use { progress ->
@@ -108,6 +110,12 @@ class DiagnoseCommand : WorkCommand("diagnose") {
                 }
             }
         }
+    }
+
+    private fun diagnosis(read: DiagnosisLog, given: SensorSpec?, progress: (Double) -> Unit) = try {
+        Diagnosis(read.series, DiagnosisSettings(base = given), progress)
+    } catch (wrong: IllegalArgumentException) {
+        throw failure("--sensor $sensor: ${wrong.message}")
     }
 
     /** Whether the base is the sensor given: one that could not be used stands for nothing. */

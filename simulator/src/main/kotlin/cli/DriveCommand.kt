@@ -25,14 +25,17 @@ import stillwater.io.MissionFile
 import stillwater.link.ReconnectingWire
 import stillwater.link.WireAddress
 import stillwater.link.WireProblem
+import stillwater.mission.LogSink
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
+import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.report.OutputDirectory
 import stillwater.report.counted
 import stillwater.run.withUnit
+import stillwater.wire.ByteLink
 import java.nio.file.Path
 import java.time.ZonedDateTime
 import java.time.format.DateTimeFormatter
@@ -58,7 +61,7 @@ class DriveCommand : WorkCommand("drive") {
         metavar = "DEG",
         help = "of the magnetic from the true north where the boat is, degrees, east positive; without --phone only",
     ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }.default(0.0)
-    private val vectored by option("--vectored", help = "one thruster that swivels in place of two that do not").flag()
+    private val vectored by vectoredFlag()
     private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
         .default("stillwater-drive")
     private val resume by option("--resume", help = "go on with the unfinished mission in DIR, disarmed at first")
@@ -70,9 +73,10 @@ class DriveCommand : WorkCommand("drive") {
     override fun help(context: Context) = "Sail a mission with the boat on a serial or TCP port."
 
     override fun helpEpilog(context: Context) = helpEnd(
-        "Enter begins the mission, `stop` and Enter or Ctrl-C end it: the motors rest, the board is disarmed, the " +
-            "log is closed. DIR gets mission.txt (mission.txt.incomplete until then), cells.csv and a figure. Exit " +
-            "code 0 when the mission was completed, 1 when it ended otherwise or surveyed nothing.",
+        "Enter begins the mission; any line with a word in it, such as `stop`, or Ctrl-C ends it, also before it " +
+            "began: the motors rest, the board is disarmed, the log is closed. DIR gets mission.txt " +
+            "(mission.txt.incomplete until then), cells.csv and a figure. Exit code 0 when the mission was completed, " +
+            "1 when it ended otherwise or surveyed nothing.",
         listOf(
             "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
             "stillwater drive pond.json --port /dev/pts/3 --phone tcp:127.0.0.1:4002 --yes",
@@ -81,7 +85,7 @@ class DriveCommand : WorkCommand("drive") {
     )
 
     override fun work() {
-        val spec = MissionFile.read(Path.of(missionFile))
+        val spec = MissionFile.read(Path.of(missionFile)).vectoredWhere(vectored)
         val address = WireAddress.parse(port, baud) ?: throw BadFlag("--port", WireAddress.EXPECTED, "'$port'")
         val channel = phoneAddress?.let {
             WireAddress.parse(it, baud) as? WireAddress.Tcp ?: throw BadFlag("--phone", "tcp:HOST:PORT", "'$it'")
@@ -114,12 +118,14 @@ class DriveCommand : WorkCommand("drive") {
 
     private fun sail(spec: MissionSpec, wire: ReconnectingWire, phone: Phone, directory: Path, signals: Signals) {
         val resumed = if (resume) recover(spec, directory) else null
-        val file = resumed?.file ?: LogOnDisk.begin(directory)
+        val prompt = PromptWire(wire)
+        val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
+        var begun: LogOnDisk? = resumed?.file
+        val mission = build(spec, link, { checkNotNull(begun).line(it) }, resumed?.mission)
+        // After the mission: one that cannot be built leaves no log that nobody can go on with.
+        val file = begun ?: LogOnDisk.begin(directory)
+        begun = file
         file.use {
-            val prompt = PromptWire(wire)
-            val link = (phone as? BoardPhone)?.tap(prompt) ?: prompt
-            val mixing = if (vectored) Mixing.VECTORED else Mixing.DIFFERENTIAL
-            val mission = Mission(spec, link, MissionLog(file, now(), spec), mixing, resumed?.mission)
             val status = DriveStatus(terminal, wire, phone, quiet)
             val run = DriveRun(mission, phone, wire, prompt, file, status)
             attendPerson(run, signals)
@@ -130,11 +136,17 @@ class DriveCommand : WorkCommand("drive") {
         }
     }
 
+    private fun build(spec: MissionSpec, link: ByteLink, log: LogSink, recovered: RecoveredMission?) = try {
+        Mission(spec, link, MissionLog(log, now(), spec), recovered)
+    } catch (unfit: IllegalArgumentException) {
+        throw failure("$missionFile: expected a mission that can be sailed, found ${unfit.message}")
+    }
+
     private fun recover(spec: MissionSpec, directory: Path): Resumed {
         val path = checkNotNull(LogOnDisk.unfinished(directory))
         val resumed = LogOnDisk.resume(path) { found ->
             if (found.spec == spec) return@resume
-            throw LogProblem(path, null, null, "the mission of $missionFile", "another one, ${found.spec.name}")
+            throw LogProblem(path, null, null, "the mission of $missionFile", otherThan(spec, found.spec))
         }
         val found = resumed.mission
         tell(
@@ -144,12 +156,22 @@ class DriveCommand : WorkCommand("drive") {
         return resumed
     }
 
+    /** In what [found] is not [wanted]. */
+    private fun otherThan(wanted: MissionSpec, found: MissionSpec): String {
+        val mixing = found.boat.mixing
+        if (found != wanted.copy(boat = wanted.boat.copy(mixing = mixing))) return "another one, ${found.name}"
+        val then = if (mixing == Mixing.VECTORED) "add --vectored" else "without --vectored"
+        return "it with boat.mixing ${mixing.name.lowercase()}; $then"
+    }
+
     private fun attendPerson(run: DriveRun, signals: Signals) {
         signals.attend { run.stop() }
         if (yes) return run.start()
-        tell("Enter begins the mission, stop and Enter or Ctrl-C ends it")
+        tell("Enter begins the mission: motors will run. Any other line, such as stop, or Ctrl-C ends it, also before")
         val listener = Thread({
-            for (line in generateSequence { readlnOrNull() }) if (line.trim() == "stop") run.stop() else run.start()
+            generateSequence { readlnOrNull() }.forEach(run::heed)
+            val isNobodyThere = run.heedSilence()
+            if (isNobodyThere) echo("standard input has ended: nobody can begin the mission; --yes does", err = true)
         }, "hear the person")
         listener.isDaemon = true
         listener.start()

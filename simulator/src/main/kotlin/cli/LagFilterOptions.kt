@@ -34,6 +34,12 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
         help = "bounded-extended: distances per slope are learned, or none: bounds from the direction alone",
     ).oneOf(RESPONSES)
 
+    /** Whether the longest time constant was given. */
+    val slowestGiven: Boolean get() = slowest != null
+
+    /** Whether the largest error of a reading was given. */
+    val readingErrorGiven: Boolean get() = readingError != null
+
     /** [settings] with what was given on the command line in their place. */
     fun applied(settings: LagFilterSettings): LagFilterSettings = settings.copy(
         interval = settings.interval.copy(

@@ -14,6 +14,7 @@ import stillwater.io.DecimalText
 import stillwater.io.SurveyLog
 import stillwater.model.Grid
 import stillwater.model.Interval
+import stillwater.plot.Rehearsal
 import stillwater.report.OutputDirectory
 import stillwater.run.FilterKind
 import stillwater.run.LagFilterSettings
@@ -110,7 +111,7 @@ class MapCommand : WorkCommand("map") {
         val spec = sensor?.let(SensorFile::read)
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
-        OutputDirectory(Path.of(out), listOf(file)).use { directory ->
+        OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val map = read(opened, file, spec?.let { correction(opened, it) })
             val summary = MapSummary(map)
             val drawing = MapFiles(map, summary, commandLine()).write(directory)
@@ -137,12 +138,16 @@ class MapCommand : WorkCommand("map") {
     private fun read(opened: SurveyLog, file: Path, correction: GivenCorrection?): SurveyMap {
         // Every byte is read twice.
         val bytes = 2 * Files.size(file)
-        val shown = !quiet && bytes >= WORTH_SHOWING
+        val isLong = bytes >= LONG
+        val rehearsal = if (isLong) Rehearsal() else null
+        val shown = !quiet && isLong
         return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
             try {
                 SurveyMap.of(opened, settings().copy(correction = correction), progress::advance)
             } catch (unfit: UnfitGrid) {
                 throw failure("${if (gridSize == null) "--cell" else "--grid"}: ${unfit.message}")
+            } finally {
+                rehearsal?.close()
             }
         }
     }
@@ -161,6 +166,8 @@ class MapCommand : WorkCommand("map") {
         boundedFilter = filterOptions.applied(MapSettings().boundedFilter),
         unit = unit,
         lagFilters = lagOptions.applied(LagFilterSettings()),
+        slowestGiven = lagOptions.slowestGiven,
+        readingErrorGiven = lagOptions.readingErrorGiven,
     )
 
     private fun commandLine(): String {
@@ -184,8 +191,8 @@ class MapCommand : WorkCommand("map") {
     }
 
     private companion object {
-        /** Smaller files are done before a bar can be read, bytes. */
-        const val WORTH_SHOWING = 8_000_000L
+        /** Smaller files are done before a bar can be read or a figure be drawn beside, bytes, twice the file's. */
+        const val LONG = 8_000_000L
         const val GRID = "COLSxROWS such as 10x10, whole numbers above 0, ${Grid.MAX_CELLS} cells at most"
     }
 }

@@ -1,6 +1,7 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.core.Context
+import com.github.ajalt.clikt.core.MultiUsageError
 import com.github.ajalt.clikt.core.UsageError
 import com.github.ajalt.clikt.output.HelpFormatter
 import com.github.ajalt.clikt.output.MordantHelpFormatter
@@ -15,8 +16,12 @@ class OneLineErrors(context: Context) : MordantHelpFormatter(context, showDefaul
         programName: String,
     ): String {
         if (error == null) return super.formatHelp(null, prolog, epilog, parameters, programName)
-        val message = error.formatMessage(context.localization, parameterFormatter(context))
-        val oneLine = message.lineSequence().map { it.trim() }.filter { it.isNotEmpty() }.joinToString(" ")
+        val all = (error as? MultiUsageError)?.errors ?: listOf(error)
+        val formatter = parameterFormatter(context)
+        val oneLine = all.joinToString("; ") { onOneLine(it.formatMessage(context.localization, formatter)) }
         return "$programName: $oneLine (see $programName --help)"
     }
+
+    private fun onOneLine(text: String) =
+        text.lineSequence().map { it.trim() }.filter { it.isNotEmpty() }.joinToString(" ")
 }

@@ -53,7 +53,7 @@ class SimulateCommand : WorkCommand("simulate") {
     )
 
     override fun work() {
-        val mission = MissionFile.read(Path.of(missionFile))
+        val mission = boat.mission(MissionFile.read(Path.of(missionFile)))
         requireVirtualProbe(mission)
         val most = longest ?: MissionRun.longest(mission)
         val settings = boat.settings()

@@ -62,9 +62,9 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         if (pty == (tcp != null)) {
             throw failure("expected one of --pty and --tcp PORT, found ${if (pty) "both" else "neither"}")
         }
-        val spec = MissionFile.read(Path.of(mission))
+        val spec = boat.mission(MissionFile.read(Path.of(mission)))
         requireProbe(spec.probe)
-        val world = boat.world(WorldSite.of(spec))
+        val world = VirtualWorld(boat.settings(), WorldSite.of(spec))
         try {
             (if (pty) PseudoTerminal() else TcpServedWire(host, checkNotNull(tcp))).use { wire ->
                 PhoneServer(TcpServedWire(host, phonePort)).use { phone -> serve(world, wire, phone) }

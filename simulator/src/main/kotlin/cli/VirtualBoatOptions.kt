@@ -4,25 +4,22 @@ import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.RawOption
 import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
-import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.mission.MissionSpec
 import stillwater.model.Interval
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 import stillwater.world.BatterySpec
 import stillwater.world.Flow
-import stillwater.world.VirtualWorld
 import stillwater.world.WaterKind
 import stillwater.world.WorldSettings
-import stillwater.world.WorldSite
 
 /**
  * The options that make a virtual boat and its water; the same for every command that has one.
  *
- * A command has the group by `private val boat by VirtualBoatOptions()` and makes the world with
- * `boat.world(WorldSite.of(missionSpec))`, or with a [WorldSite] of its own where there is no mission. [flags] are for
- * writing the command down.
+ * A command has the group by `private val boat by VirtualBoatOptions()`; the mission is then [mission], and the world
+ * made of [settings]. [flags] are for writing the command down.
  */
 class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
     private val water by option("--field", metavar = "KIND", help = waterHelp())
@@ -91,16 +88,16 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         metavar = "WH",
         help = "energy in the battery, W h (300); its voltage falls to 5/6 of the full one when it is used",
     ).number("a number above 0") { it > 0 }
-    private val vectored by option("--vectored", help = "one thruster that swivels in place of two that do not").flag()
+    private val vectored by vectoredFlag()
+
+    /** The [mission] with the boat that the options ask for. */
+    fun mission(mission: MissionSpec): MissionSpec = mission.vectoredWhere(vectored)
 
     /**
-     * The world that the options ask for at [site].
+     * What the virtual world is made of.
      *
      * @throws BadFlag if the sensor's file cannot be used.
      */
-    fun world(site: WorldSite): VirtualWorld = VirtualWorld(settings(), site)
-
-    /** What [world] is made of. */
     fun settings(): WorldSettings {
         val pose = PoseSpec()
         val link = LinkSpec()
@@ -128,7 +125,6 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
                 volts = volts ?: board.volts,
             ),
             battery = battery.copy(capacity = capacity ?: battery.capacity),
-            isVectored = vectored,
         )
     }
 

@@ -60,8 +60,9 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
         val figure = Bars(
             "Disagreement of opposite legs",
             "each leg against the mean of its two neighbours",
-            listOf(
+            listOfNotNull(
                 bar("as measured", before.opposite.mean, before.opposite.standardError),
+                result.smoothed?.let { bar("smoothed only", it.opposite.mean, it.opposite.standardError) },
                 bar("corrected", after.opposite.mean, after.opposite.standardError),
             ),
             "Mean absolute difference (${summary.quantity})",
@@ -69,7 +70,8 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
         return CorrectFigure(
             "legs",
             figure,
-            "Whiskers are two standard errors. The water's own change from leg to leg is in both.",
+            "Whiskers are two standard errors. The water's own change from leg to leg is in all. Smoothed only: " +
+                "the readings as the correction smooths them, with no lag undone.",
         )
     }
 

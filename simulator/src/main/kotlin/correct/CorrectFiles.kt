@@ -17,6 +17,7 @@ import stillwater.report.OutputDirectory
 import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.Table
+import stillwater.report.putOrigin
 import stillwater.report.writeFigures
 
 /**
@@ -26,16 +27,19 @@ import stillwater.report.writeFigures
  *
  * @param result what to write. @param unit unit of the quantity, or null. @param command the command as typed.
  * @param heldOut scores of legs that the sensor was not learned on, or null where they were not asked for.
- * @param isAlone whether no other quantity of the log is corrected beside it: if not, its columns have its name before
- *   theirs, and its files but corrected.csv lie in a directory of that name.
+ * @param place directory of the files but corrected.csv, within the results', with a slash behind it, where other
+ *   quantities of the log are corrected beside it, as [places] names it; its columns then have its name before theirs.
+ *   Empty where it is alone.
  */
 class CorrectFiles(
     private val result: CorrectedLog,
     unit: String?,
     private val command: String,
     private val heldOut: List<HeldOutScore>? = null,
-    private val isAlone: Boolean = true,
+    private val place: String = "",
 ) {
+    private val isAlone = place.isEmpty()
+
     private val summary = CorrectSummary(result, unit, heldOut)
 
     /** Rows of the log that are no reading; known once written. */
@@ -55,14 +59,6 @@ class CorrectFiles(
 
     /** Names of the columns added to the log's. */
     val columns: List<String> = columns(result.log, isAlone)
-
-    /** Directory of the files but corrected.csv, within the results': empty or with a slash behind it. */
-    val place: String = if (isAlone) {
-        ""
-    } else {
-        quantity.map { if (it.isLetterOrDigit() || it in "_-") it else '_' }
-            .joinToString("") + "/"
-    }
 
     /** What is added to the rows of the log. */
     internal fun addedColumns(): AddedColumns {
@@ -90,9 +86,9 @@ class CorrectFiles(
         return drawing
     }
 
-    /** Seven digits are far finer than any interval. */
+    /** Finer than any interval, of readings with a large offset too, such as 101325.37 Pa. */
     private fun cell(value: Double): String? =
-        if (value.isFinite()) String.format(java.util.Locale.ROOT, "%.7g", value).toDouble().toString() else null
+        if (value.isFinite()) String.format(java.util.Locale.ROOT, "%.10g", value).toDouble().toString() else null
 
     private fun json(drawing: List<String>): String =
         FORMAT.encodeToString(JsonObject.serializer(), summaryJson(drawing)) + "\n"
@@ -102,6 +98,7 @@ class CorrectFiles(
         put("log", result.log.file.toString())
         put("quantity", quantity)
         putJsonArray("columns") { columns.forEach { add(JsonPrimitive(it)) } }
+        putOrigin(result.log.frame)
         put("readings", result.series.size)
         put("other_rows", otherRows)
         putJsonObject("skipped") { result.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
@@ -137,6 +134,8 @@ class CorrectFiles(
         }
         result.before?.let { put("opposite_legs_before", finite(it.opposite.mean)) }
         result.after?.let { put("opposite_legs_after", finite(it.opposite.mean)) }
+        // The readings smoothed in the same way with no lag undone.
+        result.smoothed?.let { put("opposite_legs_smoothed", finite(it.opposite.mean)) }
         heldOut?.let { scores ->
             putJsonArray("held_out") {
                 for (score in scores) {
@@ -145,10 +144,12 @@ class CorrectFiles(
                         put("legs", score.legs)
                         put("opposite_legs_before", finite(score.before))
                         put("opposite_legs_after", finite(score.after))
+                        put("opposite_legs_smoothed", finite(score.smoothed))
                         score.passes?.let {
                             put("pairs_of_passes", it.pairs)
                             put("passes_rms_before", it.before)
                             put("passes_rms_after", it.after)
+                            put("passes_rms_smoothed", finite(it.smoothed))
                         }
                     }
                 }
@@ -196,6 +197,20 @@ class CorrectFiles(
 
     companion object {
         /**
+         * A directory for each of [quantities], a number behind the name where two come to the same, be it but for
+         * capitals, which some file systems take for the same; an empty one where there is only one quantity.
+         */
+        fun places(quantities: List<String>): List<String> {
+            if (quantities.size == 1) return listOf("")
+            val taken = HashSet<String>()
+            return quantities.map { quantity ->
+                val name = quantity.map { if (it.isLetterOrDigit() || it in "_-") it else '_' }.joinToString("")
+                val numbered = generateSequence(2) { it + 1 }.map { "${name}_$it" }
+                (sequenceOf(name) + numbered).first { taken.add(it.lowercase()) } + "/"
+            }
+        }
+
+        /**
          * Refuses [log] if it has a column of the names that are added to it, where it is corrected [isAlone] or not.
          *
          * @throws stillwater.io.LogProblem if so.
@@ -213,8 +228,9 @@ class CorrectFiles(
         private val HOW = listOf(
             "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
                 "response is undone in phase only, and short runs of the track are foretold from the other passes " +
-                "near them; the better they agree, the higher its score. Parameters are fitted without the group of " +
-                "runs that is scored.",
+                "near them; the better they agree, the higher its score. Each group of runs is scored with " +
+                "parameters one Newton step from the best ones towards what the other groups alone would give; how rough the " +
+                "water is was learned from all of them.",
             "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
                 "from the scatter between groups of neighbouring runs. What is not ruled out stays open, and the " +
                 "corrected value is the mean over it.",

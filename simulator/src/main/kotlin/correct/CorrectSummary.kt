@@ -96,10 +96,18 @@ internal class CorrectSummary(
 
     private fun evidence(): String = when (result.origin) {
         SensorOrigin.REVISITS ->
-            "${result.blocks} runs of the track foretold by other passes, from ${result.learnedOn} readings"
+            "${result.blocks} runs of the track foretold by other passes, from ${result.learnedOn} readings" + unseen()
         SensorOrigin.REFERENCE -> "${result.learnedOn} readings with a reference"
         else -> result.origin.label
     }
+
+    /** What passes of a track cannot show: a slow path's few percent move features less than the lag's own error. */
+    private fun unseen(): String =
+        if (result.choice?.open?.any { it.kind.hasTwoPaths } != false) {
+            ""
+        } else {
+            "; a slow path with a share of a few percent would not show, and is not in the intervals"
+        }
 
     /** Why the log says nothing about its sensor. */
     private fun silence(): String {
@@ -117,16 +125,24 @@ internal class CorrectSummary(
         val after = result.after
         if (before == null || after == null || !(before.opposite.mean > 0)) return "none to compare"
         val change = 1 - after.opposite.mean / before.opposite.mean
-        val words = if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
-        return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, " +
-            "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words)"
+        val words = lessOrMore(change)
+        val plain = result.smoothed?.opposite?.mean
+        val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
+        return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
+            "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words" +
+            plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }.orEmpty() + ")"
     }
+
+    private fun lessOrMore(change: Double) =
+        if (change >= 0) "${percent(change)} less" else "${percent(-change)} more"
 
     private fun heldOut(scores: List<HeldOutScore>): String {
         if (scores.isEmpty()) return "fewer than ${HeldOutLegs.FEWEST} legs, or no sensor learned from them"
         val each = scores.joinToString { "${percent(it.gain)} learned on ${it.learnedOn}" }
         val mean = percent(scores.sumOf { it.gain } / scores.size)
-        return "legs not learned on differ by $mean less on average ($each)"
+        val lag = scores.map { it.lagGain }.filter { it.isFinite() }
+        val ofLag = if (lag.isEmpty()) "" else "; than smoothed alike with no lag undone, ${lessOrMore(lag.average())}"
+        return "legs not learned on differ by $mean less on average ($each)$ofLag"
     }
 
     /** Root mean square differences of successive passes; null where the legs are no passes of one transect. */
@@ -135,7 +151,12 @@ internal class CorrectSummary(
         if (found.isEmpty()) return null
         fun mean(of: (HeldOutPasses) -> Double) = digits(found.sumOf { of(it.second) } / found.size, 3)
         val each = found.joinToString { (words, score) -> "${digits(score.after, 3)} learned on $words" }
-        return "rms ${mean { it.before }}$unitAfter as measured, " +
+        val smoothed = if (found.any { it.second.smoothed.isNaN() }) {
+            ""
+        } else {
+            "${mean { it.smoothed }}$unitAfter smoothed alike with no lag undone, "
+        }
+        return "rms ${mean { it.before }}$unitAfter as measured, $smoothed" +
             "${mean { it.after }}$unitAfter corrected on average ($each)"
     }
 
@@ -153,9 +174,18 @@ internal class CorrectSummary(
             "(${duration(result.statistics.duration)}): what it shows of the water is mostly from before it"
     }
 
+    private fun hint(twoPaths: CandidateResponse): String {
+        val share = twoPaths.kind.parameters.lastIndex
+        val range = twoPaths.interval(share)
+        return "the log hints at a slow path with a share of ${percent(twoPaths.parameter(share))} " +
+            "(${percent(range.start)} to ${percent(range.endInclusive)}), too weakly to count: " +
+            "if it is there, far less than 95 % of the rows are in their intervals"
+    }
+
     /** What the user should know, one line each. */
     val warnings: List<String>
         get() = buildList {
+            addAll(result.pass.warnings)
             when {
                 result.origin == SensorOrigin.NOTHING -> add(
                     "${silence()}, so that nothing shows how the sensor responds: the values are smoothed only; " +
@@ -169,6 +199,7 @@ internal class CorrectSummary(
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
             }
+            result.choice?.hinted?.let { add(hint(it)) }
             if (result.series.values.all { it == result.series.values[0] }) {
                 add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }

@@ -72,8 +72,23 @@ class CorrectedLog internal constructor(
     val blocks: Int,
     val withoutReference: Int,
     val held: Boolean,
+    private val conditions: Map<String, DoubleArray> = emptyMap(),
 ) {
     private val resolution: Double = resolution(statistics, series)
+
+    /** The water if the sensor had no lag: readings smoothed as [track] is, and calibrated, with nothing undone. */
+    private val smoothedValues: DoubleArray? by lazy {
+        if (before == null || origin == SensorOrigin.NOTHING) return@lazy null
+        val sensor = UndoableSensor.of(SensorSpec("", spec.stages))
+        val scaled = sensor.calibrated(series, conditions)
+        TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(NO_LAG).values
+    }
+
+    /**
+     * Legs smoothed as [after] is, with no lag undone: what of the difference between [before] and [after] is noise
+     * smoothed, and what the lag; null where there are no legs, or where nothing was learned, which is the same.
+     */
+    val smoothed: LegMismatch? by lazy { smoothedValues?.let { legs(series, it) } }
 
     /**
      * How well a sensor that is learned on some legs corrects the others; empty where the sensor was not learned from
@@ -87,7 +102,8 @@ class CorrectedLog internal constructor(
         val range = between ?: series.xs.min()..series.xs.max()
         val passes = PassDifference(series.xs, before.legs.legs, range.start, range.endInclusive)
             .takeIf { log.oneDimensional }
-        return HeldOutLegs(CorrectedLegs(before, series.values), passes) { rows ->
+        val plain = smoothed?.let { CorrectedLegs(it, checkNotNull(smoothedValues)) }
+        return HeldOutLegs(CorrectedLegs(before, series.values), passes, plain) { rows ->
             val learned = byRevisits(series.at(rows))
             if (learned.choice == null) return@HeldOutLegs null
             val values = corrected(series, learned, learned.stages, resolution).values
@@ -121,6 +137,7 @@ class CorrectedLog internal constructor(
         const val SEED = 1L
 
         private const val FEWEST = 30
+        private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
         /**
          * Reads [log] and corrects it.
@@ -193,6 +210,7 @@ class CorrectedLog internal constructor(
                 learned.blocks,
                 learned.withoutReference,
                 learned.held,
+                others,
             )
         }
 
@@ -246,7 +264,7 @@ class CorrectedLog internal constructor(
         private fun nothing(readings: Int) = Learned(
             SensorOrigin.NOTHING,
             null,
-            listOf(LikelyResponse(listOf(Response()), 1.0)),
+            NO_LAG,
             emptyList(),
             readings,
             0,

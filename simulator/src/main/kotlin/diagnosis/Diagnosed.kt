@@ -47,7 +47,9 @@ class Diagnosed(
     val warnings: List<String> = buildList {
         addAll(result.warnings)
         channels?.let { add(ChannelWording.of(it)) }
+        log.heading?.let { add(it.sentence) }
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
+        for (warning in log.pass.warnings) add("${warning.replaceFirstChar { it.uppercase() }}.")
         if (log.missing > 0) {
             add("${log.missing} rows left out: no number in the column ${log.reference}.")
             add(
@@ -100,7 +102,13 @@ class Diagnosed(
     fun number(estimate: Estimate): String {
         if (abs(estimate.value) >= NO_END) return "none"
         val three = SignificantDigits(3)
-        val reach = estimate.interval?.let { " [${three.format(it.lower)}, ${three.format(it.upper)}]" }.orEmpty()
+        val reach = estimate.interval?.let {
+            if (it.upper == Estimate.OPEN) {
+                " [above ${three.format(it.lower)}]"
+            } else {
+                " [${three.format(it.lower)}, ${three.format(it.upper)}]"
+            }
+        }.orEmpty()
         val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
         return "${three.format(estimate.value)}$reach$unit"
     }

@@ -10,7 +10,6 @@ import stillwater.plot.LinePlot
 import stillwater.plot.Mark
 import stillwater.plot.Series
 import stillwater.plot.TrackMap
-import kotlin.math.atan2
 import kotlin.math.hypot
 import kotlin.math.sqrt
 
@@ -42,9 +41,10 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         add(against("value", "Predicted value of $quantity", result.baseline.predicted))
         add(against("rate", "Predicted rate of change (${diagnosed.inUnit("sensor units")}/s)", rate()))
         if (moves) {
-            add(against("speed", "Speed (m/s)", columns.condition(Conditions.SPEED) ?: speed()))
-            val heading = columns.condition(Conditions.HEADING) ?: heading()
-            add(against("heading", "Heading (degrees counter-clockwise from east)", degrees(heading)))
+            // As they were tested.
+            add(against("speed", "Speed (m/s)", diagnosed.log.series.speed))
+            val custom = if (diagnosed.log.heading == null) "counter-clockwise from east" else "as logged"
+            add(against("heading", "Heading (degrees $custom)", degrees(diagnosed.log.series.heading)))
             add(position())
         }
         columns.condition(Conditions.TEMPERATURE)?.let { add(against("temperature", "Temperature (°C)", it)) }
@@ -240,25 +240,6 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         } else {
             (result.baseline.predicted[to] - result.baseline.predicted[from]) / (time[to] - time[from])
         }
-    }
-
-    private fun speed() = DoubleArray(n) { i ->
-        val from = maxOf(i - 3, 0)
-        val to = minOf(i + 3, n - 1)
-        if (to ==
-            from
-        ) {
-            0.0
-        } else {
-            hypot(columns.x[to] - columns.x[from], columns.y[to] - columns.y[from]) /
-                (time[to] - time[from])
-        }
-    }
-
-    private fun heading() = DoubleArray(n) { i ->
-        val from = maxOf(i - 3, 0)
-        val to = minOf(i + 3, n - 1)
-        atan2(columns.y[to] - columns.y[from], columns.x[to] - columns.x[from])
     }
 
     private fun degrees(radians: DoubleArray) = DoubleArray(radians.size) { Math.toDegrees(radians[it]).mod(360.0) }

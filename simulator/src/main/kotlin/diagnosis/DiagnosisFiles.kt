@@ -1,5 +1,6 @@
 package stillwater.diagnosis
 
+import stillwater.io.GlobeColumns
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
 import stillwater.report.writeFigures
@@ -34,8 +35,9 @@ internal class DiagnosisFiles(
         directory.write("diagnosis.json", DiagnosisJson.text(diagnosed))
         diagnosed.result.extendedSensor?.let { directory.write("extended-sensor.json", it.toJson() + "\n") }
         directory.stream("residuals.csv") { out ->
-            val table = CsvTable(out, COLUMNS)
-            rows(table)
+            val globe = GlobeColumns(diagnosed.log.frame)
+            val table = CsvTable(out, listOf("time_s") + globe.names + COLUMNS)
+            rows(table, globe)
             // Closing it writes what it has buffered.
             table.close()
         }
@@ -46,13 +48,14 @@ internal class DiagnosisFiles(
         return warnings
     }
 
-    private fun rows(table: CsvTable) {
+    private fun rows(table: CsvTable, globe: GlobeColumns) {
         val columns = diagnosed.log.columns
         val base = diagnosed.result.baseline
         val extended = diagnosed.result.extended
         for (i in 0 until columns.size) {
             table.row(
                 columns.times[i],
+                *globe.cells(columns.x[i], columns.y[i]).toTypedArray(),
                 columns.x[i],
                 columns.y[i],
                 columns.values[i],
@@ -69,7 +72,6 @@ internal class DiagnosisFiles(
 
     private companion object {
         val COLUMNS = listOf(
-            "time_s",
             "x_m",
             "y_m",
             "measured",

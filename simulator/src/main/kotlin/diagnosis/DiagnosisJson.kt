@@ -20,6 +20,7 @@ import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
 import stillwater.model.Interval
+import stillwater.report.putOrigin
 import stillwater.sensor.SensorSpec
 
 /** diagnosis.json: a [Diagnosed] log for machines; numbers unrounded, null where there is none. */
@@ -42,6 +43,7 @@ internal object DiagnosisJson {
         }
         put("separatingManoeuvre", result.separatingManoeuvre)
         diagnosed.channels?.let { put("channels", channels(it)) }
+        putOrigin(diagnosed.log.frame)
         putJsonArray("warnings") { diagnosed.warnings.forEach { add(it) } }
     }
 
@@ -62,7 +64,7 @@ internal object DiagnosisJson {
                 put("unit", estimate.unit)
                 put("value", number(estimate.value))
                 put("lower", number(estimate.interval?.lower ?: Double.NaN))
-                put("upper", number(estimate.interval?.upper ?: Double.NaN))
+                put("upper", number(estimate.interval?.upper?.takeIf { it < Estimate.OPEN } ?: Double.NaN))
             }
         }
     }

@@ -6,6 +6,8 @@ import stillwater.diagnose.MeasuredSeries
 import stillwater.io.LogPass
 import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
+import stillwater.model.Conditions
+import stillwater.model.LocalFrame
 import java.nio.file.Path
 
 /**
@@ -14,7 +16,8 @@ import java.nio.file.Path
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
  * truth,
  * or null. @property series its columns. @property pass what was read. @property missing rows left out for want of a
- * reference. @property cut rows at the end that were not looked at.
+ * reference. @property cut rows at the end that were not looked at. @property frame frame of its places, or null where
+ * the log has metres. @property heading what its headings are in, or null where none were given.
  */
 class DiagnosisLog private constructor(
     val file: Path,
@@ -26,6 +29,8 @@ class DiagnosisLog private constructor(
     val pass: LogPass,
     val missing: Int,
     val cut: Long,
+    val frame: LocalFrame?,
+    internal val heading: HeadingUnit?,
     private val compare: List<String> = emptyList(),
 ) {
     /** Whether there are columns to compare. */
@@ -52,14 +57,19 @@ class DiagnosisLog private constructor(
         /** More rows than this are not looked at. */
         const val MOST_ROWS = 20_000
 
-        /** Reads [log], whose conditions hold the [reference] under [REFERENCE] where there is one. */
+        /**
+         * Reads [log], whose conditions hold the [reference] under [REFERENCE] where there is one.
+         *
+         * @param conditions column of each further quantity, by its name.
+         */
         fun of(
             log: SurveyLog,
-            conditions: Collection<String>,
+            conditions: Map<String, String>,
             reference: String?,
             compare: List<String> = emptyList(),
         ): DiagnosisLog {
-            val columns = LogColumns(conditions + compare.map { compared(it) })
+            val names = conditions.keys + compare.map { compared(it) }
+            val columns = LogColumns(names)
             var missing = 0
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
@@ -69,18 +79,24 @@ class DiagnosisLog private constructor(
                     else -> columns.add(time.seconds, x, y, value, others)
                 }
             }
-            val others = (conditions + compare.map { compared(it) }).mapNotNull { columns.condition(it) }.toTypedArray()
+            val heading = conditions[Conditions.HEADING]?.let { column ->
+                HeadingUnit(column, checkNotNull(columns.condition(Conditions.HEADING)))
+            }
+            if (heading?.inDegrees == true) columns.toRadians(Conditions.HEADING)
+            val others = names.mapNotNull { columns.condition(it) }.toTypedArray()
             SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
                 log.file,
                 log.format,
                 log.quantity,
                 reference,
-                columns.series(reference != null, missing > 0, conditions),
+                columns.series(reference != null, missing > 0, conditions.keys),
                 columns,
                 pass,
                 missing,
                 cut,
+                log.frame,
+                heading,
                 compare,
             )
         }

@@ -25,6 +25,12 @@ class LogColumns(private val conditions: Collection<String>) {
 
     private fun column(i: Int) = DoubleArray(rows.size) { rows[it][i] }
 
+    /** Makes radians of the degrees of the condition [name]; before any column is taken. */
+    internal fun toRadians(name: String) {
+        val column = FIXED + 1 + names.indexOf(name)
+        for (row in rows) row[column] = Math.toRadians(row[column])
+    }
+
     /** Times, s. */
     val times: DoubleArray by lazy { column(0) }
 

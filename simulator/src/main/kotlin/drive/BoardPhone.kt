@@ -62,7 +62,7 @@ internal class BoardPhone(private val declinationDeg: Double) : Phone {
     override fun done() = Unit
 
     override fun trouble(): String = listOfNotNull(
-        "no fix from the board's GPS yet".takeIf { !seesGps },
+        "the board's GPS has no fix".takeIf { !seesGps },
         "no calibrated heading from the board yet".takeIf { !seesHeading },
     ).joinToString(", ")
 
@@ -70,8 +70,8 @@ internal class BoardPhone(private val declinationDeg: Double) : Phone {
 
     private fun heard(message: Message) {
         if (message is Message.Fix) {
+            seesGps = message.place != null
             val place = message.place ?: return
-            seesGps = true
             fixes += PhoneFix(clock.sampled((message.secondsOfDay * MILLIS).toLong(), now), place)
         }
         if (message is Message.Imu && message.magnetometer > 0) {

@@ -8,6 +8,8 @@ import stillwater.model.BoatTime
 import stillwater.model.Drive
 import stillwater.report.OutputException
 import stillwater.wire.BoardState
+import stillwater.wire.Command
+import stillwater.wire.PlatypusEncoder
 
 /** Takes what a person is to see of a mission under way. */
 interface DriveWatcher {
@@ -43,10 +45,21 @@ internal class DriveRun(
     private var stopWanted = false
     private var startTold = false
     private var stopTold = false
+    private var isParted = false
 
     /** A person wants the mission to begin. */
     fun start() {
         startWanted = true
+    }
+
+    /** A person typed [line]: a blank one begins the mission, any other ends it, also before it began. */
+    fun heed(line: String) = if (line.isBlank()) start() else stop()
+
+    /** Nobody will type any more: a mission that nobody began ends. Answers whether it does for that. */
+    fun heedSilence(): Boolean {
+        val isLeft = !startWanted && !stopWanted
+        if (isLeft) stop()
+        return isLeft
     }
 
     /** A person wants the boat to stop and the mission to be over. */
@@ -55,12 +68,19 @@ internal class DriveRun(
     }
 
     /**
-     * Steps until the mission is over and the board has said that it is disarmed, or has not said so for [PARTING] s.
+     * Steps until the mission is over and the board has said that it is disarmed, or has not said so for [PARTING] s: a
+     * wire that is lost just then is soon open again. Whatever is thrown, the board is told to rest and to disarm first.
      *
      * @return why it was over; null where it was stopped before it began.
      * @throws OutputException if the log cannot be written for hours; the motors then rest.
      */
-    fun sail(): StopReason? {
+    fun sail(): StopReason? = try {
+        untilOver()
+    } finally {
+        if (!isParted) abandon()
+    }
+
+    private fun untilOver(): StopReason? {
         var over = Double.NaN
         while (true) {
             val time = step()
@@ -68,10 +88,22 @@ internal class DriveRun(
             val stopped = state is MissionState.Stopped || (state == MissionState.Idle && stopTold)
             if (stopped && over.isNaN()) over = time.seconds
             if (!stopped) continue
-            val disarmed = mission.board.state == BoardState.STANDBY
-            if (disarmed || time.seconds - over > PARTING || !wire.isOpen) {
+            val disarmed = wire.isOpen && mission.board.state == BoardState.STANDBY
+            if (disarmed || time.seconds - over > PARTING) {
+                isParted = true
                 return (state as? MissionState.Stopped)?.reason
             }
+        }
+    }
+
+    /** The last words to a board that is left in the middle of a mission, by a mistake of this program or its disk. */
+    private fun abandon() {
+        val rest = PlatypusEncoder.encode(Command.Move(mission.spec.boat.mixing.mix(Drive.NONE)))
+        val disarm = PlatypusEncoder.encode(Command.Disarm)
+        // A line may be spoilt on its way.
+        repeat(LAST_WORDS) {
+            wire.write(rest)
+            wire.write(disarm)
         }
     }
 
@@ -115,6 +147,7 @@ internal class DriveRun(
          */
         const val BOOTING = 3.0
         private const val STEP = 1e-3
+        private const val LAST_WORDS = 3
 
         /** Hours of lines, bytes. */
         private const val MOST_PENDING = 64 shl 20

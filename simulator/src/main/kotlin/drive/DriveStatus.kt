@@ -7,6 +7,7 @@ import stillwater.mission.MissionState
 import stillwater.model.BoatTime
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
+import stillwater.run.label
 import stillwater.wire.Malformed
 import java.util.Locale
 
@@ -62,6 +63,8 @@ internal class DriveStatus(
         val known = (0 until map.grid.size).count { map.readings(it) > 0 }
         val parts = listOf(
             "%7.1f s  %s%s".format(Locale.ROOT, time.seconds, state.word, why),
+            // Early in the line: what does not fit on the terminal is cut off.
+            silence(mission),
             mission.position?.let { "at %.1f, %.1f m".format(Locale.ROOT, it.x, it.y) } ?: "place unknown",
             "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readings.passed, "reading")}",
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
@@ -69,6 +72,14 @@ internal class DriveStatus(
             phone.trouble(),
         )
         return parts.filter { it.isNotEmpty() }.joinToString(", ")
+    }
+
+    /** A port that is not named, or a cable that came off, must not show only when the survey is over. */
+    private fun silence(mission: Mission): String {
+        if (!(mission.probeSilence > LONGEST_SILENCE)) return ""
+        val probe = mission.spec.probe
+        val port = probe.port?.let { " on port $it" }.orEmpty()
+        return "no ${probe.quantity.label}$port for ${mission.probeSilence.toInt()} s"
     }
 
     private fun trouble(mission: Mission): String {
@@ -89,6 +100,9 @@ internal class DriveStatus(
     private companion object {
         const val LIVE_NANOS = 250_000_000L
         const val MINUTE = 60.0
+
+        /** Five times what the slowest firmware takes for a reading, s. */
+        const val LONGEST_SILENCE = 15.0
         val VOLTS = SignificantDigits(3)
     }
 }

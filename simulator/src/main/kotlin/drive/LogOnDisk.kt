@@ -73,11 +73,12 @@ internal class LogOnDisk(private val path: Path, private val file: LogBytes) :
         return whole
     }
 
-    /** Closes it as it is; without [complete] it stays incomplete. */
+    /** Closes it as it is; without [complete] it stays incomplete, and is removed where nothing was ever written. */
     override fun close() {
         if (!isOpen) return
         isOpen = false
         file.use { flush() }
+        guarded(path) { if (isEmpty(path)) Files.delete(path) }
     }
 
     companion object {
@@ -92,11 +93,13 @@ internal class LogOnDisk(private val path: Path, private val file: LogBytes) :
         fun begin(directory: Path): LogOnDisk = guarded(directory) {
             Files.createDirectories(directory)
             val path = directory.resolve(NAME + INCOMPLETE)
+            if (isEmpty(path)) Files.delete(path)
             LogOnDisk(path, LogBytes.of(FileChannel.open(path, CREATE_NEW, APPEND)))
         }
 
-        /** The unfinished log in [directory]; null where there is none. */
-        fun unfinished(directory: Path): Path? = directory.resolve(NAME + INCOMPLETE).takeIf { it.exists() }
+        /** The unfinished log in [directory]; null where there is none, or one in which nothing was ever written. */
+        fun unfinished(directory: Path): Path? =
+            directory.resolve(NAME + INCOMPLETE).takeIf { it.exists() && !isEmpty(it) }
 
         /** The finished log in [directory]; null where there is none. */
         fun finished(directory: Path): Path? = directory.resolve(NAME).takeIf { it.exists() }
@@ -133,6 +136,8 @@ internal class LogOnDisk(private val path: Path, private val file: LogBytes) :
             }
             return end
         }
+
+        private fun isEmpty(path: Path) = path.exists() && Files.size(path) == 0L
 
         private fun <T> guarded(path: Path, block: () -> T): T = try {
             block()

@@ -44,18 +44,20 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
 
     /**
      * Writes all rows to [out], which is closed. Logs that are not CSV get a row a reading with the columns time_s,
-     * x_m, y_m and the quantity.
+     * lat_deg and lon_deg where the log knows them, x_m, y_m and the quantity.
      *
      * @return for each part the number of rows written that are no reading of it; what it adds to them is empty.
      */
     fun write(out: OutputStream): List<Long> = if (parts[0].log is CsvSurvey) csv(out) else plain(out, parts[0])
 
     private fun plain(out: OutputStream, part: AddedColumns): List<Long> {
+        val globe = GlobeColumns(part.log.frame)
         writer(out).use { writer ->
-            writer.writeRecord(listOf("time_s", "x_m", "y_m", part.log.quantity) + part.names)
+            writer.writeRecord(listOf("time_s") + globe.names + listOf("x_m", "y_m", part.log.quantity) + part.names)
             for (k in part.times.indices) {
-                val own = listOf(part.times[k], part.xs[k], part.ys[k], part.values[k]).map { it.toString() }
-                writer.writeRecord(own + part.cells(k))
+                val place = globe.cells(part.xs[k], part.ys[k])
+                val own = listOf(part.xs[k], part.ys[k], part.values[k]).map { it.toString() }
+                writer.writeRecord(listOf(part.times[k].toString()) + place + own + part.cells(k))
             }
         }
         return listOf(0)
@@ -72,14 +74,16 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
                 var width = NO_HEADER
                 while (records.next()) {
                     val fields = records.fields
+                    val isHeader = width == NO_HEADER && fields.any { it.isNotBlank() }
                     val added = when {
+                        isHeader -> emptyList<String?>().also { width = fields.size }
                         fields.all { it.isBlank() } -> emptyList()
-                        width == NO_HEADER -> parts.flatMap { it.names }.also { width = fields.size }
                         fields.size == width -> places.flatMap { added(it, fields) }
                         // A row of another width or a remark is not made wider: nothing in it would stand in place.
                         else -> emptyList<String?>().also { places.forEach { it.other++ } }
                     }
                     out.write(records.bytes(records.text))
+                    if (isHeader) out.write(header(survey).toByteArray(survey.content.charset))
                     for (cell in added) out.write(records.bytes(survey.separator + cell.orEmpty()))
                     out.write(records.bytes(records.lineEnd))
                 }
@@ -92,6 +96,12 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
         return places.map { it.other }
     }
 
+    /** The new names, each behind a separator: quoted where they hold what ends a field, as the log's own may. */
+    private fun header(survey: CsvSurvey) = parts.flatMap { it.names }.joinToString("") { name ->
+        val isPlain = name.none { it == survey.separator || it == '"' || it == '\n' || it == '\r' }
+        survey.separator + if (isPlain) name else "\"${name.replace("\"", "\"\"")}\""
+    }
+
     private fun added(place: Place, fields: List<String>): List<String?> {
         val isNext = place.next < place.part.times.size && isRow(place.survey, place.part, fields, place.next)
         if (isNext) return place.part.cells(place.next++)
@@ -100,7 +110,8 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
     }
 
     private fun isRow(survey: CsvSurvey, part: AddedColumns, fields: List<String>, k: Int): Boolean {
-        val time = fields.getOrNull(survey.columns.time)?.let { DecimalText.parse(it) } ?: return false
+        val time =
+            fields.getOrNull(survey.columns.time)?.let { IsoTime.ofField(it.toCharArray(), 0, it.length) } ?: return false
         val value = fields.getOrNull(survey.columns.value)?.let { DecimalText.parse(it) } ?: return false
         return time == part.times[k] && value == part.values[k] && isPlace(survey.columns, part, fields, k)
     }

@@ -13,6 +13,7 @@ import stillwater.model.LocalFrame
 import stillwater.model.Position
 import stillwater.model.WaterArea
 import java.nio.file.Path
+import kotlin.math.IEEErem
 
 /** Coordinates of an area. */
 enum class AreaUnits(val label: String) {
@@ -130,9 +131,12 @@ private class AreaText(private val text: String, private val units: AreaUnits) {
             LatLon(latitude, longitude)
         }
         val corners = shore.corners.mapIndexed { index, corner -> latLon(corner, "${shore.path}[$index]") }
+        // Counted on from the first corner: a shore may cross the meridian at which the numbers start again.
+        val first = corners.first().longitudeDeg
+        val longitudes = corners.map { first + (it.longitudeDeg - first).IEEErem(FULL_TURN) }
         val origin = LatLon(
             (corners.minOf { it.latitudeDeg } + corners.maxOf { it.latitudeDeg }) / 2,
-            (corners.minOf { it.longitudeDeg } + corners.maxOf { it.longitudeDeg }) / 2,
+            ((longitudes.min() + longitudes.max()) / 2).IEEErem(FULL_TURN),
         )
         if (!LocalFrame.canStartAt(origin.latitudeDeg)) fail(shore.path, "water that is not a pole", "a pole")
         val frame = LocalFrame(origin)
@@ -144,6 +148,7 @@ private class AreaText(private val text: String, private val units: AreaUnits) {
 
     private companion object {
         const val ROOT = "$"
+        const val FULL_TURN = 360.0
         const val WATER = "one Polygon of water without \"keep-out\": true"
         val FORM = JsonForm(JsonElement.serializer(), "GeoJSON")
         val KEEP_OUT = Regex("""^keep-out (\d+)""")

@@ -24,6 +24,9 @@ internal class BoundedLines(private val text: Reader, private val longest: Int =
         return coming != null
     }
 
+    /** The line that [next] would give, which stays; null at the end. */
+    fun peek(): String? = if (hasNext()) coming else null
+
     override fun next(): String {
         if (!hasNext()) throw NoSuchElementException()
         return checkNotNull(coming).also { coming = null }
@@ -63,8 +66,11 @@ internal class BoundedLines(private val text: Reader, private val longest: Int =
     }
 
     companion object {
-        /** Longest line, characters: several times what a board that never stops talking makes of a log's. */
-        const val LONGEST = 1 shl 20
+        /**
+         * Longest line, characters: several times what a mission, with which its log begins, has of an area with the
+         * most edges and all digits. A board that never stops talking makes shorter ones.
+         */
+        const val LONGEST = 1 shl 22
 
         /** Stands where a line was cut. */
         const val MARK = "\u2026 (cut)"

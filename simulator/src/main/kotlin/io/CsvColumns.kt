@@ -7,7 +7,7 @@ package stillwater.io
  * @property time column with the time.
  * @property latitude column with the latitude, or [NONE] where positions are in metres.
  * @property longitude column with the longitude, or [NONE].
- * @property x column with metres east, or [NONE] where positions are in degrees.
+ * @property x column with metres east, or [NONE] where positions are in degrees or there are none.
  * @property y column with metres north, or [NONE] where there is only x.
  * @property value column with the readings.
  * @property conditions columns of further quantities by name.
@@ -25,8 +25,12 @@ internal data class CsvColumns(
     companion object {
         const val NONE = -1
         private val TIMES = listOf("time_s", "unix_time_s")
-        private const val LATITUDE = "lat_deg"
-        private const val LONGITUDE = "lon_deg"
+
+        /** Latitude, degrees north. */
+        const val LATITUDE = "lat_deg"
+
+        /** Longitude, degrees east. */
+        const val LONGITUDE = "lon_deg"
         private const val X = "x_m"
         private const val Y = "y_m"
         private val RECOGNISED = TIMES + listOf(LATITUDE, LONGITUDE, X, Y)
@@ -71,7 +75,9 @@ internal data class CsvColumns(
             }
             val x = if (inDegrees) NONE else choice.x?.let(::named) ?: recognised(X)
             val y = if (inDegrees) NONE else choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
-            if (!inDegrees && (x == NONE || (y == NONE && choice.x == null))) {
+            val hasPlace = inDegrees || (x != NONE && (y != NONE || choice.x != null))
+            val isBench = !choice.needsPlace && !inDegrees && x == NONE && y == NONE
+            if (!hasPlace && !isBench) {
                 throw problem(
                     null,
                     "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x",

@@ -61,8 +61,8 @@ internal class CsvRow(private val slots: IntArray, size: Int, private val separa
         }
         val slot = if (fieldIdx < slots.size) slots[fieldIdx] else CsvColumns.NONE
         if (slot == CsvColumns.NONE) return
-        var number = DecimalText.parse(buf, offset, len)
-        if (slot == timeSlot && number.isNaN()) number = IsoTime.seconds(String(buf, offset, len))
+        val number =
+            if (slot == timeSlot) IsoTime.ofField(buf, offset, len) else DecimalText.parse(buf, offset, len)
         numbers[slot] = number
         if (!number.isFinite()) unreadable[fieldIdx] = String(buf, offset, len)
     }

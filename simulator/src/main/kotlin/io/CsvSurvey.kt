@@ -16,8 +16,8 @@ import kotlin.math.abs
  * A survey log as comma, semicolon or tab separated values with a header line.
  *
  * Rows need the columns in use to hold finite numbers (conditions may be empty), times that grow, and latitudes and
- * longitudes that exist and lie within 1000 km of the first. Positions of exactly 0, 0 degrees are a receiver's way of saying that it has no fix: such
- * rows are left out and counted.
+ * longitudes that exist and lie within 1000 km of the first. Positions of exactly 0, 0 degrees are a receiver's way of
+ * saying that it has no fix: such rows are left out and counted.
  */
 internal class CsvSurvey private constructor(
     internal val content: LogContent,
@@ -92,7 +92,8 @@ internal class CsvSurvey private constructor(
         val inDegrees = columns.latitude != CsvColumns.NONE
         slots[columns.value] = VALUE
         if (!inDegrees && columns.y != CsvColumns.NONE) slots[columns.y] = NORTH
-        slots[if (inDegrees) columns.longitude else columns.x] = EAST
+        val east = if (inDegrees) columns.longitude else columns.x
+        if (east != CsvColumns.NONE) slots[east] = EAST
         if (inDegrees) slots[columns.latitude] = NORTH
         slots[columns.time] = TIME
     }
@@ -106,7 +107,7 @@ internal class CsvSurvey private constructor(
         private var readings = 0L
         private var rows = 0L
         private var headerSeen = false
-        private var lastSeconds = Double.NEGATIVE_INFINITY
+        private val order = TimeOrder(::use) { row, other, fault -> refuse(timeProblem(row, other, fault)) }
         private val local = DoubleArray(2)
         private val inDegrees = columns.latitude != CsvColumns.NONE
         private val northColumn = if (inDegrees) columns.latitude else columns.y
@@ -126,12 +127,13 @@ internal class CsvSurvey private constructor(
             } else {
                 rows++
                 val problem = problemOf(row)
-                when {
-                    problem == null -> use(row)
-                    skipBadRows && problem.skippable != null -> skips.count(problem.skippable)
-                    else -> throw problem
-                }
+                if (problem == null) order.take(placed(row)) else refuse(problem)
             }
+        }
+
+        private fun refuse(problem: LogProblem) {
+            if (!skipBadRows || problem.skippable == null) throw problem
+            skips.count(problem.skippable)
         }
 
         /** Rows swallowed by a quote are lost without a count, so skipping is no help. */
@@ -156,7 +158,6 @@ internal class CsvSurvey private constructor(
                 ?: numberProblem(row, VALUE, columns.value)
                 ?: conditionProblem(row)
                 ?: rangeProblem(row)
-                ?: timeProblem(row)
                 ?: reachProblem(row)
         }
 
@@ -221,25 +222,34 @@ internal class CsvSurvey private constructor(
             return problem(row.line, northColumn, FixReach.EXPECTED, "$latitude, $longitude", FixReach.REASON)
         }
 
-        private fun timeProblem(row: CsvRow): LogProblem? {
-            val time = row.numbers[TIME]
-            if (time > lastSeconds) return null
-            val reason = if (time < lastSeconds) "times going back" else "duplicate times"
-            return problem(row.line, columns.time, "a time after $lastSeconds s", "$time s", reason)
+        private fun timeProblem(row: TimedRow, other: TimedRow, fault: TimeFault): LogProblem {
+            val expected = when (fault) {
+                TimeFault.AHEAD -> "a time before ${other.seconds} s, which the next row has"
+                else -> "a time after ${other.seconds} s"
+            }
+            return problem(row.line, columns.time, expected, "${row.seconds} s", fault.reason)
         }
 
-        private fun use(row: CsvRow) {
+        private fun placed(row: CsvRow): TimedRow {
             val numbers = row.numbers
-            lastSeconds = numbers[TIME]
-            var x = numbers[EAST]
-            var y = if (oneDimensional) 0.0 else numbers[NORTH]
+            var x = if (eastColumn == CsvColumns.NONE) 0.0 else numbers[EAST]
+            var y = if (northColumn == CsvColumns.NONE) 0.0 else numbers[NORTH]
             if (inDegrees) {
-                if (x == 0.0 && y == 0.0) return skips.count("positions without a fix (0, 0)")
-                (frame ?: LocalFrame(LatLon(y, x)).also { frame = it }).toLocal(y, x, local)
-                x = local[0]
-                y = local[1]
+                if (x == 0.0 && y == 0.0) {
+                    x = Double.NaN
+                } else {
+                    // With a frame, the look at the reach has put the place into local.
+                    if (frame == null) frame = LocalFrame(LatLon(y, x)).also { it.toLocal(y, x, local) }
+                    x = local[0]
+                    y = local[1]
+                }
             }
-            sink.take(BoatTime(numbers[TIME]), x, y, numbers[VALUE], conditions(row))
+            return TimedRow(row.line, numbers[TIME], x, y, numbers[VALUE], conditions(row))
+        }
+
+        private fun use(row: TimedRow) {
+            if (row.x.isNaN()) return skips.count("positions without a fix (0, 0)")
+            sink.take(BoatTime(row.seconds), row.x, row.y, row.value, row.conditions)
             readings++
         }
 
@@ -255,7 +265,8 @@ internal class CsvSurvey private constructor(
 
         fun end(): LogPass {
             if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
-            return LogPass(readings, skips.toMap())
+            order.end()
+            return LogPass(readings, skips.toMap(), listOfNotNull(order.note))
         }
     }
 

@@ -23,7 +23,8 @@ internal object FixReach {
     fun holds(origin: LatLon, latitude: Double, longitude: Double, x: Double, y: Double): Boolean {
         if (abs(latitude - origin.latitudeDeg) > LATITUDES) return false
         // Below 80 degrees, a quarter of a turn is too far in any case; above, nothing that is left folds.
-        val turn = (longitude - origin.longitudeDeg).IEEErem(360.0)
+        val apart = longitude - origin.longitudeDeg
+        val turn = if (abs(apart) <= 180) apart else apart.IEEErem(360.0)
         if (abs(origin.latitudeDeg) < POLAR_LATITUDE && abs(turn) > 90) return false
         return hypot(x, y) <= LIMIT_METRES
     }

@@ -12,6 +12,12 @@ internal object IsoTime {
     private const val DATE = 10
     private const val NANOS = 1e-9
 
+    /** The seconds in a time column's field: a number as it stands, or as [seconds]; NaN where it is neither. */
+    fun ofField(text: CharArray, offset: Int, length: Int): Double {
+        val number = DecimalText.parse(text, offset, length)
+        return if (number.isNaN()) seconds(String(text, offset, length)) else number
+    }
+
     /** Seconds since 1970 of [text], or NaN where it is no such time. */
     fun seconds(text: String): Double {
         val trimmed = text.trim()

@@ -14,6 +14,7 @@ package stillwater.io
  * @property value column with the readings, or sensor TYPE[#CHANNEL][.FIELD] of a Platypus log.
  * @property conditions column of each further quantity, by the name it is to have.
  * @property skipBadRows whether rows that cannot be used are counted and left out rather than an error.
+ * @property needsPlace whether a log without places is an error; else all its readings are at 0, 0.
  * @property maxPoseAge longest time between a reading and a pose it is placed by, s, above 0.
  * @throws IllegalArgumentException if [maxPoseAge] is out of its range.
  */
@@ -26,6 +27,7 @@ data class LogChoice(
     val value: String? = null,
     val conditions: Map<String, String> = emptyMap(),
     val skipBadRows: Boolean = false,
+    val needsPlace: Boolean = true,
     val maxPoseAge: Double = 2.0,
 ) {
     init {

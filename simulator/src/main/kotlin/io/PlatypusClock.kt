@@ -22,6 +22,19 @@ internal class PlatypusClock {
     }
 
     /**
+     * Whether a line's [millis] jump ahead while the line after it, with [next], goes on from the line before: a single
+     * wrong stamp, which would make all lines after it go back.
+     */
+    fun isAhead(millis: Long, next: Long): Boolean {
+        val seconds = offset + millis / MILLIS
+        val following = offset + next / MILLIS
+        return seconds > latest + JITTER && following < seconds - JITTER && following >= latest - JITTER
+    }
+
+    /** Whether [millis] are so far ahead that the line after them is worth a look. */
+    fun isJump(millis: Long): Boolean = offset + millis / MILLIS > latest + LONG_JUMP
+
+    /**
      * The time of a line, s, or NaN where it went back.
      *
      * @param millis the log's counter.
@@ -46,6 +59,7 @@ internal class PlatypusClock {
     private companion object {
         const val MILLIS = 1000.0
         const val JITTER = 1.0
+        const val LONG_JUMP = 5.0
         const val DAY = 86_400.0
     }
 }

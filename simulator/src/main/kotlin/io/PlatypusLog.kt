@@ -31,7 +31,7 @@ internal class PlatypusLog private constructor(
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
         val pass = Pass(sink)
         BoundedLines(content.reader(progress)).use { lines ->
-            for (line in lines) pass.take(line, isLast = !lines.hasNext())
+            for (line in lines) pass.take(line, lines.peek())
         }
         return pass.end()
     }
@@ -46,29 +46,36 @@ internal class PlatypusLog private constructor(
         private val catalogue = SensorCatalogue()
         private val skips = SkipCounts()
         private val pending = ArrayDeque<Pending>()
+        private val following = PlatypusLine(version)
+        private val backward = BackwardRuns("lines")
+        private var latestLine = 0L
         private var number = 0L
         private var readings = 0L
         private var lastSensorSeconds = Double.NEGATIVE_INFINITY
         private var placeholders = 0L
         private var fixes = 0L
 
-        fun take(line: String, isLast: Boolean) {
+        fun take(line: String, next: String?) {
             number++
             if (line.isBlank()) return
             val entry = lines.parse(line)
             if (entry is PlatypusEntry.Unreadable) {
-                if (isLast &&
-                    file.fileName.toString().endsWith(".incomplete")
-                ) {
+                if (next == null && file.fileName.toString().endsWith(".incomplete")) {
                     return skips.count("truncated last line")
                 }
                 return refuse(entry.expected, quoted(line), "unreadable lines")
             }
             if (entry is PlatypusEntry.Start) clock.start(entry.epochMillis, lines.millis)
+            if (isAhead(next)) {
+                return refuse("a time before the next line's", "${lines.millis} ms", TimeFault.AHEAD.reason)
+            }
             val seconds = clock.secondsAt(lines.millis, lines.clock)
             if (seconds.isNaN()) {
-                return refuse("a time not before the last one", "${lines.millis} ms", "times going back")
+                backward.refused(latestLine)
+                return refuse("a time not before the last one", "${lines.millis} ms", TimeFault.BACK.reason)
             }
+            backward.accepted()
+            latestLine = number
             when (entry) {
                 is PlatypusEntry.Pose -> takePose(seconds, entry)
                 is PlatypusEntry.Sensor -> takeSensor(seconds, entry)
@@ -76,6 +83,14 @@ internal class PlatypusLog private constructor(
             }
             // A pose that comes later than this is of no use to the readings that wait for one.
             emit(seconds - choice.maxPoseAge)
+        }
+
+        /** Whether the line's stamp alone is ahead; where lines have a time of day, that one says how time goes on. */
+        private fun isAhead(next: String?): Boolean {
+            if (next == null || !lines.clock.isNaN() || !clock.isJump(lines.millis)) return false
+            val entry = following.parse(next)
+            if (entry is PlatypusEntry.Unreadable || entry is PlatypusEntry.Start) return false
+            return clock.isAhead(lines.millis, following.millis)
         }
 
         private fun takePose(seconds: Double, pose: PlatypusEntry.Pose) {
@@ -118,8 +133,8 @@ internal class PlatypusLog private constructor(
                 abs(value) > LARGEST_VALUE ->
                     refuse("a number within -$LARGEST_VALUE..$LARGEST_VALUE", "$value", "readings out of all bounds")
                 seconds <= lastSensorSeconds -> {
-                    val reason = if (seconds < lastSensorSeconds) "times going back" else "duplicate times"
-                    refuse("a ${sensor.type} time after $lastSensorSeconds s", "$seconds s", reason)
+                    val fault = if (seconds < lastSensorSeconds) TimeFault.BACK else TimeFault.DUPLICATE
+                    refuse("a ${sensor.type} time after $lastSensorSeconds s", "$seconds s", fault.reason)
                 }
                 else -> {
                     lastSensorSeconds = seconds
@@ -158,7 +173,7 @@ internal class PlatypusLog private constructor(
                 throw whole("poses with a GPS fix", "only the placeholder before the first fix ($placeholders poses)")
             }
             if (fixes == 0L) throw whole("poses", "none")
-            return LogPass(readings, skips.toMap())
+            return LogPass(readings, skips.toMap(), listOfNotNull(backward.note))
         }
     }
 

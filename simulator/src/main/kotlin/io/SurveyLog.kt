@@ -26,8 +26,9 @@ fun interface ReadingSink {
  *
  * @property readings readings handed on.
  * @property skipped rows or lines that gave none although they could have, by reason.
+ * @property warnings what the user should know of those, one sentence each, without a full stop.
  */
-data class LogPass(val readings: Long, val skipped: Map<String, Long>)
+data class LogPass(val readings: Long, val skipped: Map<String, Long>, val warnings: List<String> = emptyList())
 
 /**
  * A log on disk that yields the readings of one sensor, as often as it is read, in constant memory.

@@ -4,6 +4,7 @@ import kotlinx.serialization.SerialName
 import kotlinx.serialization.Serializable
 import kotlinx.serialization.SerializationException
 import kotlinx.serialization.json.Json
+import stillwater.model.LatLon
 
 /**
  * What the phone aboard a virtual boat knows at a moment: one line of the phone's channel.
@@ -40,9 +41,7 @@ data class PhoneReport(
         @SerialName("lon_deg") val longitude: Double,
     ) {
         init {
-            require(latitude in -90.0..90.0 && longitude.isFinite()) {
-                "lat_deg ($latitude) must be in -90..90 and lon_deg ($longitude) finite"
-            }
+            LatLon(latitude, longitude)
         }
     }
 

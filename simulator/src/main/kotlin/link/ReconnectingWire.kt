@@ -12,8 +12,13 @@ import java.util.concurrent.atomic.AtomicReference
  *
  * @param opener opens it again. Retained.
  * @param first already open. Retained, closed with this.
+ * @param rest lets so many ms of wall time pass.
  */
-class ReconnectingWire(private val opener: WireOpener, first: BoardWire) : BoardWire {
+class ReconnectingWire(
+    private val opener: WireOpener,
+    first: BoardWire,
+    private val rest: (Long) -> Unit = Thread::sleep,
+) : BoardWire {
     private var wire: BoardWire? = first
     private val found = AtomicReference<BoardWire?>()
 
@@ -63,7 +68,7 @@ class ReconnectingWire(private val opener: WireOpener, first: BoardWire) : Board
     private fun seek() {
         var pause = FIRST_PAUSE
         while (!isClosed) {
-            Thread.sleep(pause)
+            rest(pause)
             pause = minOf(2 * pause, LONGEST_PAUSE)
             try {
                 found.set(opener.open())

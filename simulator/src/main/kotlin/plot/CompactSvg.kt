@@ -107,7 +107,7 @@ internal class CompactSvg(private val shapes: String, private val rules: Map<Str
             if (end == i) {
                 out.append(value[i++])
             } else {
-                out.append(rounded(value, i, end))
+                appendRounded(value, i, end)
                 i = end
             }
         }
@@ -137,10 +137,37 @@ internal class CompactSvg(private val shapes: String, private val rules: Map<Str
         return end
     }
 
-    private fun rounded(value: String, from: Int, end: Int): String =
-        BigDecimal(value.substring(from, end)).setScale(2, RoundingMode.HALF_EVEN).stripTrailingZeros().toPlainString()
+    /** The number in [value] from [from] to [end], rounded half to even on two decimals, without zeros at its end. */
+    private fun appendRounded(value: String, from: Int, end: Int) {
+        val begin = if (value[from] == '-') from + 1 else from
+        val point = value.indexOf('.', begin)
+        val decimals = digitsEnd(value, point + 1)
+        if (decimals < end || point - begin > MOST_DIGITS) {
+            val exact = BigDecimal(value.substring(from, end)).setScale(2, RoundingMode.HALF_EVEN)
+            out.append(exact.stripTrailingZeros().toPlainString())
+            return
+        }
+        var hundredths = 0L
+        for (i in begin until point) hundredths = hundredths * 10 + (value[i] - '0')
+        for (i in point + 1..point + 2) hundredths = hundredths * 10 + if (i < decimals) value[i] - '0' else 0
+        if (isRoundedUp(value, point + 3, decimals, hundredths % 2 == 1L)) hundredths++
+        if (begin > from && hundredths > 0) out.append('-')
+        out.append(hundredths / 100)
+        val rest = (hundredths % 100).toInt()
+        if (rest == 0) return
+        out.append('.').append(rest / 10)
+        if (rest % 10 > 0) out.append(rest % 10)
+    }
+
+    /** Whether the digits from [from] to [end] are more than half of one before them, or half and that one [isOdd]. */
+    private fun isRoundedUp(value: String, from: Int, end: Int, isOdd: Boolean): Boolean {
+        if (from >= end || value[from] != '5') return from < end && value[from] > '5'
+        return isOdd || (from + 1 until end).any { value[it] != '0' }
+    }
 
     private companion object {
+        /** Digits before the point that, with two more, a Long has room for. */
+        const val MOST_DIGITS = 15
         const val UNUSED_FONT = "font-family:sans-serif;"
         const val NO_STROKE = " stroke-width=\"0\""
         val EMPTY = listOf("path", "rect", "line", "circle", "polygon", "polyline")

@@ -11,8 +11,9 @@ import java.util.zip.CRC32
  * figure; fonts are those that common systems have.
  */
 internal object StableSvg {
-    private val id = Regex("""\bid="(\w+)"""")
-    private val styleElement = Regex("""(?s)\s*<style type="text/css">.*?</style>""")
+    private const val STYLE_BEGIN = "<style type=\"text/css\">"
+    private const val STYLE_END = "</style>"
+    private const val ID = "id=\""
     private val styleRule = Regex("""(?s)#\w+ \.([\w-]+) \{\s*(.*?)\s*\}""")
 
     /** Without spaces, which jsvg takes for parts of the names. */
@@ -26,8 +27,9 @@ internal object StableSvg {
      */
     fun of(drawn: String, title: String, width: Int, height: Int): String {
         val body = drawn.substringAfter('>').substringBeforeLast("</svg>")
-        val shapes = CompactSvg(styleElement.replace(body, ""), rules(body)).text()
-        val ids = id.findAll(shapes).map { it.groupValues[1] }.toList()
+        val styles = StringBuilder()
+        val shapes = CompactSvg(withoutStyles(body, styles), rules(styles.toString())).text()
+        val ids = ids(shapes)
         val numbered = ids.foldIndexed(shapes) { n, text, name -> text.replace(name, "$MARK$n$MARK") }
         val prefix = "f" + checksum(title + numbered)
         val stable = ids.indices.fold(numbered) { text, n -> text.replace("$MARK$n$MARK", "$prefix-$n") }
@@ -39,8 +41,39 @@ internal object StableSvg {
         }
     }
 
-    /** The declarations of each class, without fonts and defaults. */
-    private fun rules(body: String): Map<String, String> = styleRule.findAll(body).associate { rule ->
+    /** [body] without style elements and the blanks before them; what is in them goes to [styles]. */
+    private fun withoutStyles(body: String, styles: StringBuilder): String = buildString(body.length) {
+        var from = 0
+        while (true) {
+            val begin = body.indexOf(STYLE_BEGIN, from)
+            val end = if (begin < 0) -1 else body.indexOf(STYLE_END, begin)
+            if (end < 0) break
+            var blanks = begin
+            while (blanks > from && body[blanks - 1].isWhitespace()) blanks--
+            append(body, from, blanks)
+            styles.append(body, begin + STYLE_BEGIN.length, end)
+            from = end + STYLE_END.length
+        }
+        append(body, from, body.length)
+    }
+
+    /** The names of all elements that have one. Not by a pattern, which takes longer than all else here. */
+    private fun ids(shapes: String): List<String> = buildList {
+        var at = shapes.indexOf(ID)
+        while (at >= 0) {
+            val begin = at + ID.length
+            var end = begin
+            while (end < shapes.length && shapes[end].isWordPart()) end++
+            val isName = at == 0 || !shapes[at - 1].isWordPart()
+            if (isName && end > begin && shapes.getOrNull(end) == '"') add(shapes.substring(begin, end))
+            at = shapes.indexOf(ID, begin)
+        }
+    }
+
+    private fun Char.isWordPart() = this in 'a'..'z' || this in 'A'..'Z' || this in '0'..'9' || this == '_'
+
+    /** The declarations of each class in [styles], without fonts and defaults. */
+    private fun rules(styles: String): Map<String, String> = styleRule.findAll(styles).associate { rule ->
         val (name, declarations) = rule.destructured
         name to declarations.split(';').map(String::trim)
             .filter { it.isNotEmpty() && !it.startsWith("font-family") && !it.endsWith(": normal") }

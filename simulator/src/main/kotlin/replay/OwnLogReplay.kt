@@ -4,8 +4,10 @@ import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.booleanOrNull
 import kotlinx.serialization.json.contentOrNull
 import kotlinx.serialization.json.doubleOrNull
+import stillwater.control.Mixing
 import stillwater.io.BoundedLines
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
@@ -26,8 +28,9 @@ import stillwater.model.LatLon
  * mission again.
  *
  * Every step is taken at the recorded time, so that the same program decides the same, bit for bit; another program, or
- * the same with another [MissionSpec], shows what it would have decided on the same way. Where the log was gone on with
- * after a crash, the mission is recovered from the lines before, as it was then.
+ * the same with another [MissionSpec], shows what it would have decided on the same way and with the same boat: where
+ * the log or the other mission says that its thruster swivels, it does. Where the log was gone on with after a crash,
+ * the mission is recovered from the lines before, as it was then.
  *
  * @param content the log. @param other the mission to replay in place of the log's; null for the log's own.
  * @param log takes the replay's own. Retained, not closed.
@@ -86,21 +89,33 @@ internal class OwnLogReplay(
 
     private fun begin(json: JsonObject) {
         lines.count("beginnings", number)
-        val spec = other ?: try {
-            MissionSpec.fromJson(json["spec"].toString())
+        val spec = missionOf(json) ?: return notUnderstood.count("a mission", number)
+        val date = (json["date"] as? JsonPrimitive)?.contentOrNull.orEmpty()
+        val start = LogStart(
+            (json["time"] as? JsonPrimitive)?.doubleOrNull?.toLong() ?: 0,
+            date,
+            (json["boat"] as? JsonPrimitive)?.contentOrNull,
+            (json["virtual"] as? JsonPrimitive)?.booleanOrNull,
+        )
+        val before = if (mission == null) null else recovered()
+        link = RecordedLink()
+        lastTime = Double.NEGATIVE_INFINITY
+        mission = Mission(spec, link, MissionLog(log, start, spec), recovered = before)
+    }
+
+    /** The mission that is replayed from a first line on; null where none can be read. */
+    private fun missionOf(first: JsonObject): MissionSpec? {
+        val own = try {
+            MissionSpec.fromJson(first["spec"].toString())
         } catch (wrong: JsonProblem) {
             if (refused == null) {
                 refused = wrong.words
                 refusedLine = number
             }
-            return notUnderstood.count("a mission", number)
+            null
         }
-        val date = (json["date"] as? JsonPrimitive)?.contentOrNull.orEmpty()
-        val start = LogStart((json["time"] as? JsonPrimitive)?.doubleOrNull?.toLong() ?: 0, date)
-        val before = if (mission == null) null else recovered()
-        link = RecordedLink()
-        lastTime = Double.NEGATIVE_INFINITY
-        mission = Mission(spec, link, MissionLog(log, start, spec), recovered = before)
+        if (other == null || own?.boat?.mixing != Mixing.VECTORED) return other ?: own
+        return other.copy(boat = other.boat.copy(mixing = Mixing.VECTORED))
     }
 
     /** What a mission that goes on at this line knows: the log's own readings, or those that another mission took. */
@@ -138,7 +153,7 @@ internal class OwnLogReplay(
         for (order in came.list("order")) order(mission, (order as? JsonPrimitive)?.contentOrNull)
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
-            val isPlace = latitude in LatLon.LATITUDES_DEG && longitude.isFinite()
+            val isPlace = latitude in LatLon.LATITUDES_DEG && longitude in LatLon.LONGITUDES_DEG
             if (!isPlace) {
                 notUnderstood.count("a place", number)
                 continue

@@ -66,7 +66,8 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
      * Lets [block] write the file [name] piece by piece, buffered; for results larger than memory. An IOException
      * from [block] counts as the disk's refusal, so [block] should not read other files.
      *
-     * @throws OutputException if the disk refuses or the file is an input, and [block]'s own exceptions unchanged.
+     * @throws OutputException if the disk refuses or the file is an input that would not stay as it is, and [block]'s
+     * own exceptions unchanged.
      */
     public fun <T> stream(name: String, block: (OutputStream) -> T): T {
         check(isOpen) { "output directory $directory is already committed or closed" }
@@ -75,12 +76,11 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
             "name ($name) must be a path inside the output directory"
         }
         return guarded("write $name in") {
-            val place = target.resolve(name)
-            if (place.exists() && inputs.any { it.exists() && Files.isSameFile(it, place) }) {
-                throw OutputException("output ${directory.resolve(name)} is the input itself; name another directory")
-            }
             Files.createDirectories(file.parent)
-            Files.newOutputStream(file).buffered().use(block).also { if (name !in names) names += name }
+            val written = Files.newOutputStream(file).buffered().use(block)
+            if (isInput(name) && Files.mismatch(file, target.resolve(name)) != SAME) throw isInputItself(name)
+            if (name !in names) names += name
+            written
         }
     }
 
@@ -92,14 +92,25 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
         retired += names
     }
 
+    private fun isInput(name: String): Boolean {
+        val place = target.resolve(name)
+        return place.exists() && inputs.any { it.exists() && Files.isSameFile(it, place) }
+    }
+
+    private fun isInputItself(name: String) =
+        OutputException("output ${directory.resolve(name)} is the input itself; name another directory")
+
     /**
      * Moves everything written into place, in the order of writing.
      *
      * @return the files' paths, [directory] first in each, in that order.
-     * @throws OutputException if a file cannot be moved; files not yet moved are then dropped.
+     * @throws OutputException if a file cannot be moved, or one that was retired is an input; files not yet moved are
+     * then dropped.
      */
     public fun commit(): List<Path> = synchronized(lock) {
         check(isOpen) { "output directory $directory is already committed or closed" }
+        val gone = retired - names.toSet()
+        gone.firstOrNull(::isInput)?.let { throw isInputItself(it) }
         names.firstOrNull { target.resolve(it).isDirectory() }?.let {
             throw OutputException("cannot write ${directory.resolve(it)}: a directory of this name is in the way")
         }
@@ -111,7 +122,7 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
                     move(staging.resolve(name), place)
                 }
                 Files.createDirectories(target)
-                for (name in retired - names.toSet()) Files.deleteIfExists(target.resolve(name))
+                for (name in gone) Files.deleteIfExists(target.resolve(name))
             }
             createdParents.clear()
         } finally {
@@ -182,4 +193,9 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
         is FileSystemException -> failed.reason ?: failed.javaClass.simpleName
         else -> failed.message ?: failed.javaClass.simpleName
     }.lineSequence().first()
+
+    private companion object {
+        /** What [Files.mismatch] says of files with the same bytes. */
+        const val SAME = -1L
+    }
 }

@@ -1,6 +1,5 @@
 package stillwater.simulation
 
-import stillwater.control.Mixing
 import stillwater.mission.LogSink
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
@@ -31,12 +30,7 @@ class MissionRun(val spec: MissionSpec, settings: WorldSettings, sink: LogSink) 
     val readings = ReadingLog(sink)
 
     /** The mission. */
-    val mission = Mission(
-        spec,
-        world.boat.phone,
-        MissionLog(readings, START, spec),
-        if (settings.isVectored) Mixing.VECTORED else Mixing.DIFFERENTIAL,
-    )
+    val mission = Mission(spec, world.boat.phone, MissionLog(readings, START, spec))
 
     /** Where the boat really was, and how it kept to its legs. */
     val track = SailedTrack()

@@ -116,8 +116,9 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
 
     private fun refused(): String {
         val mission = run.mission
+        val givenUp = if (mission.givenUp > 0) ", ${counted(mission.givenUp, "waypoint")} given up" else ""
         return "${counted(mission.refusedFixes, "fix", "fixes")}, ${counted(mission.refusedSteps, "step")}, " +
-            counted(mission.readings.leftOut, "reading")
+            counted(mission.readings.leftOut, "reading") + givenUp
     }
 
     private fun belief(): String? {

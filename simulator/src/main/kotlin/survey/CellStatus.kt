@@ -69,30 +69,33 @@ internal fun FieldMap.shownCells(kind: FilterKind): List<Int> =
 internal fun FieldMap.visitedCells(): List<Int> = (0 until grid.size).filter { visits(it) > 0 }
 
 /**
- * Visited cells of the bounded filter by what is known of them.
+ * Visited cells of a filter with bounds by what it knows of them.
  *
  * @property visited all of them. @property both bounded both ways, in order. @property crossed lower above upper.
- * @property oneSided one bound. @property none no bound. @property conflicts times evidence contradicted a bound.
+ * @property oneSided one bound. @property measured no bound, but a value of their own. @property none neither.
+ * @property conflicts times evidence contradicted a bound.
  */
 data class BoundCounts(
     val visited: Int,
     val both: Int,
     val crossed: Int,
     val oneSided: Int,
+    val measured: Int,
     val none: Int,
     val conflicts: Long,
 ) {
     companion object {
-        /** The counts of [field], a bounded filter's map. */
-        fun of(field: FieldMap): BoundCounts {
+        /** The counts of [field], the map of a filter of [kind]. */
+        fun of(field: FieldMap, kind: FilterKind = FilterKind.BOUNDED): BoundCounts {
             val visited = field.visitedCells()
-            val counts = visited.groupingBy { field.status(FilterKind.BOUNDED, it) }.eachCount()
+            val counts = visited.groupingBy { field.status(kind, it) }.eachCount()
             fun count(status: CellStatus) = counts[status] ?: 0
             return BoundCounts(
                 visited.size,
                 count(CellStatus.BOTH),
                 count(CellStatus.CROSSED),
                 count(CellStatus.ONE_SIDED),
+                count(CellStatus.MEASURED),
                 count(CellStatus.NONE),
                 visited.sumOf { field.conflicts(it).toLong() },
             )

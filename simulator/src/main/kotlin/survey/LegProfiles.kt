@@ -44,8 +44,11 @@ internal class LegProfiles(private val track: Track, axis: Double, val binWidth:
     }
 
     private fun count(place: Double, value: Double, sums: DoubleArray, counts: IntArray) {
-        val bin = floor((place - origin) / binWidth).toInt()
-        if (bin !in 0 until bins) return
+        val share = (place - origin) / binWidth
+        // From 0 on cutting off is the floor, which the first compiler, that of the launcher, has no instruction for.
+        if (share < 0) return
+        val bin = share.toInt()
+        if (bin >= bins) return
         sums[bin] += value
         counts[bin]++
     }

@@ -11,6 +11,7 @@ import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonObject
 import stillwater.estimate.SensorBelief
+import stillwater.report.putOrigin
 import java.nio.file.Path
 
 /** A [SurveyMap] for machines; numbers unrounded, null where there is none. */
@@ -51,12 +52,7 @@ object MapJson {
         putJsonObject("skipped") { map.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
         statistics(map)
         grid(map)
-        map.log.frame?.let { frame ->
-            putJsonObject("origin") {
-                put("lat_deg", frame.origin.latitudeDeg)
-                put("lon_deg", frame.origin.longitudeDeg)
-            }
-        }
+        putOrigin(map.log.frame)
         putJsonObject("prior") {
             put("lower", map.prior.lower)
             put("upper", map.prior.upper)
@@ -73,6 +69,7 @@ object MapJson {
                 put("found_per_s", number(calibration.found))
             }
         }
+        map.interval?.let { put("interval_assumes", it.json()) }
         map.learned?.let { put("sensor", sensor(it.sensor())) }
         putJsonObject("filters") {
             map.maps.forEach { (kind, field) ->
@@ -80,7 +77,7 @@ object MapJson {
                     put("outside", field.outside)
                     put("rejected", field.rejected)
                     put("conflicts", (0 until field.grid.size).sumOf { field.conflicts(it).toLong() })
-                    if (kind.givesBounds) cells(BoundCounts.of(field))
+                    if (kind.givesBounds) cells(BoundCounts.of(field, kind))
                 }
             }
         }
@@ -108,6 +105,7 @@ object MapJson {
         put(CellStatus.BOTH.label, counts.both)
         put(CellStatus.CROSSED.label, counts.crossed)
         put(CellStatus.ONE_SIDED.label, counts.oneSided)
+        put(CellStatus.MEASURED.label, counts.measured)
         put(CellStatus.NONE.label, counts.none)
     }
 

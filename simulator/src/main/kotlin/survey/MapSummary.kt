@@ -43,6 +43,7 @@ class MapSummary(private val map: SurveyMap) {
         add("range taken for the water" to range())
         map.bounded?.let { add("epsilon" to epsilon(it.epsilon)) }
         map.maps[FilterKind.BOUNDED]?.let { add("bounded filter" to bounds(BoundCounts.of(it))) }
+        map.interval?.let { add("interval filter" to it.sentence(wording::value)) }
         map.learned?.let { addAll(SensorWording(it.sensor()).facts) }
         addAll(agreement())
     }

@@ -15,8 +15,9 @@ internal class MapWarnings(private val map: SurveyMap) {
     private val wording = Wording(map)
 
     /** The sentences, most important first. */
-    fun list(): List<String> = listOfNotNull(jumps(), gap(), outliers(), outsideRange(), skipped()) +
-        epsilon() + listOfNotNull(standing()) + bounds() +
+    fun list(): List<String> = map.pass.warnings +
+        listOfNotNull(jumps(), gap(), outliers(), outsideRange(), skipped()) +
+        epsilon() + listOfNotNull(standing()) + bounds() + listOfNotNull(map.interval?.warning(wording::value)) +
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
 
     private fun jumps(): String? {
@@ -84,7 +85,7 @@ internal class MapWarnings(private val map: SurveyMap) {
     }
 
     private fun bounds(): List<String> = buildList {
-        val counts = map.maps[FilterKind.BOUNDED]?.let(BoundCounts::of) ?: return@buildList
+        val counts = map.maps[FilterKind.BOUNDED]?.let { BoundCounts.of(it) } ?: return@buildList
         if (counts.crossed > 0) {
             add(
                 "the bounds crossed (lower above upper) in ${counts.crossed} of ${counts.visited} visited cells: the " +

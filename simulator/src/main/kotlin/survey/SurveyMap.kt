@@ -31,6 +31,10 @@ import stillwater.run.LagFilterSettings
  * @property boundedFilter settings of the bounded filter; its epsilon stands back behind [epsilon].
  * @property unit unit of the quantity, as it is to be shown.
  * @property lagFilters what the filters that reckon with a lag may assume.
+ * @property correction what is mapped in place of the readings, or null.
+ * @property slowestGiven whether the user gave the interval filter's longest time constant.
+ * @property readingErrorGiven whether the user gave its largest error of a reading; if not, and if it is 0, the step of
+ *   the log's values stands for it.
  */
 data class MapSettings(
     val filters: List<FilterKind> = FilterKind.entries,
@@ -42,6 +46,8 @@ data class MapSettings(
     val unit: String? = null,
     val lagFilters: LagFilterSettings = LagFilterSettings(),
     val correction: GivenCorrection? = null,
+    val slowestGiven: Boolean = false,
+    val readingErrorGiven: Boolean = false,
 )
 
 /**
@@ -58,7 +64,8 @@ data class MapSettings(
  * @property rangeGiven whether the user gave [prior]. @property outsideRange readings outside [prior].
  * @property epsilonGiven whether the user gave the bounded filter's epsilon.
  * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
- * @property settings what was asked for.
+ * @property settings what was asked for. @property interval what the interval filter's bounds assume, or null where it
+ *   did not run.
  */
 class SurveyMap internal constructor(
     val log: SurveyLog,
@@ -80,6 +87,7 @@ class SurveyMap internal constructor(
     val stepSlope: Double,
     val settings: MapSettings,
     val learned: SelfCalibratingEstimator?,
+    val interval: IntervalAssumption?,
 ) {
     /** Unit of the quantity as the user gave it, or null. */
     val unit: String? get() = settings.unit
@@ -121,7 +129,8 @@ class SurveyMap internal constructor(
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
             val forBounded = bounded ?: BoundedFilterSettings(epsilon = 0.0)
-            val lag = lagFilters(settings, statistics)
+            val interval = interval(settings, statistics)
+            val lag = settings.lagFilters.copy(interval = interval.settings)
             val estimators = settings.filters.associateWith { it.estimator(grid, prior, forBounded, lag) }
             val running = estimators.values.toTypedArray()
             val passes = CellPasses(grid)
@@ -156,6 +165,7 @@ class SurveyMap internal constructor(
                 stepSlope,
                 settings,
                 estimators.values.firstNotNullOfOrNull(::learner),
+                interval.takeIf { FilterKind.INTERVAL in settings.filters },
             )
         }
 
@@ -180,11 +190,17 @@ class SurveyMap internal constructor(
             return EpsilonCalibration.stepSlope(resolution, step, settings.boundedFilter.slopeWindow)
         }
 
-        /** Where no reading error was given, the step in which the log's values are rounded. */
-        private fun lagFilters(settings: MapSettings, statistics: SurveyStatistics): LagFilterSettings {
-            val interval = settings.lagFilters.interval
-            if (interval.readingError > 0 || statistics.resolution.isNaN()) return settings.lagFilters
-            return settings.lagFilters.copy(interval = interval.copy(readingError = statistics.resolution))
+        /** Where no reading error was given, the step in which the log's values are rounded stands for it. */
+        private fun interval(settings: MapSettings, statistics: SurveyStatistics): IntervalAssumption {
+            val asked = settings.lagFilters.interval
+            val origin = when {
+                settings.readingErrorGiven || asked.readingError > 0 -> ErrorOrigin.GIVEN
+                statistics.resolution.isFinite() -> ErrorOrigin.RESOLUTION
+                else -> ErrorOrigin.NONE
+            }
+            val taken =
+                if (origin == ErrorOrigin.RESOLUTION) asked.copy(readingError = statistics.resolution) else asked
+            return IntervalAssumption(taken, settings.slowestGiven, origin)
         }
 
         private fun boundedSettings(settings: MapSettings, calibration: Calibration?) = settings.boundedFilter

@@ -39,7 +39,7 @@ class VirtualWorld(val settings: WorldSettings, val site: WorldSite) {
             settings.board,
             settings.link,
             settings.pose,
-            settings.isVectored,
+            site.isVectored,
             site.start,
         ),
         field,

@@ -1,5 +1,6 @@
 package stillwater.world
 
+import stillwater.control.Mixing
 import stillwater.mission.MissionSpec
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -13,14 +14,21 @@ import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 
 /**
- * Where a virtual world lies.
+ * What a mission says of the virtual world that it takes place in.
  *
  * @property origin zero of the frame that everything has its metres in.
  * @property grid cells over which the water is drawn.
  * @property range what the probe can show, sensor units.
  * @property start where the boat lies at first.
+ * @property isVectored whether the boat has a swivelled thruster in place of two fixed ones.
  */
-data class WorldSite(val origin: LatLon, val grid: Grid, val range: Interval, val start: Position) {
+data class WorldSite(
+    val origin: LatLon,
+    val grid: Grid,
+    val range: Interval,
+    val start: Position,
+    val isVectored: Boolean = false,
+) {
     companion object {
         /** Where [mission] takes place; the boat lies at its home. */
         fun of(mission: MissionSpec): WorldSite = WorldSite(
@@ -28,6 +36,7 @@ data class WorldSite(val origin: LatLon, val grid: Grid, val range: Interval, va
             mission.grid.grid(),
             mission.probe.range,
             Position(mission.home.x, mission.home.y),
+            isVectored = mission.boat.mixing == Mixing.VECTORED,
         )
     }
 }
@@ -65,7 +74,6 @@ data class Flow(val east: Double, val north: Double) {
  * @property board electronics; its voltage is that of a full battery.
  * @property battery what the motors draw on.
  * @property hull boat and thrusters.
- * @property isVectored whether it has a swivelled thruster in place of two fixed ones.
  * @throws IllegalArgumentException if a number is out of its range.
  */
 data class WorldSettings(
@@ -82,7 +90,6 @@ data class WorldSettings(
     val board: BoardSpec = BoardSpec(),
     val battery: BatterySpec = BatterySpec(),
     val hull: Hull = Hull(),
-    val isVectored: Boolean = false,
 ) {
     init {
         require(currentTurn > 0) { "currentTurn ($currentTurn s) must be above 0" }

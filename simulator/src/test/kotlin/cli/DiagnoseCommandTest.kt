@@ -48,6 +48,23 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun aBenchLogNeedsNoPlaces() {
+        val placed = Path.of(bench())
+        val bare = directory.resolve("bare.csv")
+        Files.write(bare, Files.readAllLines(placed).map { it.replace(Regex("(,0,0|,x_m,y_m)"), "") })
+        val (with, without) = listOf(placed, bare).map { file ->
+            val out = directory.resolve("of-${file.fileName}")
+            val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--out", "$out")
+            assertEquals(0, result.statusCode, result.output)
+            Files.readString(out.resolve("diagnosis.json")).replace("bare.csv", "bench.csv")
+        }
+        assertEquals(with, without)
+        val blind = diagnose("$bare", "--value", "probe", "--out", "${directory.resolve("blind")}")
+        assertEquals(2, blind.statusCode)
+        assertContains(blind.output, "expected columns lat_deg and lon_deg, or x_m and y_m")
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")

@@ -83,7 +83,7 @@ class DriveBadInputTest {
     fun anUnfinishedLogOfAnotherMissionOrOfNone() {
         out.createDirectories()
         val log = out.resolve("mission.txt.incomplete")
-        ServerSocket(0, 5, InetAddress.getLoopbackAddress()).use { board ->
+        ServerSocket(0, 20, InetAddress.getLoopbackAddress()).use { board ->
             val port = "tcp:127.0.0.1:${board.localPort}"
             val flags = arrayOf("--port", port, "--phone", port, "--resume")
             log.writeText("nothing\n")
@@ -92,6 +92,12 @@ class DriveBadInputTest {
             log.writeText(lines)
             directory.resolve("pond.json").writeText(POND.replace("\"pond\"", "\"lake\""))
             assertRefused("expected the mission of $mission, found another one, pond", *drive(*flags))
+            assertEquals(lines, log.readText())
+            directory.resolve("pond.json").writeText(POND)
+            assertRefused("found it with boat.mixing differential; without --vectored", *drive(*flags, "--vectored"))
+            val vectored = "\"boat\":{\"mixing\":\"vectored\"},\"home\""
+            directory.resolve("pond.json").writeText(POND.replace("\"home\"", vectored))
+            assertRefused("found it with boat.mixing differential", *drive(*flags))
             assertEquals(lines, log.readText())
         }
     }

@@ -54,6 +54,14 @@ class MainTest {
         }
     }
 
+    @Test
+    fun allThatIsMissingIsSaidInOneLine() {
+        val result = runBoatCommand("drive")
+        val words = result.stderr.substringBefore(" (")
+        assertEquals("stillwater: missing argument <mission>; missing option --port", words)
+        assertEquals(1, result.stderr.trimEnd().lines().size)
+    }
+
     private fun refusing(message: String) = StandardOutput(
         object : OutputStream() {
             override fun write(byte: Int) = throw IOException(message)

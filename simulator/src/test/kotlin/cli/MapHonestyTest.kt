@@ -80,6 +80,26 @@ class MapHonestyTest {
     }
 
     @Test
+    fun intervalFilterSaysWhatItsBoundsAssume() {
+        val summary = json(smallSurvey(), "--filter", "interval", "--unit", "mg/L")
+        val assumed = summary.child("interval_assumes").mapValues { it.value.jsonPrimitive.content }
+        assertEquals("60.0" to "false", assumed["longest_time_constant_s"] to assumed["longest_time_constant_given"])
+        assertEquals("0.002" to "resolution", assumed["reading_error"] to assumed["reading_error_from"])
+        val warning = summary.warnings().single { "the interval filter's bounds assume" in it }
+        assertContains(warning, "no slower than a time constant of 60 s (--slowest) and readings off by no more than")
+        assertContains(report(), "no slower than a time constant of 60 s (not given, taken), no reading is off by more")
+        assertContains(report(), "0.002 mg/L, the step of the log")
+
+        val given = json(smallSurvey(), "--filter", "interval", "--slowest", "20", "--reading-error", "0")
+        val told = given.child("interval_assumes").mapValues { it.value.jsonPrimitive.content }
+        assertEquals(listOf("20.0", "true", "0.0", "given"), told.values.toList())
+        assertFalse(given.warnings().any { "assume" in it }, "${given.warnings()}")
+        assertContains(report(), "no slower than a time constant of 20 s (as given)")
+
+        assertFalse("interval_assumes" in json(smallSurvey(), "--filter", "averaging"))
+    }
+
+    @Test
     fun inventsNoValuesForWhatWasNotMeasured() {
         json(smallSurvey(), "--grid", "9x9", "--epsilon", "10")
         val rows = directory.out().resolve("cells.csv").readLines().drop(1).map { it.split(',') }

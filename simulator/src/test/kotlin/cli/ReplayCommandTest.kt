@@ -11,8 +11,10 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import org.junit.jupiter.params.ParameterizedTest
 import org.junit.jupiter.params.provider.CsvSource
+import stillwater.control.Mixing
 import stillwater.mission.Mission
 import stillwater.mission.MissionRecovery
+import stillwater.mission.MissionSpec
 import stillwater.mission.Wish
 import java.nio.file.Path
 import kotlin.io.path.deleteExisting
@@ -73,6 +75,23 @@ class ReplayCommandTest {
     }
 
     @Test
+    fun aBoatWhoseThrusterSwivelsIsReplayedAsOne() {
+        val pond = MissionSpec.fromJson(POND)
+        val spec = pond.copy(boat = pond.boat.copy(mixing = Mixing.VECTORED))
+        val (lines, mission) = sailed(45, 120, spec = spec)
+        assertTrue(mission.readings.passed > 50, "the virtual boat did not sail")
+        val log = write("log.txt", lines)
+        val summary = replay(log, "out")
+        assertEquals(0, summary.count("steps_otherwise_than_recorded"))
+        assertSameMap(mission, directory.resolve("out/cells.csv"))
+        assertEquals(lines, directory.resolve("out/mission.txt").readLines())
+        // Another mission that says nothing of the boat goes with the one that sailed.
+        val other = write("other.json", listOf(pond.toJson()))
+        replay(log, "other", "--mission", other.toString())
+        assertEquals(lines, directory.resolve("other/mission.txt").readLines())
+    }
+
+    @Test
     fun aLogFromTheWaterIsNotReplaced() {
         val (lines, _) = sailed(44, 30)
         for (name in listOf("mission.txt", "mission.txt.incomplete")) {
@@ -125,10 +144,21 @@ class ReplayCommandTest {
     }
 
     @Test
+    fun aPlaceThatIsNoneIsCountedAndTheRestIsReplayed() {
+        val (lines, mission) = sailed(49, 30)
+        val at = lines.indexOfFirst { "\"fix\":[[" in it }
+        val fix = Regex(""""fix":\[\[[^]]*]""")
+        val broken = lines.toMutableList().apply { this[at] = get(at).replace(fix, "\"fix\":[[1.0,45.5,-999.0]") }
+        val summary = replay(write("log.txt", broken), "out")
+        assertEquals(1, summary.count("lines_not_understood", "a place"))
+        assertEquals(mission.readings.passed, summary.count("readings", "taken"))
+    }
+
+    @Test
     fun whatNoLogWouldHaveIsCountedWithItsLineAndHarmsNothing() {
         val (lines, mission) = sailed(47, 60)
         val deep = "1\tI\t{\"a\":" + "[".repeat(100_000)
-        val long = "1\tI\t{\"a\":\"" + "x".repeat(2_000_000) + "\"}"
+        val long = "1\tI\t{\"a\":\"" + "x".repeat(5_000_000) + "\"}"
         val broken = lines.take(300) + deep + long + "\u0000\u0001" + lines.drop(300)
         val log = write("log.txt", broken)
         val summary = replay(log, "out")
@@ -180,7 +210,7 @@ class ReplayCommandTest {
         // the last log the boat leaves a cell before its first reading is confirmed.
         "airboat_20130807_063622.txt, 4.0.0, 23, 18, surveying",
         "airboat_20151220_043848.txt, 4.0.0, 15, 0, preflight",
-        "platypus_20160426_024734.txt, 4.1.0, 0, 21, surveying",
+        "platypus_20160426_024734.txt, 4.1.0, 0, 21, preflight",
         "platypus_20160519_013623.txt, 4.2.0, 29, 30, surveying",
     )
     fun platypusLogsAreReplayedAndTheirReplayIsALogAgain(

@@ -30,9 +30,9 @@ internal fun sailed(
     seed: Long,
     seconds: Int,
     recovered: RecoveredMission? = null,
+    spec: MissionSpec = MissionSpec.fromJson(POND),
     orders: (Int, Mission) -> Unit = { _, _ -> },
 ): Pair<List<String>, Mission> {
-    val spec = MissionSpec.fromJson(POND)
     val settings = WorldSettings(
         seed = seed,
         board = BoardSpec(oxygenPeriod = 1.0),

@@ -16,6 +16,7 @@ import stillwater.cli.Stillwater
 import stillwater.sensor.SensorSpec
 import java.nio.file.Files
 import java.nio.file.Path
+import java.time.Instant
 import kotlin.io.path.exists
 import kotlin.io.path.readLines
 import kotlin.io.path.readText
@@ -199,6 +200,35 @@ class CorrectCommandTest {
             assertEquals(0, alone.statusCode, alone.output)
             val rows = out.resolve("corrected.csv").readLines().drop(1).map { it.split(',').takeLast(3) }
             assertEquals(pairs.map { it[i] }, rows, column)
+        }
+    }
+
+    @Test
+    fun timesAsTextAreFoundAgain() {
+        val rows = survey().trimEnd().lines()
+        val noon = Instant.parse("2025-06-01T12:00:00Z")
+        val text = rows.drop(1).mapIndexed { i, row -> "${noon.plusSeconds(i.toLong())},${row.substringAfter(',')}" }
+        val file = log((listOf(rows[0].replace("time_s", "stamp")) + text).joinToString("\n"))
+        val result = run(file, "--time", "stamp", "--value", "slow")
+        assertEquals(0, result.statusCode, result.output)
+        val written = out.resolve("corrected.csv").readLines()
+        assertEquals(text, written.drop(1).map { it.split(',').dropLast(3).joinToString(",") })
+        assertTrue(written.drop(1).none { it.endsWith(",,,") })
+    }
+
+    @Test
+    fun namesOfColumnsAreWrittenAsTheLogHasThem() {
+        val degrees = "Temp, \u00B0C (no. \"7\")"
+        val quoted = "\"${degrees.replace("\"", "\"\"")}\""
+        for (charset in listOf(Charsets.UTF_8, Charsets.UTF_16LE)) {
+            val text = "\uFEFF" + survey(60).replaceFirst("slow,fast", "$quoted,\u00B5S")
+            val file = directory.resolve("log.csv").also { Files.write(it, text.toByteArray(charset)) }
+            val result = run(file.toString(), "--value", degrees, "--value", "\u00B5S")
+            assertEquals(0, result.statusCode, result.output)
+            val header = String(Files.readAllBytes(out.resolve("corrected.csv")), charset).lines()[0].drop(1)
+            val expected = listOf("", "_low", "_high").joinToString("") { ",${quoted.dropLast(1)}_corrected$it\"" }
+            assertContains(header, "note$expected,\u00B5S_corrected,")
+            assertFalse('\uFFFD' in header)
         }
     }
 

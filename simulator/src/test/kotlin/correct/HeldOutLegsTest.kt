@@ -59,6 +59,21 @@ class HeldOutLegsTest {
     }
 
     @Test
+    fun whatSmoothingAloneTakesIsNoGainOfTheLag() {
+        val measured = CorrectedLegs(survey(legs = 12, lag = 8.0), DoubleArray(0))
+        val smoothed = CorrectedLegs(survey(legs = 12, lag = 4.0), DoubleArray(0))
+        // Where the correction leaves what smoothing leaves, all of the gain is smoothing's.
+        for (score in HeldOutLegs(measured, smoothed = smoothed) { smoothed }.scores()) {
+            assertTrue(score.gain > 0.2, "$score")
+            assertEquals(0.0, score.lagGain, 1e-12)
+            assertEquals(score.after, score.smoothed, 1e-12)
+        }
+        for (score in HeldOutLegs(measured, smoothed = smoothed) { measured }.scores()) {
+            assertTrue(score.lagGain < 0, "$score")
+        }
+    }
+
+    @Test
     fun whatTeachesNothingHasNoScore() {
         val measured = CorrectedLegs(survey(legs = 12, lag = 8.0), DoubleArray(0))
         assertEquals(emptyList(), HeldOutLegs(measured) { null }.scores())

@@ -10,11 +10,13 @@ import java.nio.file.Path
 import kotlin.io.path.createDirectories
 import kotlin.io.path.exists
 import kotlin.io.path.readText
+import kotlin.io.path.writeText
 import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 class LogOnDiskTest {
@@ -45,6 +47,16 @@ class LogOnDiskTest {
     }
 
     private val path get() = directory.resolve("mission.txt.incomplete")
+
+    @Test
+    fun aLogInWhichNothingWasWrittenIsNoneToGoOnWith() {
+        LogOnDisk.begin(directory).close()
+        assertFalse(path.exists(), "closed")
+        path.writeText("")
+        assertNull(LogOnDisk.unfinished(directory), "left by a program that was killed")
+        LogOnDisk.begin(directory).use { it.line("0\tI\t{}") }
+        assertEquals(path, LogOnDisk.unfinished(directory))
+    }
 
     @Test
     fun aDiskThatWasFullForAMomentGetsEveryByteOnce() {

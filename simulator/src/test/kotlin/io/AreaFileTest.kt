@@ -2,6 +2,7 @@ package stillwater.io
 
 import org.junit.jupiter.api.Test
 import stillwater.model.Position
+import stillwater.model.WaterArea
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
@@ -33,6 +34,22 @@ class AreaFileTest {
         assertEquals(2 * 1111.3, area.north - area.south, 0.5, "half a metre for the radius as rounded here")
         assertEquals(2 * 788.5, area.east - area.west, 0.5, "at the southern shore, which is a little wider")
         assertEquals(0.0, (area.east + area.west) / 2, 1e-6, "symmetric about the origin")
+    }
+
+    @Test
+    fun shoreAcrossTheDateLineIsNotMirrored() {
+        // West shore at 179.99 E, east shore at 179.99 W, the corner in the south-east cut off.
+        fun lake(east: String): WaterArea {
+            val ring = "[[179.99,-17],[180,-17],[$east,-16.99],[$east,-16.98],[179.99,-16.98]]"
+            return AreaFile.parse("""{"type": "Polygon", "coordinates": [$ring]}""", "l.geojson", AreaUnits.DEGREES)
+        }
+        val signed = lake("-179.99")
+        val unsigned = lake("180.01")
+        // Rounding of degrees, in metres.
+        assertEquals(unsigned.east, signed.east, 1e-6)
+        assertEquals(unsigned.west, signed.west, 1e-6)
+        assertTrue(Position(-1000.0, -1000.0) in signed, "the south-western corner")
+        assertFalse(Position(1000.0, -1000.0) in signed, "the corner that is cut off")
     }
 
     @Test

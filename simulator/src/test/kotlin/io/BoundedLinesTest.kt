@@ -1,11 +1,15 @@
 package stillwater.io
 
+import kotlinx.serialization.json.Json
 import org.junit.jupiter.api.Test
+import stillwater.mission.PlaceSpec
+import stillwater.model.WaterArea
 import java.io.Reader
 import java.io.StringReader
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertTrue
 
 class BoundedLinesTest {
     /** Gives at most [most] characters at a time. */
@@ -28,6 +32,15 @@ class BoundedLinesTest {
             val expected = text.reader().buffered().readLines()
             for (most in listOf(1, 2, 1000)) assertEquals(expected, lines(text, most), text.replace('\r', '#'))
         }
+    }
+
+    /** A mission's log begins with the mission, on one line. */
+    @Test
+    fun theLargestAreaOfAMissionIsReadWhole() {
+        val corner = Json.encodeToString(PlaceSpec.serializer(), PlaceSpec(-12345.678901234567, -12345.678901234567))
+        val line = "$corner,".repeat(WaterArea.MAX_EDGES)
+        assertTrue(line.length > 1_000_000)
+        assertEquals(listOf(line), BoundedLines(StringReader(line)).use { it.asSequence().toList() })
     }
 
     @Test

@@ -82,6 +82,26 @@ class OutputDirectoryTest {
     }
 
     @Test
+    fun anInputMayBeWrittenAsItIsAndIsNotRetired() {
+        val out = home.resolve("out").createDirectory()
+        val input = out.resolve("sensor.json").apply { writeText("given") }
+        OutputDirectory(out, listOf(input)).use {
+            it.write("sensor.json", "given")
+            it.commit()
+        }
+        val problem = assertFailsWith<OutputException> {
+            OutputDirectory(out, listOf(input)).use {
+                it.retire(listOf("sensor.json"))
+                it.write("report.html", "new")
+                it.commit()
+            }
+        }
+        assertContains(problem.message.orEmpty(), "sensor.json is the input itself")
+        assertEquals("given", input.readText())
+        assertEquals(1, Files.list(out).use { it.count() })
+    }
+
+    @Test
     fun withoutCommitNothingChangesAndNothingIsLeft() {
         val out = home.resolve("out").createDirectory()
         out.resolve("results.csv").writeText("old")

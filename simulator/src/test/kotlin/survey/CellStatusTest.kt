@@ -35,7 +35,17 @@ class CellStatusTest {
             CellStatus.CROSSED,
         )
         assertEquals(expected, statuses(FilterKind.BOUNDED))
-        assertEquals(BoundCounts(6, both = 1, crossed = 2, oneSided = 2, none = 1, 1), BoundCounts.of(field))
+        val counts = BoundCounts(6, both = 1, crossed = 2, oneSided = 2, measured = 0, none = 1, 1)
+        assertEquals(counts, BoundCounts.of(field, FilterKind.BOUNDED))
+    }
+
+    @Test
+    fun countsOfAFilterWithValuesOfItsOwnAreThoseOfItsCells() {
+        for (kind in FilterKind.entries.filter { it.givesBounds }) {
+            val counts = BoundCounts.of(field, kind)
+            assertEquals(statuses(kind).count { it == CellStatus.MEASURED }, counts.measured, kind.label)
+            assertEquals(statuses(kind).count { it == CellStatus.NONE }, counts.none, kind.label)
+        }
     }
 
     @Test

@@ -1,8 +1,6 @@
 package stillwater.apk
 
-import org.junit.jupiter.api.Assumptions.assumeTrue
 import org.junit.jupiter.api.BeforeEach
-import java.io.File
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.zip.ZipFile
@@ -12,14 +10,11 @@ import kotlin.test.assertTrue
 
 /** The app as it is installed. That it is signed, the packager checks itself before the file gets its name. */
 class ApkTest {
-    private val module = generateSequence(File("").absoluteFile) { it.parentFile }
-        .first { it.resolve("settings.gradle.kts").isFile }
-        .resolve("android-app")
-    private val apk = module.resolve("target/stillwater.apk")
+    private val apk = Built.app.resolve("target/stillwater.apk")
 
     @BeforeEach
     fun theApkIsBuilt() {
-        assumeTrue(apk.isFile, "$apk is missing, `mvn package` makes it: the app is not looked at")
+        Built.existing(apk, "`mvn package`")
     }
 
     @Test
@@ -125,7 +120,7 @@ class ApkTest {
     }
 
     private fun badging(): List<String> {
-        val aapt2 = module.resolve("target/tools").walk().first { it.isFile && it.name.startsWith("aapt2") }
+        val aapt2 = Built.app.resolve("target/tools").walk().first { it.isFile && it.name.startsWith("aapt2") }
         val process = ProcessBuilder(aapt2.path, "dump", "badging", apk.path).redirectErrorStream(true).start()
         val lines = process.inputStream.bufferedReader().readLines()
         assertEquals(0, process.waitFor(), lines.joinToString("\n"))

@@ -2,7 +2,6 @@ package stillwater.apk
 
 import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.testing.test
-import org.junit.jupiter.api.Assumptions.assumeTrue
 import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.MapCommand
 import stillwater.cli.Stillwater
@@ -16,16 +15,12 @@ import kotlin.test.assertTrue
 class PhoneLogTest {
     @TempDir
     private lateinit var directory: File
-    private val logs = generateSequence(File("").absoluteFile) { it.parentFile }
-        .first { it.resolve("settings.gradle.kts").isFile }
-        .resolve("android-app/target/mission-logs")
+    private val logs = Built.app.resolve("target/mission-logs")
 
     @Test
     fun mapReadsEveryReadingThatThePhoneWrote() {
-        val written = logs.listFiles().orEmpty().sorted()
-        assumeTrue(written.isNotEmpty(), "$logs is missing, the app's WholeMissionTest makes it: no log is read back")
         // One for each Android, all of the same mission.
-        val log = written.last()
+        val log = Built.existing(logs.resolve("android-35.log"), "the app's WholeMissionTest")
         val out = directory.resolve("map")
         val run = Stillwater().subcommands(MapCommand())
             .test(listOf("map", log.path, "--out", out.path, "--filter", "averaging"))

@@ -98,6 +98,7 @@ internal class CampaignCase(val seed: Long) {
             """"largest_jump":0.1,"stuck_after":6,""" +
             """"longest_time_constant_s":12},"estimator":"${word(estimator)}","planner":"${word(planner)}",""" +
             """"budget":$budget,"home":{"x_m":$half,"y_m":$half},"seed":$seed,""" +
+            """"boat":{"mixing":"${mixing.name.lowercase()}"},""" +
             """"failsafe":{"lowest_volts":12,"battery":"${policy()}","fence":"${policy()}","end":"${policy()}"}}"""
     }
 

@@ -46,6 +46,9 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
     /** What happens at the end of each step besides; for those who test the observer. */
     var meanwhile: () -> Unit = {}
 
+    /** Whether the run ends where the process is dead, a while after it began. */
+    var endsDead = false
+
     private val verdicts = Verdicts()
 
     /** Lives through the mission, and judges it. */
@@ -53,7 +56,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
         var exception: Throwable? = null
         try {
             var over = 0
-            while (over < AFTERWARDS && step < LONGEST) {
+            while (over < AFTERWARDS && step < LONGEST && !(endsDead && deadUntil > DEAD_AFTER)) {
                 tick()
                 if (mission.state is MissionState.Stopped && deadUntil < 0) over++
             }
@@ -106,7 +109,10 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
             return
         }
         val time = BoatTime(now + clock)
-        boat.takeFix()?.let { mission.fix(BoatTime(faults.number(it.time.seconds + clock)), faults.fix(it.place)) }
+        boat.takeFix()?.let { fix ->
+            val told = BoatTime(faults.time(fix.time.seconds + clock))
+            faults.fix(fix.place)?.let { mission.fix(told, it) }
+        }
         mission.compass(time, faults.number(boat.heading()), faults.number(boat.yawRate))
         if (now >= startAt) mission.start()
         mission.step(time)
@@ -145,7 +151,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
 
     private fun begin(recovered: RecoveredMission?): Mission {
         val log = MissionLog(::write, LogStart(0, "campaign"), spec)
-        return Mission(spec, link, log, case.mixing, recovered)
+        return Mission(spec, link, log, recovered)
     }
 
     private fun write(line: String) {
@@ -209,6 +215,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
         const val FLUSHED = 10
         const val LONGEST = 7000
         const val AFTERWARDS = 30
+        const val DEAD_AFTER = 60.0
         const val QUIET = 5.0
         const val KILL_EVERY = 80.0
         const val MARGIN = 5.0

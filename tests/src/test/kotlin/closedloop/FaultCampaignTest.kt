@@ -11,7 +11,7 @@ class FaultCampaignTest {
     /** Two runs of each kind of fault and two of all at once; docs/safety.md has a thousand. Seeds fixed beforehand. */
     @Test
     fun whateverGoesWrongMotorsRestInTimeAndNothingIsLost() {
-        val runs = (700_000L until 700_020L).map { FaultCampaign.run(it) }
+        val runs = (700_000L until 700_022L).map { FaultCampaign.run(it) }
         for (run in runs) assertEquals("", FaultCampaign.faultsFound(run), "seed ${run.case.seed}, ${run.kinds}")
         for (kind in FaultKind.entries) assertTrue(runs.any { it.occurred[kind.ordinal] > 0 }, "${kind.label} occurs")
         assertTrue(runs.sumOf { it.observer.underPower } > 1000, "boats go somewhere")
@@ -21,7 +21,9 @@ class FaultCampaignTest {
     /** A run that ends while its process is dead: the log is without the last second, and so is who goes on with it. */
     @Test
     fun aRunThatEndsWithADeadProcessIsJudgedByItsLog() {
-        assertEquals("", FaultCampaign.faultsFound(FaultCampaign.run(800_419)))
+        val dead = CampaignRun(CampaignCase(800_419), setOf(FaultKind.PROCESS_KILL)).apply { endsDead = true }.run()
+        assertTrue(dead.occurred[FaultKind.PROCESS_KILL.ordinal] > 0 && dead.verdicts.readings > 0)
+        assertEquals("", FaultCampaign.faultsFound(dead))
     }
 
     /** A pilot who bypasses the mission: the observer sees that it is beyond the fence and drives without a link. */

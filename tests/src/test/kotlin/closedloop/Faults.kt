@@ -30,8 +30,10 @@ internal class Faults(
 
     private val clock = BoardClock()
     private val counterStart = (1L shl 32) - random.nextLong(1000, 100_000)
-    private var cutUntil = 0.0
-    private var cutKind = 0
+    private var deafUntil = 0.0
+    private var muteUntil = 0.0
+    private var isCutWhole = false
+    private var noFixUntil = 0.0
     private var stuckUntil = 0.0
     private var stuckAt: String? = null
     private var nanUntil = 0.0
@@ -61,21 +63,40 @@ internal class Faults(
         occurred[FaultKind.CORRUPTION.ordinal] = link.changedBytes.toInt()
     }
 
-    /** [place] as the phone is told. */
-    fun fix(place: LatLon): LatLon {
+    /** [place] as the phone is told; null where it is told of none. */
+    fun fix(place: LatLon): LatLon? {
+        if (isWithoutFix()) return null
         if (boat.time.seconds > QUIET && begins(FaultKind.FIX_JUMP, JUMP_EVERY, jumpsLeft == 0)) {
-            jumpsLeft = random.nextInt(1, 11)
-            val size = logarithmic(5.0, 2000.0)
-            val angle = random.nextDouble(2 * PI)
-            jumpEast = size * cos(angle) / METRES_PER_DEGREE
-            jumpNorth = size * sin(angle) / METRES_PER_DEGREE
+            jump(random.nextInt(1, 11), logarithmic(5.0, 2000.0))
         }
         if (jumpsLeft == 0) return place
         jumpsLeft--
         return LatLon(place.latitudeDeg + jumpNorth, place.longitudeDeg + jumpEast)
     }
 
-    /** [value] of a heading, a rate or a time as the phone is told. */
+    private fun isWithoutFix(): Boolean {
+        val now = boat.time.seconds
+        if (now > QUIET && begins(FaultKind.FIX_OUTAGE, OUTAGE_EVERY, now >= noFixUntil)) {
+            noFixUntil = now + logarithmic(3.0, 90.0)
+            if (random.nextBoolean()) jump(random.nextInt(1, 4), logarithmic(5.0, 60.0))
+        }
+        return now < noFixUntil
+    }
+
+    private fun jump(fixes: Int, size: Double) {
+        jumpsLeft = fixes
+        val angle = random.nextDouble(2 * PI)
+        jumpEast = size * cos(angle) / METRES_PER_DEGREE
+        jumpNorth = size * sin(angle) / METRES_PER_DEGREE
+    }
+
+    /** [value] of a fix's time as the phone is told: of a time to come besides what befalls other numbers. */
+    fun time(value: Double): Double {
+        val told = number(value)
+        return if (told.isNaN()) value + random.nextDouble(0.0, 1000.0) else told
+    }
+
+    /** [value] of a heading or a rate as the phone is told. */
     fun number(value: Double): Double = when {
         boat.time.seconds >= nanUntil || random.nextBoolean() -> value
         random.nextBoolean() -> Double.NaN
@@ -83,14 +104,17 @@ internal class Faults(
     }
 
     private fun cut(now: Double) {
-        if (begins(FaultKind.LINK_CUT, OFTEN, now >= cutUntil)) {
-            cutUntil = now + logarithmic(0.1, 60.0)
-            cutKind = random.nextInt(4)
+        if (begins(FaultKind.LINK_CUT, OFTEN, isLinked)) {
+            val until = now + logarithmic(0.1, 60.0)
+            val kind = random.nextInt(4)
+            if (kind != 1) deafUntil = until
+            if (kind != 0) muteUntil = if (kind == 2) now + logarithmic(0.1, 60.0) else until
+            isCutWhole = kind == 3
         }
-        isLinked = now >= cutUntil
-        boat.link.isCut = !isLinked && cutKind >= 2
-        link.isDeaf = !isLinked && cutKind == 0
-        link.isMute = !isLinked && cutKind == 1
+        link.isDeaf = now < deafUntil
+        link.isMute = now < muteUntil
+        isLinked = !link.isDeaf && !link.isMute
+        boat.link.isCut = isCutWhole && !isLinked
     }
 
     private fun sag(now: Double) {
@@ -125,7 +149,7 @@ internal class Faults(
     }
 
     private fun begins(kind: FaultKind, every: Double, may: Boolean): Boolean {
-        val step = if (kind == FaultKind.FIX_JUMP) 1.0 else 0.1
+        val step = if (kind == FaultKind.FIX_JUMP || kind == FaultKind.FIX_OUTAGE) 1.0 else 0.1
         if (kind !in kinds || random.nextDouble() >= step / every || !may) return false
         occurred[kind.ordinal]++
         return true
@@ -138,6 +162,7 @@ internal class Faults(
         const val QUIET = 3.0
         const val OFTEN = 30.0
         const val JUMP_EVERY = 30.0
+        const val OUTAGE_EVERY = 60.0
         const val STUCK_EVERY = 60.0
         const val SELDOM = 80.0
         const val LONGEST_DELAY = 0.2

@@ -8,6 +8,7 @@ import stillwater.app.pose.PhoneFix
 import stillwater.app.pose.PhoneHeading
 import stillwater.app.pose.Pose
 import stillwater.app.pose.PoseProblem
+import stillwater.control.Mixing
 import stillwater.mission.MissionSpec
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
@@ -30,7 +31,12 @@ internal class DemoBoat(name: String, mission: MissionSpec?) {
     private val home = mission?.home?.let { Position(it.x, it.y) } ?: Position(0.0, 0.0)
     private val boat =
         VirtualBoat(
-            VirtualBoatSpec(PROBE, board = BoardSpec(oxygenPeriod = 1.0), start = home),
+            VirtualBoatSpec(
+                PROBE,
+                board = BoardSpec(oxygenPeriod = 1.0),
+                vectored = mission?.boat?.mixing == Mixing.VECTORED,
+                start = home,
+            ),
             PlumeWater(mission?.grid?.grid()?.let { it.center(it.rows / 2 * it.columns + it.columns / 2) } ?: home),
             LocalFrame(mission?.origin?.let { LatLon(it.latitude, it.longitude) } ?: POND),
             SEED,
@@ -42,6 +48,9 @@ internal class DemoBoat(name: String, mission: MissionSpec?) {
 
     /** Its receiver and compass. */
     val pose: Pose = DemoPose()
+
+    /** Readings that its probe has sent, by the board's own count. */
+    val readings: Long get() = synchronized(boat) { boat.board.readings }
 
     private var newest: PhoneFix? = null
     private var pointing: PhoneHeading? = null

@@ -1,5 +1,11 @@
 package stillwater.app.link
 
+import stillwater.mission.Quantity
+import stillwater.mission.Quantity.ACIDITY
+import stillwater.mission.Quantity.CONDUCTIVITY
+import stillwater.mission.Quantity.DEPTH
+import stillwater.mission.Quantity.DISSOLVED_OXYGEN
+import stillwater.mission.Quantity.TEMPERATURE
 import stillwater.wire.BoardState
 import stillwater.wire.ByteLink
 import stillwater.wire.LineFramer
@@ -18,6 +24,7 @@ import stillwater.wire.PlatypusCodec
  * @property conductivity µS/cm.
  * @property celsius temperature of the water, °C.
  * @property depth of the water, m.
+ * @property probes what was measured, and on which ports of the board.
  */
 data class BoardReport(
     val lines: Long = 0,
@@ -30,7 +37,11 @@ data class BoardReport(
     val conductivity: Double? = null,
     val celsius: Double? = null,
     val depth: Double? = null,
+    val probes: Set<HeardProbe> = emptySet(),
 )
+
+/** Something that measures [quantity] on [port] of the board. */
+data class HeardProbe(val port: Int, val quantity: Quantity)
 
 /** Listens to a board: core cuts the bytes into lines and the lines into messages. Confined to one thread. */
 internal class BoardEars {
@@ -63,14 +74,26 @@ internal class BoardEars {
             when (message) {
                 is Message.State -> heard.copy(state = message.state)
                 is Message.Battery -> heard.copy(batteryVolts = message.volts)
-                is Message.Oxygen -> heard.copy(oxygen = message.milligramsPerLitre)
-                is Message.Acidity -> heard.copy(acidity = message.ph)
+                is Message.Oxygen ->
+                    heard.copy(oxygen = message.milligramsPerLitre, probes = of(message.port, DISSOLVED_OXYGEN))
+                is Message.Acidity -> heard.copy(acidity = message.ph, probes = of(message.port, ACIDITY))
                 is Message.Conductivity ->
-                    heard.copy(conductivity = message.microsiemensPerCm, celsius = message.celsius)
-                is Message.WaterTemperature -> heard.copy(celsius = message.celsius)
-                is Message.Depth -> heard.copy(depth = message.metres)
+                    heard.copy(
+                        conductivity = message.microsiemensPerCm,
+                        celsius = message.celsius,
+                        probes = of(message.port, CONDUCTIVITY, TEMPERATURE),
+                    )
+                is Message.WaterTemperature ->
+                    heard.copy(celsius = message.celsius, probes = of(message.port, TEMPERATURE))
+                is Message.Depth -> heard.copy(depth = message.metres, probes = of(message.port, DEPTH))
                 is Message.Refused -> heard.copy(refusals = heard.refusals + 1)
                 else -> heard
             }
+    }
+
+    /** The probes heard so far, with those of [quantities] on [port]; the same set where they were among them. */
+    private fun of(port: Int, vararg quantities: Quantity): Set<HeardProbe> {
+        val now = quantities.map { HeardProbe(port, it) }
+        return if (heard.probes.containsAll(now)) heard.probes else heard.probes + now
     }
 }

@@ -13,6 +13,6 @@ interface BoardLink : ByteLink {
     /** Begins to connect, and connects again whenever the connection is lost, until [close]. */
     fun open()
 
-    /** Ends the connection and the attempts. A closed link may be opened again. */
+    /** Ends the connection, once what was written has gone out, and the attempts. A closed link may be opened again. */
     fun close()
 }

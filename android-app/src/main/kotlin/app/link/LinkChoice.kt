@@ -75,12 +75,12 @@ fun interface LinkMaker {
         /** Real links. */
         val REAL =
             LinkMaker { context, choice ->
-                when (choice) {
-                    is LinkChoice.Usb ->
-                        ReconnectingLink(UsbTransport(context, context.getString(R.string.usb_serial)))
-                    is LinkChoice.Bluetooth ->
-                        ReconnectingLink(BluetoothTransport(context, choice.address, choice.name))
-                }
+                val transport =
+                    when (choice) {
+                        is LinkChoice.Usb -> UsbTransport(context, context.getString(R.string.usb_serial))
+                        is LinkChoice.Bluetooth -> BluetoothTransport(context, choice.address, choice.name)
+                    }
+                ReconnectingLink(transport, context::getString)
             }
     }
 }

@@ -25,8 +25,9 @@ enum class LinkState {
  * @property bytesOut sent.
  * @property bytesOverrun received and dropped, because nobody had read for too long.
  * @property writesDropped commands not sent: no connection, or a newer one took their place.
+ * @property writesHung times a connection was given up because one command did not go out.
  * @property quietMillis time since the last byte came or the connection did, ms; null while not connected.
- * @property lastError why the last connection ended or did not come about, in the system's words; null if none did.
+ * @property lastError why the last connection ended or did not come about, in words; null if none did.
  */
 data class LinkHealth(
     val state: LinkState = LinkState.CLOSED,
@@ -37,6 +38,7 @@ data class LinkHealth(
     val bytesOut: Long = 0,
     val bytesOverrun: Long = 0,
     val writesDropped: Long = 0,
+    val writesHung: Long = 0,
     val quietMillis: Long? = null,
     val lastError: String? = null,
 )

@@ -1,10 +1,10 @@
 package stillwater.app.link
 
 import android.util.Log
+import stillwater.app.R
 import stillwater.app.mayWait
 import stillwater.wire.ByteLink
 import java.io.IOException
-import java.util.concurrent.ArrayBlockingQueue
 
 /** Lets a thread wait; a test's does not. */
 internal fun interface Pause {
@@ -17,20 +17,24 @@ internal fun interface Pause {
  * Keeps a connection to the board through everything: one thread connects, reads, closes, waits longer each time and
  * connects afresh; another one writes. What calls [read] and [write] never waits for either.
  *
- * A command that could not be sent yet makes room for a newer one: the oldest is dropped and counted. Nothing received
- * over one connection is handed out over the next.
+ * A connection over which one command takes too long is given up, and counted: a stop is not to queue behind it.
+ * Nothing received over one connection is handed out over the next. What was taken before [close] goes out first, for
+ * as long as [parting] lets.
  *
+ * @param words says a text of the app's own, by its resource. Retained.
  * @param pause waits between attempts. Retained.
+ * @param parting how a connection that was closed on purpose ends. Retained.
  * @param uptimeMillis a clock that never goes back, ms. Retained.
  */
 internal class ReconnectingLink(
     private val transport: Transport,
+    private val words: (Int) -> String,
     private val pause: Pause = Pause(Thread::sleep),
+    private val parting: Parting = Parting(),
     private val uptimeMillis: () -> Long = { System.nanoTime() / NANOS_PER_MILLI },
 ) : BoardLink {
     private val lock = Any()
     private val received = ByteRing(RECEIVED_BYTES)
-    private val commands = ArrayBlockingQueue<ByteArray>(COMMANDS)
     private var counted = LinkHealth()
     private var heardAt = 0L
     private var session: Session? = null
@@ -62,45 +66,74 @@ internal class ReconnectingLink(
     }
 
     override fun read(into: ByteArray): Int {
+        giveUpWhatHangs()
         val taken = received.take(into)
         return if (taken == 0 && health.state != LinkState.CONNECTED) ByteLink.LOST else taken
     }
 
     override fun write(bytes: ByteArray): Boolean {
-        if (health.state != LinkState.CONNECTED) {
-            count { copy(writesDropped = writesDropped + 1) }
-            return false
-        }
-        while (!commands.offer(bytes)) {
-            if (commands.poll() != null) count { copy(writesDropped = writesDropped + 1) }
-        }
-        return true
+        giveUpWhatHangs()
+        val open = synchronized(lock) { session.takeIf { counted.state == LinkState.CONNECTED } }
+        if (open?.writer?.take(bytes) == true) return true
+        synchronized(lock) { counted = counted.copy(writesDropped = counted.writesDropped + 1) }
+        return false
     }
 
-    private fun count(change: LinkHealth.() -> LinkHealth) {
-        synchronized(lock) { counted = counted.change() }
+    /** Both the boat's thread and the one that looks after it come by here, ten times a second. */
+    private fun giveUpWhatHangs() {
+        synchronized(lock) { session }?.giveUpWhatHangs()
     }
 
     /** From one [open] to the next [close]; what an ended one still does, nobody sees. */
-    private inner class Session {
-        private val reader = Thread(::connectAndRead, "link-read")
-        private val writer = Thread(::writeCommands, "link-write")
+    private inner class Session : CommandWriter.Told {
+        private val reader = Thread(::connectAndRead, "link-read").apply { isDaemon = true }
         private val waits = ReconnectWaits()
 
         @Volatile private var ended = false
 
         @Volatile private var connection: Connection? = null
 
-        fun start() {
-            reader.start()
-            writer.start()
-        }
+        /** Of the connection that came about last; null before the first. */
+        @Volatile var writer: CommandWriter? = null
+            private set
 
+        /** The writer whose connection was given up. */
+        @Volatile private var hung: CommandWriter? = null
+
+        fun start() = reader.start()
+
+        /** Ends it on a thread of its own: closing may wait, and so may the last words. */
         fun end() {
             ended = true
-            reader.interrupt()
-            writer.interrupt()
-            connection?.close()
+            Thread(::part, "link-close").apply { isDaemon = true }.start()
+        }
+
+        private fun part() {
+            // A new attempt begins no more; what is open stays so for the last words.
+            writer?.takeIf { connection != null }?.let {
+                it.finish()
+                it.await(parting.longestMillis)
+                Thread.sleep(parting.lingeringMillis)
+            }
+            // Closed, a connection ends the read or the attempt by itself; without one the reader waits for the next.
+            connection?.close() ?: reader.interrupt()
+        }
+
+        fun giveUpWhatHangs() {
+            val writer = this.writer?.takeIf { it.isHung } ?: return
+            synchronized(lock) {
+                if (hung === writer || session !== this) return
+                hung = writer
+                counted = counted.copy(
+                    // At once: nobody knows when the reader will see it.
+                    state = LinkState.WAITING,
+                    drops = counted.drops + 1,
+                    writesHung = counted.writesHung + 1,
+                    lastError = words(R.string.link_write_hung),
+                )
+            }
+            // Of this caller nobody may be kept waiting; and a close has been seen to wait for the write.
+            Thread(writer::closeConnection, "link-give-up").apply { isDaemon = true }.start()
         }
 
         private fun connectAndRead() {
@@ -117,6 +150,8 @@ internal class ReconnectingLink(
                 } finally {
                     connection?.close()
                     connection = null
+                    writer?.finish()
+                    writer = null
                 }
                 try {
                     if (!ended) pause.pause(waits.next())
@@ -133,24 +168,40 @@ internal class ReconnectingLink(
             // end() may have looked for the connection just before it was there.
             if (ended) return
             fresh.open()
+            // Or have closed it just before it was open.
+            if (ended) return
             received.clear()
-            commands.clear()
+            val writes = CommandWriter(fresh, uptimeMillis, this)
+            writer = writes
+            writes.start()
             heardAt = uptimeMillis()
             report { copy(state = LinkState.CONNECTED, connects = connects + 1) }
             val buffer = ByteArray(READ_BYTES)
-            while (!ended) {
+            while (true) {
                 val length = fresh.read(buffer)
-                if (length < 0) throw IOException("the other side closed the connection")
-                if (length == 0) continue
-                waits.reset()
+                if (length < 0) throw IOException(words(R.string.link_closed_by_board))
+                if (length > 0) take(buffer, length)
+            }
+        }
+
+        private fun take(buffer: ByteArray, length: Int) {
+            waits.reset()
+            synchronized(lock) {
+                // While the last words go out, what comes in is nobody's.
+                if (session !== this) return
                 val overrun = received.put(buffer, length)
-                synchronized(lock) { heardAt = uptimeMillis() }
-                report { copy(bytesIn = bytesIn + length, bytesOverrun = bytesOverrun + overrun) }
+                heardAt = uptimeMillis()
+                counted = counted.copy(
+                    bytesIn = counted.bytesIn + length,
+                    bytesOverrun = counted.bytesOverrun + overrun,
+                )
             }
         }
 
         private fun lost(error: Exception) {
             if (!ended) Log.i(TAG, "${transport.name}: $error")
+            // Given up by us, it is counted already; and why it is lost is not what the system says of our closing it.
+            if (hung != null && hung === writer) return
             report {
                 val had = state == LinkState.CONNECTED
                 copy(
@@ -162,32 +213,11 @@ internal class ReconnectingLink(
             }
         }
 
-        private fun writeCommands() {
-            try {
-                while (!ended) {
-                    val bytes = commands.take()
-                    val open = connection
-                    try {
-                        if (open == null) throw IOException("the connection is gone")
-                        mayWait("send")
-                        open.write(bytes)
-                        report { copy(bytesOut = bytesOut + bytes.size) }
-                    } catch (error: IOException) {
-                        notSent(open, error)
-                    } catch (@Suppress("TooGenericExceptionCaught") error: RuntimeException) {
-                        notSent(open, error)
-                    }
-                }
-            } catch (_: InterruptedException) {
-                check(ended) { "only end() interrupts" }
-            }
-        }
+        override fun sent(bytes: Int) = report { copy(bytesOut = bytesOut + bytes) }
 
-        /** A connection that takes nothing is lost, even where reading still waits; a newer one is not touched. */
-        private fun notSent(open: Connection?, error: Exception) {
-            Log.i(TAG, "${transport.name}: not sent: $error")
+        override fun dropped(error: Exception?) {
+            if (error != null && !ended) Log.i(TAG, "${transport.name}: not sent: $error")
             report { copy(writesDropped = writesDropped + 1) }
-            open?.close()
         }
 
         private fun report(change: LinkHealth.() -> LinkHealth) {
@@ -201,12 +231,19 @@ internal class ReconnectingLink(
 
         /** Some 10 s of a board that sends without a break at 115200 baud. */
         const val RECEIVED_BYTES = 1 shl 17
-        const val READ_BYTES = 1024
 
-        /** Commands waiting at most; at 10 Hz the oldest is 0.8 s old. */
-        const val COMMANDS = 8
+        /** More than the largest packet of USB's bulk endpoints, 512 bytes: a shorter one would lose the rest. */
+        const val READ_BYTES = 1024
     }
 }
+
+/**
+ * How a connection that was closed on purpose ends: with the last words, which are to rest the motors.
+ *
+ * @property longestMillis for which they are waited for, ms; two lines take 6 ms at 115200 baud.
+ * @property lingeringMillis after them, ms: what a socket has taken the radio has yet to send.
+ */
+internal class Parting(val longestMillis: Long = 300, val lingeringMillis: Long = 100)
 
 /** How long to wait before the next attempt: twice as long each time up to a limit. */
 internal class ReconnectWaits {

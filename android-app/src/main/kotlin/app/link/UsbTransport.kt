@@ -109,8 +109,14 @@ private class UsbConnection(
             Unit
         }
 
-    /** The library reads what is there and answers 0 when the time is over. */
-    override fun read(into: ByteArray): Int = port.read(into, READ_MILLIS)
+    /**
+     * Waits without end, as the library's author recommends for a thread of its own: with a time of up to 200 ms it has
+     * been seen to lose bytes. Closing the port ends the wait. Where the wait ends with nothing the library has looked
+     * whether the adapter is still there, and throws where it is not.
+     *
+     * Source: usb-serial-for-android 3.9, `CommonUsbSerialPort.read` and `close`; its issue 503.
+     */
+    override fun read(into: ByteArray): Int = port.read(into, WITHOUT_END)
 
     override fun write(bytes: ByteArray) = port.write(bytes, WRITE_MILLIS)
 
@@ -126,7 +132,7 @@ private class UsbConnection(
     private companion object {
         const val BAUD = 115200
         const val DATA_BITS = 8
-        const val READ_MILLIS = 200
+        const val WITHOUT_END = 0
 
         /** A board that takes no command for as long has hung. */
         const val WRITE_MILLIS = 500

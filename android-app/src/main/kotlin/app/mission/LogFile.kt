@@ -56,10 +56,11 @@ internal class LogFile(
                 waiting.removeFirst()
                 synchronized(lock) { told = told.copy(written = told.written + next.lines) }
             }
-            val left = room()
-            trouble(if (left < LEAST_ROOM) "$left bytes are left" else null)
+            trouble(if (room() < LEAST_ROOM) LogProblem(LogProblem.Reason.LITTLE_ROOM) else null)
+        } catch (_: NoFolder) {
+            trouble(LogProblem(LogProblem.Reason.NO_FOLDER))
         } catch (error: IOException) {
-            trouble(error.message ?: error.javaClass.simpleName)
+            trouble(LogProblem(LogProblem.Reason.NOT_WRITTEN, error.message ?: error.javaClass.simpleName))
         }
     }
 
@@ -97,9 +98,9 @@ internal class LogFile(
         }
     }
 
-    private fun trouble(words: String?) {
-        if (words != null) failed = true
-        synchronized(lock) { told = told.copy(problem = words) }
+    private fun trouble(problem: LogProblem?) {
+        if (problem != null) failed = true
+        synchronized(lock) { told = told.copy(problem = problem) }
     }
 
     companion object {
@@ -110,3 +111,6 @@ internal class LogFile(
         const val LEAST_ROOM = 10L shl 20
     }
 }
+
+/** The folder of the logs is not there and cannot be made. */
+internal class NoFolder : IOException()

@@ -27,7 +27,7 @@ internal class LogFolder(
     private val folder by lazy(place)
     private val room = room ?: { folder.usableSpace }
 
-    /** A log for the mission [name] that begins at [epochMillis]; on the disk from its first flush on. */
+    /** A log for the mission [name], begun at [epochMillis], Unix time, ms; on the disk from its first flush on. */
     fun begin(name: String, epochMillis: Long): LogFile {
         val stamp = STAMP.format(Instant.ofEpochMilli(epochMillis))
         val plain = name.map { if (it.isLetterOrDigit()) it else '-' }.joinToString("").take(LONGEST_NAME)
@@ -73,7 +73,7 @@ internal class LogFolder(
     }
 
     private fun open(file: File): LogOutput {
-        if (!folder.isDirectory && !folder.mkdirs()) throw IOException("$folder can't be made")
+        if (!folder.isDirectory && !folder.mkdirs()) throw NoFolder()
         return opener.open(file)
     }
 

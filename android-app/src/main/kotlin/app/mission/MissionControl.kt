@@ -18,6 +18,15 @@ internal interface Disk {
     fun answer(work: () -> Unit)
 }
 
+/**
+ * The boat that a mission is to be run with.
+ *
+ * @property link to its board.
+ * @property name of the link.
+ * @property isVirtual whether boat and water are the demo's.
+ */
+internal class BoatAtHand(val link: ByteLink, val name: String, val isVirtual: Boolean)
+
 /** Keeps a text beyond the process. */
 internal interface Keeper {
     /** What was kept; null where nothing was. */
@@ -103,23 +112,36 @@ internal class MissionControl(
         }
     }
 
-    /** Starts the mission over [link], with [wish], where [isReady]; tells one that was started of [wish]. */
-    fun begin(link: ByteLink?, isReady: Boolean, wish: Wish): Answer? {
+    /** Starts the mission with [boat], with [wish], where [isReady]; tells one that was started of [wish]. */
+    fun begin(boat: BoatAtHand?, isReady: Boolean, wish: Wish): Answer? {
         val spec = this.spec ?: return Answer(Answer.Reason.NO_MISSION)
         run?.let {
             it.wish = wish
             return null
         }
         if (last?.isOver == true) return Answer(Answer.Reason.OVER)
-        if (link == null || !isReady) return Answer(Answer.Reason.NOT_READY)
+        if (boat == null) return Answer(Answer.Reason.NOT_READY)
+        otherWorld(boat)?.let { return it }
+        if (!isReady) return Answer(Answer.Reason.NOT_READY)
         val now = epochMillis()
-        val log = recovered?.let { folder.goOn(it.name) } ?: folder.begin(spec.name, now)
-        run = MissionRun(spec, link, log, recovered, now).also {
+        val name = if (boat.isVirtual) VIRTUAL + spec.name else spec.name
+        val log = recovered?.let { folder.goOn(it.name) } ?: folder.begin(name, now)
+        run = MissionRun(spec, boat, log, recovered, now).also {
             it.wish = wish
             it.start()
         }
         recovered = null
         return null
+    }
+
+    /** What stands against going on with what another kind of boat began: half of that map would be measured. */
+    private fun otherWorld(boat: BoatAtHand): Answer? {
+        val wasVirtual = recovered?.mission?.isVirtual
+        return when {
+            wasVirtual == null || wasVirtual == boat.isVirtual -> null
+            wasVirtual -> Answer(Answer.Reason.OF_THE_VIRTUAL_BOAT)
+            else -> Answer(Answer.Reason.OF_A_REAL_BOAT)
+        }
     }
 
     /** Tells a mission that was started what a person wants. */
@@ -248,5 +270,10 @@ internal class MissionControl(
         val (log, report) = unclosed ?: return
         unclosed = null
         close(log, report)
+    }
+
+    private companion object {
+        /** What the name of a log begins with that no real boat wrote, so that no list takes it for measured. */
+        const val VIRTUAL = "demo "
     }
 }

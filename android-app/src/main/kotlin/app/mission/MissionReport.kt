@@ -109,7 +109,7 @@ data class ReadingCounts(
  * @property written of [lines], those that are on the disk.
  * @property lost of [lines], those that never will be: the disk took nothing for too long.
  * @property isClosed whether it is complete.
- * @property problem why it can't be written, in the system's words; null while it can.
+ * @property problem why it can't be written; null while it can.
  */
 data class LogReport(
     val name: String,
@@ -117,8 +117,27 @@ data class LogReport(
     val written: Long = 0,
     val lost: Long = 0,
     val isClosed: Boolean = false,
-    val problem: String? = null,
+    val problem: LogProblem? = null,
 )
+
+/**
+ * Why a log can't be written.
+ *
+ * @property words more of it, in the system's words; null where [reason] says it all.
+ */
+data class LogProblem(val reason: Reason, val words: String? = null) {
+    /** What can stand against a log. */
+    enum class Reason {
+        /** The system did not write it; the words say why. */
+        NOT_WRITTEN,
+
+        /** Next to no room is left. */
+        LITTLE_ROOM,
+
+        /** The folder of the logs is not there and cannot be made. */
+        NO_FOLDER,
+    }
+}
 
 /**
  * A mission that was, as a list shows it; `BoatService.logOf` is its file.

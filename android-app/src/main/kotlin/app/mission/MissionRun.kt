@@ -11,27 +11,27 @@ import stillwater.mission.Wish
 import stillwater.model.BoatTime
 import stillwater.model.Reading
 import stillwater.wire.BoardState
-import stillwater.wire.ByteLink
 import java.time.Instant
 
 /**
  * A mission from its arming to its end: the one place where the phone's clock, pose, link and file meet core's mission.
  * Confined to the boat's thread.
  *
- * @param link to the board. Retained.
+ * @param boat whose board and name it is. Retained.
  * @param log where it is written. Retained.
  * @param recovered what to go on with; null to begin anew.
  */
 internal class MissionRun(
     private val spec: MissionSpec,
-    link: ByteLink,
+    boat: BoatAtHand,
     val log: LogFile,
     private val recovered: RecoveredRun?,
     epochMillis: Long,
 ) {
-    private val start = LogStart(epochMillis, Instant.ofEpochMilli(epochMillis).toString())
+    private val start =
+        LogStart(epochMillis, Instant.ofEpochMilli(epochMillis).toString(), boat.name, boat.isVirtual)
     private val mission =
-        Mission(spec, link, MissionLog(log, start, spec), recovered = recovered?.mission, taken = ::took)
+        Mission(spec, boat.link, MissionLog(log, start, spec), recovered = recovered?.mission, taken = ::took)
     private val trace = recovered?.trace ?: Trace()
     private val track = recovered?.track ?: Track()
     private val readAt = DoubleArray(spec.grid.grid().size) { Double.NaN }

@@ -18,7 +18,13 @@ internal class ColourLegend(private val view: View) {
 
     fun draw(canvas: Canvas, range: Interval, unit: String) {
         val right = view.width - EDGE_DP * density
-        val left = right - LENGTH_DP * density
+        val (lower, upper) =
+            view.resources.run {
+                getString(R.string.legend_end, range.lower, "").trim() to
+                    getString(R.string.legend_end, range.upper, unit).trim()
+            }
+        val both = words.measureText(lower) + words.measureText(upper) + words.textSize
+        val left = right - maxOf(LENGTH_DP * density, both)
         val bottom = view.height - EDGE_DP * density / 2
         val top = bottom - HEIGHT_DP * density
         bar.shader = LinearGradient(left, 0f, right, 0f, colours, null, Shader.TileMode.CLAMP)
@@ -26,9 +32,9 @@ internal class ColourLegend(private val view: View) {
         words.color = view.context.getColor(R.color.text)
         words.textAlign = Paint.Align.LEFT
         val baseline = top - GAP_DP * density
-        canvas.drawText(view.resources.getString(R.string.legend_end, range.lower, ""), left, baseline, words)
+        canvas.drawText(lower, left, baseline, words)
         words.textAlign = Paint.Align.RIGHT
-        canvas.drawText(view.resources.getString(R.string.legend_end, range.upper, unit), right, baseline, words)
+        canvas.drawText(upper, right, baseline, words)
     }
 
     private companion object {

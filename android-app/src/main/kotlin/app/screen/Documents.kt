@@ -89,7 +89,7 @@ internal class Documents(
         val before = desk.draft
         Background.run({
             attempt {
-                val stream = context.contentResolver.openInputStream(document) ?: throw IOException(NOTHING_THERE)
+                val stream = context.contentResolver.openInputStream(document) ?: throw nothingThere()
                 val text = stream.use { String(it.readLimited(), Charsets.UTF_8) }
                 take(text, before)
             }
@@ -120,7 +120,7 @@ internal class Documents(
         Background.run({
             attempt {
                 val stream =
-                    context.contentResolver.openOutputStream(document, "wt") ?: throw IOException(NOTHING_THERE)
+                    context.contentResolver.openOutputStream(document, "wt") ?: throw nothingThere()
                 stream.use(write)
             }.onFailure { remove(document) }
         }) { outcome ->
@@ -164,6 +164,8 @@ internal class Documents(
             Result.failure(e)
         }
 
+    private fun nothingThere() = IOException(context.getString(R.string.document_nothing_there))
+
     private fun InputStream.readLimited(): ByteArray {
         val all = ByteArrayOutputStream()
         val piece = ByteArray(PIECE)
@@ -177,7 +179,6 @@ internal class Documents(
 
     private companion object {
         const val SHARED = "shared-log"
-        const val NOTHING_THERE = "nothing there"
         const val PIECE = 8192
 
         /** The largest area has 20,000 corners, of 60 bytes or so each. */

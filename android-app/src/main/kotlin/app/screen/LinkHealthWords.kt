@@ -35,6 +35,7 @@ internal class LinkHealthWords(private val context: Context) {
                 text(R.string.link_dropped, link.bytesOverrun, link.writesDropped),
                 isBad = link.bytesOverrun > 0,
             ),
+            HealthLine(text(R.string.link_hung, link.writesHung), isBad = true).takeIf { link.writesHung > 0 },
             link.lastError?.let { HealthLine(text(R.string.link_error, it)) },
         )
     }
@@ -113,7 +114,7 @@ internal class LinkHealthWords(private val context: Context) {
             HealthLine(text(R.string.log), isTitle = true),
             HealthLine(text(if (log.isClosed) R.string.log_closed else R.string.log_open, log.name)),
             HealthLine(text(R.string.log_lines, log.lines, log.written, log.lost), isBad = log.lost > 0),
-            log.problem?.let { HealthLine(text(R.string.log_problem, it), isBad = true) },
+            log.problem?.let { HealthLine(text(R.string.log_problem, context.logWords(it)), isBad = true) },
         )
     }
 

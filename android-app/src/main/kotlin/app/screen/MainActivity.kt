@@ -199,9 +199,9 @@ internal class MainActivity :
     }
 
     override fun connect(choice: LinkChoice) {
-        val intent = BoatService.startIntent(this, choice)
-        // The virtual boat needs no permission, and from Android 14 on the foreground does.
-        if (choice is LinkChoice.Demo) startService(intent) else startForegroundService(intent)
+        // Not as a foreground service from here: Android ends the app where one that was started so is then refused the
+        // foreground, as without its permissions from Android 14 on. While the window is in sight it need not be.
+        startService(BoatService.startIntent(this, choice))
     }
 
     private fun stop() {

@@ -26,7 +26,7 @@ internal class MapScreen(private val context: Context) : Screen {
     override val view: LinearLayout =
         context.column().apply {
             below(map, weight = 1f)
-            below(words)
+            below(context.lowScroll(words, WORDS_SHARE))
             below(
                 context.row(
                     button(R.string.zoom_out, R.string.zoom_out_said, R.id.zoom_out) { map.zoom(1 / ZOOM) },
@@ -67,13 +67,16 @@ internal class MapScreen(private val context: Context) : Screen {
     }
 
     private fun button(words: Int, said: Int, id: Int, action: () -> Unit): Button =
-        context.largeButton(context.getString(words), action).also {
+        context.narrowButton(context.getString(words), action).also {
             it.id = id
             it.contentDescription = context.getString(said)
         }
 
     private companion object {
         const val ZOOM = 1.6f
+
+        /** Of the screen's height: the map is not to vanish behind what is said of it. */
+        const val WORDS_SHARE = 0.2f
 
         /** Farther from home, the phone is not on this water, and the map would shrink to a dot beside it, m. */
         const val FAR = 1_000.0

@@ -11,6 +11,7 @@ import stillwater.app.mission.MissionReport
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.PreflightCheck
 import stillwater.app.service.PreflightItem
+import stillwater.app.service.PreflightNote
 import stillwater.app.service.PreflightReason
 import stillwater.app.setup.words
 
@@ -71,10 +72,13 @@ internal class StartScreen(private val context: Context, private val host: Scree
         val items = snapshot.preflight.associateBy { it.check }
         for ((check, line) in checks) line.show(items[check])
         val red = snapshot.preflight.count { !it.ready }
+        // What many missions have would soon be overlooked: that of a battery nobody watches stays in the list.
+        val notes = snapshot.preflight.count { it.note != null && it.note != PreflightNote.NOT_WATCHED }
         ready.say(
             when {
                 snapshot.preflight.isEmpty() -> context.getString(R.string.checks_unknown)
-                red == 0 -> context.getString(R.string.checks_green)
+                red == 0 && notes == 0 -> context.getString(R.string.checks_green)
+                red == 0 -> context.resources.getQuantityString(R.plurals.checks_noted, notes, notes)
                 else -> context.resources.getQuantityString(R.plurals.checks_red, red, red)
             },
         )
@@ -113,12 +117,18 @@ internal class StartScreen(private val context: Context, private val host: Scree
         fun show(item: PreflightItem?) {
             val isReady = item?.ready == true
             val name = context.getString(check.words())
-            val reason = item?.reason?.let { context.getString(it.words()) }
-            val full = if (reason == null || isReady) name else context.getString(R.string.check_reason, name, reason)
+            val more = item?.let { context.preflightWords(it) }
+            val full = if (more == null) name else context.getString(R.string.check_reason, name, more)
             words.say(context.getString(if (isReady) R.string.check_ready else R.string.check_not_ready, full))
             words.contentDescription =
                 context.getString(if (isReady) R.string.check_ready_said else R.string.check_not_ready_said, full)
-            words.setTextColor(context.getColor(if (isReady) R.color.good else R.color.bad))
+            val colour =
+                when {
+                    !isReady -> R.color.bad
+                    item.note != null -> R.color.text
+                    else -> R.color.good
+                }
+            words.setTextColor(context.getColor(colour))
             mending = if (isReady || item == null) null else mending(item)
             mend.say(mending?.let { context.getString(it.first) })
         }
@@ -131,6 +141,8 @@ internal class StartScreen(private val context: Context, private val host: Scree
                 (if (host.isRefusedForGood) R.string.allow_in_settings else R.string.allow) to host::allow
             PreflightReason.RECEIVER_OFF ->
                 R.string.open_location to { host.leave(Intent(Settings.ACTION_LOCATION_SOURCE_SETTINGS)) }
+            PreflightReason.OTHER_WATER, PreflightReason.NOT_REPORTED ->
+                R.string.open_mission to { host.open(ScreenName.MISSION) }
             PreflightReason.LITTLE_ROOM -> R.string.open_past to { host.open(ScreenName.PAST) }
             PreflightReason.NOT_EXEMPT -> R.string.exempt_button to host::exempt
             PreflightReason.NO_LINK, PreflightReason.NOT_CONNECTED, PreflightReason.BOARD_SILENT ->

@@ -3,10 +3,13 @@ package stillwater.app.screen
 import android.content.Context
 import stillwater.app.R
 import stillwater.app.link.LinkState
+import stillwater.app.mission.LogProblem
 import stillwater.app.service.Answer
 import stillwater.app.service.BoatActivity
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.PreflightCheck
+import stillwater.app.service.PreflightItem
+import stillwater.app.service.PreflightNote
 import stillwater.app.service.PreflightReason
 import stillwater.app.setup.words
 import stillwater.control.Danger
@@ -89,6 +92,14 @@ internal fun Context.boundsWords(lower: Double, upper: Double, range: Interval?)
     }
 }
 
+/** Why a log is not written. */
+internal fun Context.logWords(problem: LogProblem): String =
+    when (problem.reason) {
+        LogProblem.Reason.NOT_WRITTEN -> problem.words.orEmpty()
+        LogProblem.Reason.LITTLE_ROOM -> getString(R.string.log_little_room)
+        LogProblem.Reason.NO_FOLDER -> getString(R.string.log_no_folder)
+    }
+
 /** Why a command was not followed. */
 internal fun Context.answerWords(answer: Answer): String {
     val words =
@@ -99,6 +110,8 @@ internal fun Context.answerWords(answer: Answer): String {
             Answer.Reason.UNDER_WAY -> R.string.answer_under_way
             Answer.Reason.NOT_UNDER_WAY -> R.string.answer_not_under_way
             Answer.Reason.OVER -> R.string.answer_over
+            Answer.Reason.OF_A_REAL_BOAT -> R.string.answer_of_a_real_boat
+            Answer.Reason.OF_THE_VIRTUAL_BOAT -> R.string.answer_of_the_virtual_boat
         }
     return listOfNotNull(getString(words), answer.words).joinToString(": ")
 }
@@ -108,15 +121,31 @@ internal fun PreflightCheck.words(): Int =
     when (this) {
         PreflightCheck.PERMISSIONS -> R.string.check_permissions
         PreflightCheck.LINK -> R.string.check_link
+        PreflightCheck.PROBE -> R.string.check_probe
         PreflightCheck.FIX -> R.string.check_fix
+        PreflightCheck.PLACE -> R.string.check_place
         PreflightCheck.BOAT_BATTERY -> R.string.check_boat_battery
         PreflightCheck.PHONE_BATTERY -> R.string.check_phone_battery
         PreflightCheck.STORAGE -> R.string.check_storage
         PreflightCheck.BATTERY_SAVER -> R.string.check_battery_saver
     }
 
+/** What a line of the checklist says besides its name: why it is red, or what is worth knowing; null for nothing. */
+internal fun Context.preflightWords(item: PreflightItem): String? {
+    val words = item.reason?.words() ?: item.note?.words() ?: return null
+    return item.metres?.let { getString(words, distance(it)) } ?: getString(words)
+}
+
+private fun PreflightNote.words(): Int =
+    when (this) {
+        PreflightNote.NOT_REPORTED -> R.string.note_not_reported
+        PreflightNote.PROBE_SILENT -> R.string.note_probe_silent
+        PreflightNote.NOT_WATCHED -> R.string.note_not_watched
+        PreflightNote.ON_THE_WAY -> R.string.note_on_the_way
+    }
+
 /** Why a line of the checklist is red. */
-internal fun PreflightReason.words(): Int =
+private fun PreflightReason.words(): Int =
     when (this) {
         PreflightReason.NOT_PERMITTED -> R.string.reason_not_permitted
         PreflightReason.NO_LINK -> R.string.reason_no_link
@@ -128,6 +157,8 @@ internal fun PreflightReason.words(): Int =
         PreflightReason.FIX_OLD -> R.string.reason_fix_old
         PreflightReason.FIX_WIDE -> R.string.reason_fix_wide
         PreflightReason.NO_HEADING -> R.string.reason_no_heading
+        PreflightReason.OTHER_WATER -> R.string.reason_other_water
+        PreflightReason.NOT_REPORTED -> R.string.reason_not_reported
         PreflightReason.UNKNOWN_CHARGE -> R.string.reason_unknown_charge
         PreflightReason.LOW_CHARGE -> R.string.reason_low_charge
         PreflightReason.LITTLE_ROOM -> R.string.reason_little_room

@@ -1,7 +1,7 @@
 package stillwater.app.screen
 
 import android.content.Context
-import android.widget.LinearLayout
+import android.widget.ScrollView
 import stillwater.app.R
 import stillwater.app.mission.MissionReport
 import stillwater.app.mission.TracePoint
@@ -18,14 +18,19 @@ internal class TraceScreen(private val context: Context) : Screen {
     private val trace = TraceView(context).apply { id = R.id.trace }
     private var drawn: MissionReport? = null
 
-    override val view: LinearLayout =
-        context.column().apply {
-            val gap = resources.getDimensionPixelSize(R.dimen.gap)
-            setPadding(gap, 0, gap, gap / 2)
-            below(reading)
-            below(corrected)
-            below(gradient)
-            below(trace, weight = 1f)
+    override val view: ScrollView =
+        ScrollView(context).apply {
+            isFillViewport = true
+            addView(
+                context.column().apply {
+                    val gap = resources.getDimensionPixelSize(R.dimen.gap)
+                    setPadding(gap, 0, gap, gap / 2)
+                    below(reading)
+                    below(corrected)
+                    below(gradient)
+                    below(trace, weight = 1f)
+                },
+            )
         }
 
     init {

@@ -39,6 +39,7 @@ internal class TraceView(context: Context) : View(context) {
 
     init {
         contentDescription = described(scene)
+        minimumHeight = (LEAST_HEIGHT * words.textSize).toInt()
     }
 
     override fun onDraw(canvas: Canvas) {
@@ -149,9 +150,13 @@ internal class TraceView(context: Context) : View(context) {
         val baseline = panel.bottom + words.textSize + GAP_DP * density
         words.textAlign = Paint.Align.LEFT
         val ago = context.duration(panel.time.high - panel.time.low)
-        canvas.drawText(resources.getString(R.string.trace_ago, ago), panel.left, baseline, words)
+        val since = resources.getString(R.string.trace_ago, ago)
+        canvas.drawText(since, panel.left, baseline, words)
         words.textAlign = Paint.Align.RIGHT
-        canvas.drawText(resources.getString(R.string.trace_now), panel.right, baseline, words)
+        // Where there is room beside the other end; which is newer is seen by that end, too.
+        val now = resources.getString(R.string.trace_now)
+        if (words.measureText(since) + words.measureText(now) + words.textSize > panel.right - panel.left) return
+        canvas.drawText(now, panel.right, baseline, words)
     }
 
     private fun described(scene: TraceScene): String {
@@ -211,6 +216,9 @@ internal class TraceView(context: Context) : View(context) {
         const val LINE_DP = 2.5f
         const val HAIR_DP = 0.75f
         const val UPPER_SHARE = 0.66f
+
+        /** Lines of text that the upper curve needs. */
+        const val LEAST_HEIGHT = 9
 
         /** Lines of text that both curves together need. */
         const val LEAST_LINES = 14

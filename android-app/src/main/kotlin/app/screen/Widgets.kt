@@ -16,6 +16,7 @@ import android.widget.ScrollView
 import android.widget.TextView
 import stillwater.app.AboveMinSdk
 import stillwater.app.R
+import kotlin.math.roundToInt
 
 /** A line of text in the app's large type. */
 internal fun Context.line(text: CharSequence, colour: Int = R.color.text): TextView =
@@ -82,6 +83,23 @@ internal fun Context.largeButton(text: CharSequence, action: () -> Unit): Button
         setOnClickListener { action() }
     }
 
+/** A button beside several others on every width: its few letters grow with the type, but for what finds no room. */
+internal fun Context.narrowButton(text: CharSequence, action: () -> Unit): Button =
+    largeButton(text, action).apply {
+        val most = MOST_NARROW * resources.displayMetrics.density
+        setTextSize(TypedValue.COMPLEX_UNIT_PX, minOf(resources.getDimension(R.dimen.text), most))
+        setPadding(0, paddingTop, 0, paddingBottom)
+    }
+
+/** [view], which scrolls where it is higher than [share] of the screen. */
+internal fun Context.lowScroll(view: View, share: Float): ScrollView =
+    object : ScrollView(this) {
+        override fun onMeasure(widthMeasureSpec: Int, heightMeasureSpec: Int) {
+            val most = (share * resources.displayMetrics.heightPixels).toInt()
+            super.onMeasure(widthMeasureSpec, MeasureSpec.makeMeasureSpec(most, MeasureSpec.AT_MOST))
+        }
+    }.apply { addView(view) }
+
 /** The button that is on every screen. */
 internal fun Context.stopButton(action: () -> Unit): Button =
     largeButton(getString(R.string.stop), action).apply {
@@ -116,10 +134,16 @@ internal fun Context.row(vararg views: View): LinearLayout =
         for (view in views) addView(view, LinearLayout.LayoutParams(0, ViewGroup.LayoutParams.MATCH_PARENT, 1f))
     }
 
-/** [views] beside each other, or below each other where their words would break: on a narrow phone with large type. */
-internal fun Context.rowIfWide(vararg views: View): LinearLayout {
-    val letters = resources.configuration.run { screenWidthDp / fontScale }
-    if (letters >= LEAST_FOR_ROWS) return row(*views)
+/** Width of the screen in the size of the usual type, dp: half of it with type twice as large. */
+internal val Context.letters: Float get() = resources.configuration.run { screenWidthDp / fontScale }
+
+/**
+ * [views] beside each other, or below each other where their words would break: on a narrow phone with large type.
+ *
+ * @param share of the screen's width that there is for them.
+ */
+internal fun Context.rowIfWide(vararg views: View, share: Float = 1f): LinearLayout {
+    if (share * letters >= LEAST_FOR_ROWS) return row(*views)
     return column().apply { views.forEach { below(it) } }
 }
 
@@ -152,12 +176,24 @@ internal fun Context.duration(seconds: Double): String {
     }
 }
 
+/** A way of [metres] m: in whole metres up to a kilometre, in kilometres beyond. */
+internal fun Context.distance(metres: Double): String =
+    if (metres < KILOMETRE) {
+        getString(R.string.metres, metres.roundToInt())
+    } else {
+        getString(R.string.kilometres, metres / KILOMETRE)
+    }
+
 /** The unit of a change of what is measured in [unit], which may be empty. */
 internal fun Context.perSecond(unit: String): String =
     if (unit.isEmpty()) getString(R.string.per_second) else getString(R.string.unit_per_second, unit)
 
 private const val MINUTE = 60
 private const val HOUR = 3600
+private const val KILOMETRE = 1000.0
+
+/** Size of the type in a quarter of a narrow screen, dp: four letters find room. */
+private const val MOST_NARROW = 27f
 
 /** Width for three buttons beside each other, dp at the usual type. */
 private const val LEAST_FOR_ROWS = 300

@@ -59,20 +59,29 @@ internal class WindowFrame(private val context: Context, onMenu: () -> Unit, onS
     private var shown: String? = null
 
     private fun standing(stop: View): LinearLayout {
-        val head =
-            LinearLayout(context).apply {
-                val wrap = ViewGroup.LayoutParams.WRAP_CONTENT
-                isBaselineAligned = false
-                gravity = Gravity.CENTER_VERTICAL
-                addView(menu, LinearLayout.LayoutParams(0, wrap, MENU_SHARE))
-                addView(padded(state), LinearLayout.LayoutParams(0, wrap, STATE_SHARE))
-            }
+        // Beside each other both would break their words where the type is large and the phone narrow.
+        val isNarrow = context.letters < LEAST_BESIDE
+        val head = if (isNarrow) context.column().apply { onTop() } else beside()
         return context.column().apply {
             below(head)
             below(screens, weight = 1f)
             below(stop)
         }
     }
+
+    private fun LinearLayout.onTop() {
+        below(menu)
+        below(padded(state))
+    }
+
+    private fun beside(): LinearLayout =
+        LinearLayout(context).apply {
+            val wrap = ViewGroup.LayoutParams.WRAP_CONTENT
+            isBaselineAligned = false
+            gravity = Gravity.CENTER_VERTICAL
+            addView(menu, LinearLayout.LayoutParams(0, wrap, MENU_SHARE))
+            addView(padded(state), LinearLayout.LayoutParams(0, wrap, STATE_SHARE))
+        }
 
     private fun lying(stop: View): LinearLayout {
         val side =
@@ -95,6 +104,8 @@ internal class WindowFrame(private val context: Context, onMenu: () -> Unit, onS
         }
 
     private companion object {
+        /** Width for the menu's button with the state beside it, dp at the usual type. */
+        const val LEAST_BESIDE = 200
         const val MENU_SHARE = 2f
         const val STATE_SHARE = 3f
         const val SIDE_SHARE = 3f

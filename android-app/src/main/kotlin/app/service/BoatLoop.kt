@@ -11,10 +11,12 @@ import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkMaker
 import stillwater.app.link.LinkState
+import stillwater.app.mission.BoatAtHand
 import stillwater.app.mission.MissionControl
 import stillwater.app.pose.PhonePose
 import stillwater.app.pose.Pose
 import stillwater.app.pose.PoseProblem
+import stillwater.mission.MissionSpec
 import stillwater.mission.Wish
 import stillwater.model.Actuation
 import stillwater.wire.BoardState
@@ -39,8 +41,9 @@ internal class BoatLoop(
     private val held = HeldLink()
     private val phone = PhonePose(context)
     private val gaps = GapDetector()
+    private val area = AreaDistance()
     private val watchdog = Watchdog()
-    private var demo: DemoBoat? = null
+    @Volatile private var demo: DemoBoat? = null
     private var due = 0L
     private var ticks = 0L
     private var askedAt = Double.NEGATIVE_INFINITY
@@ -58,6 +61,9 @@ internal class BoatLoop(
     /** Why the service may not run; any thread. */
     @Volatile var refusal: String? = null
 
+    /** Whether Android gives no position before a window is in sight; any thread. */
+    @Volatile var isWithoutPlace = false
+
     /** Whether a screen is in sight: without a link too, an area can be drawn by walking along it. */
     var isLookedAt = false
 
@@ -70,6 +76,9 @@ internal class BoatLoop(
 
     /** The thread that looks after this one. */
     internal val watchdogLooper get() = watchdog.looper
+
+    /** Readings that the demo's probe has sent, by its own count; null where there is no demo. */
+    internal val demoReadings: Long? get() = demo?.readings
 
     private val pose: Pose get() = demo?.pose ?: phone
 
@@ -87,7 +96,8 @@ internal class BoatLoop(
     /** Ends, as the process does: nothing is closed that a later one may go on with. */
     fun leave() {
         handler.removeCallbacks(tick)
-        if (missions.isMoving) standStill()
+        // Armed, too, and at rest: nobody is left to say the next word.
+        if (missions.isUnderWay) standStill()
         missions.leave()
         watchdog.stop()
         held.hold(null)
@@ -171,7 +181,8 @@ internal class BoatLoop(
     /** Arms, with [wish] for what comes after. */
     fun begin(wish: Wish) {
         check(now())
-        command { begin(held.takeIf { it.link != null }, checks.all { it.ready }, wish) }
+        val boat = held.link?.let { BoatAtHand(held, it.name, isVirtual = demo != null) }
+        command { begin(boat, checks.all { it.ready }, wish) }
     }
 
     private val tick: Runnable =
@@ -256,15 +267,23 @@ internal class BoatLoop(
                     link = held.link?.health ?: LinkHealth(),
                     boardSilence = now - heardAt,
                     volts = held.ears.report.batteryVolts,
-                    lowestVolts = missions.spec?.failsafe?.lowestVolts ?: 0.0,
+                    lowestVolts = missions.spec?.failsafe?.lowestVolts,
                     pose = pose.problem,
                     fixAgeSeconds = age(fix?.elapsedNanos),
                     accuracyMetres = fix?.accuracyMetres,
                     hasHeading = age(pose.heading?.elapsedNanos)?.let { it <= OLDEST_HEADING } == true,
                     isVirtual = demo != null,
+                    metresToArea = missions.spec?.let { spec -> fix?.let { area.metresTo(spec, it.place) } },
+                    hasProbe = missions.spec?.let(::isHeard) != false,
+                    hasMission = missions.spec != null,
                 ),
             )
     }
+
+    private fun isHeard(spec: MissionSpec): Boolean =
+        held.ears.report.probes.any {
+            it.quantity == spec.probe.quantity && (spec.probe.port == null || spec.probe.port == it.port)
+        }
 
     private fun look(now: Double) {
         check(now)
@@ -279,6 +298,7 @@ internal class BoatLoop(
                 link = link?.health ?: LinkHealth(),
                 board = held.ears.report,
                 refusal = refusal,
+                isWithoutPlace = isWithoutPlace,
                 fix = fix,
                 fixAgeSeconds = age(fix?.elapsedNanos),
                 fixes = missions.fixes(pose),
@@ -295,7 +315,7 @@ internal class BoatLoop(
 
     /** What the notification says. */
     private fun told(shot: BoatSnapshot) =
-        listOf(shot.link.state, shot.linkName, shot.mission?.state, shot.mission?.log?.problem)
+        listOf(shot.link.state, shot.linkName, shot.mission?.state, shot.mission?.log?.problem, shot.isWithoutPlace)
 
     private fun age(elapsedNanos: Long?): Double? = elapsedNanos?.let { now() - it * SECONDS_PER_NANO }
 

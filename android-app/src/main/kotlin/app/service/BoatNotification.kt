@@ -8,6 +8,7 @@ import android.content.Context
 import android.content.Intent
 import stillwater.app.R
 import stillwater.app.screen.MainActivity
+import stillwater.app.screen.logWords
 import stillwater.app.screen.missionWords
 import stillwater.app.screen.words
 import stillwater.mission.MissionState
@@ -24,25 +25,41 @@ internal class BoatNotification(private val context: Context) {
 
     /** The notification for [snapshot]. */
     fun of(snapshot: BoatSnapshot): Notification {
-        val open =
-            Intent(context, MainActivity::class.java).let {
-                PendingIntent.getActivity(context, 0, it, PendingIntent.FLAG_IMMUTABLE)
-            }
         val stop =
             PendingIntent.getService(context, 1, BoatService.stopIntent(context), PendingIntent.FLAG_IMMUTABLE)
         val link = context.getString(snapshot.link.state.words())
         val text = context.getString(R.string.notification_link, snapshot.linkName.orEmpty(), link)
-        val trouble = snapshot.mission?.log?.problem?.let { context.getString(R.string.notification_log, it) }
-        return Notification
-            .Builder(context, CHANNEL)
-            .setSmallIcon(R.drawable.ic_boat)
-            .setContentTitle(title(snapshot))
-            .setContentText(listOfNotNull(text, trouble).joinToString(". "))
-            .setContentIntent(open)
+        val trouble =
+            snapshot.mission?.log?.problem?.let { context.getString(R.string.notification_log, context.logWords(it)) }
+        val blind = context.getString(R.string.notification_open).takeIf { snapshot.isWithoutPlace }
+        return opening(title(snapshot))
+            .setContentText(listOfNotNull(blind, text, trouble).joinToString(". "))
             .setOngoing(true)
             .setOnlyAlertOnce(true)
             .addAction(Notification.Action.Builder(null, context.getString(R.string.stop), stop).build())
             .build()
+    }
+
+    /** The notification that Android did not let the service run. */
+    fun ofRefusal(): Notification =
+        opening(context.getString(R.string.activity_refused))
+            .setContentText(context.getString(R.string.notification_refused))
+            .setAutoCancel(true)
+            .build()
+
+    /** One under [title] that opens the app. */
+    private fun opening(title: String): Notification.Builder {
+        val open =
+            Intent(context, MainActivity::class.java).let {
+                PendingIntent.getActivity(context, 0, it, PendingIntent.FLAG_IMMUTABLE)
+            }
+        return Notification
+            .Builder(context, CHANNEL)
+            .setSmallIcon(R.drawable.ic_boat)
+            .setContentTitle(title)
+            .setContentIntent(open)
+            // On a locked phone, too: STOP is in it, and nothing that is nobody's business.
+            .setVisibility(Notification.VISIBILITY_PUBLIC)
     }
 
     private fun title(snapshot: BoatSnapshot): String {
@@ -59,5 +76,8 @@ internal class BoatNotification(private val context: Context) {
 
         /** The service's notification; Android takes any number but 0. */
         const val ID = 1
+
+        /** The one of a refusal: it stays when the service is gone. */
+        const val REFUSED_ID = 2
     }
 }

@@ -43,6 +43,12 @@ open class BoatService :
     private lateinit var loop: BoatLoop
     private lateinit var notification: BoatNotification
 
+    /** Whether Android took the service into the foreground without giving it the phone's position; main thread. */
+    private var isWithoutPlace = false
+
+    /** Whether a window shows what the service does; main thread. */
+    private var isInSight = false
+
     @Volatile private var wakeLock: PowerManager.WakeLock? = null
 
     override val snapshot: BoatSnapshot get() = loop.snapshot
@@ -53,6 +59,9 @@ open class BoatService :
     /** The thread of files. */
     internal val diskLooper: Looper get() = diskThread.looper
 
+    /** Readings that the demo's probe has sent, by its own count; null where there is no demo. */
+    internal val demoReadings: Long? get() = loop.demoReadings
+
     /** The thread that looks after the boat's. */
     internal val watchdogLooper: Looper get() = loop.watchdogLooper
 
@@ -62,13 +71,32 @@ open class BoatService :
     }
 
     override fun onBind(intent: Intent?): IBinder {
-        onBoat { isLookedAt = true }
+        lookedAt()
         return Local()
     }
 
-    override fun onRebind(intent: Intent?) = onBoat { isLookedAt = true }
+    override fun onRebind(intent: Intent?) = lookedAt()
+
+    private fun lookedAt() {
+        isInSight = true
+        askForPlace()
+        onBoat { isLookedAt = true }
+    }
+
+    /** While a window is in sight Android does not refuse what it refused in the background, if perhaps not at once. */
+    private fun askForPlace() {
+        if (!isWithoutPlace || !isInSight) return
+        try {
+            enter(snapshot, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION)
+        } catch (error: IllegalStateException) {
+            // All stays as it was.
+            Log.w(TAG, "no position yet: $error")
+        }
+        if (isWithoutPlace) Handler(Looper.getMainLooper()).postDelayed(::askForPlace, ASK_AGAIN_MILLIS)
+    }
 
     override fun onUnbind(intent: Intent?): Boolean {
+        isInSight = false
         onBoat { isLookedAt = false }
         return true
     }
@@ -102,6 +130,7 @@ open class BoatService :
         val asked = intent?.let(LinkChoice::of)
         if (!enterForeground(BoatSnapshot(loop.activity), asked is LinkChoice.Demo)) return START_NOT_STICKY
         loop.refusal = null
+        getSystemService(NotificationManager::class.java)?.cancel(BoatNotification.REFUSED_ID)
         handler.post { begin(asked) }
         return START_STICKY
     }
@@ -145,36 +174,46 @@ open class BoatService :
     /** Whether the service may go on; [isDemo], which nobody trusts a boat to, does without the foreground. */
     private fun enterForeground(first: BoatSnapshot, isDemo: Boolean): Boolean =
         try {
-            foreground(notification.of(first))
-            true
+            // From Android 14 on the position is refused to a service that Android itself starts again, after the
+            // process died: the link and the log go on, and the position comes once a window is in sight.
+            val error = enter(first, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION)
+            error == null || isDemo || enter(first, LINK_ONLY) == null || refused(error)
         } catch (error: IllegalStateException) {
             // From Android 12 on: started from where no foreground service may be started.
             refused(error)
-        } catch (error: SecurityException) {
-            // From Android 14 on: a permission that one of the types asks for is missing.
-            isDemo || refused(error)
         }
 
-    /** What Android may refuse, and a test's service does. */
-    internal open fun foreground(shown: Notification) {
+    /** Enters the foreground for the link and for [more]; answers what a missing permission has against it. */
+    private fun enter(shown: BoatSnapshot, more: Int): SecurityException? =
+        try {
+            val isLinkOnly = more == LINK_ONLY
+            foreground(notification.of(shown.copy(isWithoutPlace = isLinkOnly)), more)
+            isWithoutPlace = isLinkOnly
+            loop.isWithoutPlace = isLinkOnly
+            null
+        } catch (error: SecurityException) {
+            Log.w(TAG, "not in the foreground as $more: $error")
+            error
+        }
+
+    /** What Android may refuse, and a test's service does: for the link, and for [more]. */
+    internal open fun foreground(shown: Notification, more: Int) {
         if (Build.VERSION.SDK_INT >= Build.VERSION_CODES.Q) {
-            typedForeground(shown)
+            typedForeground(shown, more)
         } else {
             startForeground(BoatNotification.ID, shown)
         }
     }
 
     @AboveMinSdk
-    private fun typedForeground(shown: Notification) {
-        val types =
-            ServiceInfo.FOREGROUND_SERVICE_TYPE_CONNECTED_DEVICE or ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION
-        startForeground(BoatNotification.ID, shown, types)
-    }
+    private fun typedForeground(shown: Notification, more: Int) =
+        startForeground(BoatNotification.ID, shown, ServiceInfo.FOREGROUND_SERVICE_TYPE_CONNECTED_DEVICE or more)
 
     private fun refused(error: Exception): Boolean {
-        Log.w("Stillwater", "not in the foreground: $error")
         loop.activity = BoatActivity.REFUSED
         loop.refusal = error.message ?: error.javaClass.simpleName
+        // Nobody may be looking, and what is not in the foreground has no notification of its own.
+        getSystemService(NotificationManager::class.java)?.notify(BoatNotification.REFUSED_ID, notification.ofRefusal())
         stopSelf()
         return false
     }
@@ -235,6 +274,9 @@ open class BoatService :
         }
 
     companion object {
+        private const val TAG = "Stillwater"
+        private const val LINK_ONLY = 0
+        private const val ASK_AGAIN_MILLIS = 1_000L
         private const val STOP = "stillwater.app.STOP"
         private const val KEPT = "held-link"
         private const val LOGS = "missions"

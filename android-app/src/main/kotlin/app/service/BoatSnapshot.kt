@@ -28,6 +28,7 @@ enum class BoatActivity {
  * @property isDemo whether boat and water are the virtual ones.
  * @property board what the board said on this connection.
  * @property refusal the system's words, null unless [activity] is REFUSED.
+ * @property isWithoutPlace whether Android gives no position before a window is in sight.
  * @property fix newest fix of the phone, null before the first.
  * @property fixAgeSeconds how long ago [fix] was, s.
  * @property fixes what became of the fixes.
@@ -46,6 +47,7 @@ data class BoatSnapshot(
     val link: LinkHealth = LinkHealth(),
     val board: BoardReport = BoardReport(),
     val refusal: String? = null,
+    val isWithoutPlace: Boolean = false,
     val fix: PhoneFix? = null,
     val fixAgeSeconds: Double? = null,
     val fixes: FixCounts = FixCounts(),
@@ -105,5 +107,11 @@ data class Answer(val reason: Reason, val words: String? = null) {
 
         /** The mission is over: load it again. */
         OVER,
+
+        /** The mission that was recovered is of a real boat, and the demo's is connected. */
+        OF_A_REAL_BOAT,
+
+        /** The mission that was recovered is of the demo's boat, and a real one is connected. */
+        OF_THE_VIRTUAL_BOAT,
     }
 }

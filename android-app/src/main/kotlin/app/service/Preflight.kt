@@ -15,12 +15,31 @@ import stillwater.app.pose.PoseProblem
  * One line of the checklist before a start; all have to be [ready].
  *
  * @property reason what is not in order; null where [ready].
+ * @property note what a person should know of a line that is in order all the same; null where nothing.
+ * @property metres from the boat to the mission's water, where [reason] or [note] speaks of it; null elsewhere.
  */
 data class PreflightItem(
     val check: PreflightCheck,
     val ready: Boolean,
     val reason: PreflightReason? = null,
+    val note: PreflightNote? = null,
+    val metres: Double? = null,
 )
+
+/** What is worth knowing of a line that is in order. */
+enum class PreflightNote {
+    /** The board says nothing of its battery, and the mission does not ask. */
+    NOT_REPORTED,
+
+    /** The board says how much charge there is, and the mission does not ask. */
+    NOT_WATCHED,
+
+    /** The probe of the mission has not been heard on this connection: it may speak later, or be another one. */
+    PROBE_SILENT,
+
+    /** The boat is not on the mission's water yet, but near: armed, it waits until it is. */
+    ON_THE_WAY,
+}
 
 /** Why a line of the checklist is red. */
 enum class PreflightReason {
@@ -54,7 +73,13 @@ enum class PreflightReason {
     /** No compass, or it does not speak. */
     NO_HEADING,
 
-    /** The board has not said how much charge there is. */
+    /** The boat is so far from the mission's water that it must be another's. */
+    OTHER_WATER,
+
+    /** The board has not said how much charge there is, and the mission asks. */
+    NOT_REPORTED,
+
+    /** The phone does not say how much charge there is. */
     UNKNOWN_CHARGE,
 
     /** Too little charge. */
@@ -71,7 +96,9 @@ enum class PreflightReason {
 enum class PreflightCheck {
     PERMISSIONS,
     LINK,
+    PROBE,
     FIX,
+    PLACE,
     BOAT_BATTERY,
     PHONE_BATTERY,
     STORAGE,
@@ -84,24 +111,30 @@ enum class PreflightCheck {
  * @property hasLink whether a link was chosen.
  * @property boardSilence time since the board was understood, s; infinite before.
  * @property volts of the boat's battery, V; null before the board said so.
- * @property lowestVolts that the mission goes on with, V; 0 where none are measured or no mission is loaded.
+ * @property lowestVolts that the mission goes on with, V; 0 where it does not ask; null where no mission is loaded.
  * @property pose what stands in the way of a fix; null where nothing does.
  * @property fixAgeSeconds of the newest fix, s; null without.
  * @property accuracyMetres of the newest fix, m; null without.
  * @property hasHeading whether the compass speaks.
  * @property isVirtual whether boat and pose are the demo's.
+ * @property hasProbe whether the mission's probe was heard on this connection; true where no mission is loaded.
+ * @property hasMission whether a mission is loaded.
+ * @property metresToArea from the newest fix to the mission's water, m; 0 on it; null without a fix or a mission.
  */
 internal class BoatAtRest(
     val hasLink: Boolean = false,
     val link: LinkHealth = LinkHealth(),
     val boardSilence: Double = Double.POSITIVE_INFINITY,
     val volts: Double? = null,
-    val lowestVolts: Double = 0.0,
+    val lowestVolts: Double? = null,
     val pose: PoseProblem? = null,
     val fixAgeSeconds: Double? = null,
     val accuracyMetres: Float? = null,
     val hasHeading: Boolean = false,
     val isVirtual: Boolean = false,
+    val hasProbe: Boolean = true,
+    val hasMission: Boolean = false,
+    val metresToArea: Double? = null,
 )
 
 /** Looks at the phone. Touches the disk: not for the main thread. */
@@ -126,13 +159,27 @@ internal class Preflight(private val context: Context) {
                         PreflightReason.NOT_PERMITTED
                             .takeIf { !boat.isVirtual && missingPermissions(context).isNotEmpty() }
                     PreflightCheck.LINK -> link(boat)
+                    // Not every board lets its probes speak before it is armed: silence is told, and refuses nothing.
+                    PreflightCheck.PROBE -> null
                     PreflightCheck.FIX -> fix(boat)
+                    PreflightCheck.PLACE -> place(boat)
                     PreflightCheck.BOAT_BATTERY -> boatBattery(boat)
                     PreflightCheck.PHONE_BATTERY -> phoneBattery()
                     PreflightCheck.STORAGE -> PreflightReason.LITTLE_ROOM.takeIf { storage < LEAST_STORAGE }
                     PreflightCheck.BATTERY_SAVER -> PreflightReason.NOT_EXEMPT.takeIf { !isExempt() && !boat.isVirtual }
                 }
-            PreflightItem(check, reason == null, reason)
+            val note = if (reason == null) note(check, boat) else null
+            val speaksOfPlace = reason == PreflightReason.OTHER_WATER || note == PreflightNote.ON_THE_WAY
+            PreflightItem(check, reason == null, reason, note, boat.metresToArea.takeIf { speaksOfPlace })
+        }
+
+    private fun note(check: PreflightCheck, boat: BoatAtRest): PreflightNote? =
+        when {
+            check == PreflightCheck.PLACE && (boat.metresToArea ?: 0.0) > 0 -> PreflightNote.ON_THE_WAY
+            check == PreflightCheck.PROBE && !boat.hasProbe -> PreflightNote.PROBE_SILENT
+            check != PreflightCheck.BOAT_BATTERY || boat.lowestVolts != 0.0 -> null
+            boat.volts == null -> PreflightNote.NOT_REPORTED
+            else -> PreflightNote.NOT_WATCHED
         }
 
     private fun link(boat: BoatAtRest): PreflightReason? =
@@ -158,11 +205,24 @@ internal class Preflight(private val context: Context) {
         }
     }
 
+    private fun place(boat: BoatAtRest): PreflightReason? {
+        val metres = boat.metresToArea
+        return when {
+            !boat.hasMission -> null
+            metres == null -> PreflightReason.NO_FIX
+            metres > FARTHEST_WATER -> PreflightReason.OTHER_WATER
+            else -> null
+        }
+    }
+
+    /** Core's policy has 0 V where no voltage is measured: a boat without the wire for it is not kept ashore. */
     private fun boatBattery(boat: BoatAtRest): PreflightReason? {
         val volts = boat.volts
+        val lowest = boat.lowestVolts
         return when {
-            volts == null -> PreflightReason.UNKNOWN_CHARGE
-            volts < boat.lowestVolts -> PreflightReason.LOW_CHARGE
+            lowest == 0.0 -> null
+            volts == null -> PreflightReason.NOT_REPORTED
+            lowest != null && volts < lowest -> PreflightReason.LOW_CHARGE
             else -> null
         }
     }
@@ -178,6 +238,9 @@ internal class Preflight(private val context: Context) {
     companion object {
         /** A receiver gives one fix a second; three missed ones are a gap. s. */
         const val OLDEST_FIX = 3.0
+
+        /** From a car park to the jetty it may be so far, m; a mission of last week's lake is farther. */
+        const val FARTHEST_WATER = 1_000.0
 
         /** A board speaks ten times a second, s. */
         private const val LONGEST_SILENCE = 2.0

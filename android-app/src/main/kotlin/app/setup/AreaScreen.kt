@@ -17,6 +17,7 @@ import stillwater.app.screen.column
 import stillwater.app.screen.heading
 import stillwater.app.screen.largeButton
 import stillwater.app.screen.liveLine
+import stillwater.app.screen.narrowButton
 import stillwater.app.screen.row
 import stillwater.app.screen.rowIfWide
 import stillwater.app.screen.say
@@ -72,14 +73,16 @@ internal class AreaScreen(
     }
 
     private fun laidOut(): View {
+        val isWide = context.resources.configuration.orientation == Configuration.ORIENTATION_LANDSCAPE
+        val share = if (isWide) LYING_SHARE else 1f
         val controls =
             context.column().apply {
                 val gap = resources.getDimensionPixelSize(R.dimen.gap)
                 setPadding(gap, 0, gap, gap)
                 below(summary)
                 below(problem)
-                below(context.rowIfWide(drop, remove))
-                below(context.rowIfWide(shore, keepOut, home))
+                below(context.rowIfWide(drop, remove, share = share))
+                below(context.rowIfWide(shore, keepOut, home, share = share))
                 below(
                     context.row(
                         zoomButton(R.string.zoom_out, R.string.zoom_out_said) { water.zoom(1 / ZOOM) },
@@ -87,7 +90,7 @@ internal class AreaScreen(
                         zoomButton(R.string.show_all, R.string.show_all_said) { water.showAll() },
                     ),
                 )
-                below(context.row(polygon, rectangle))
+                below(context.rowIfWide(polygon, rectangle, share = share))
                 below(context.heading(context.getString(R.string.coordinates)))
                 below(latitude)
                 below(longitude)
@@ -96,7 +99,6 @@ internal class AreaScreen(
                 below(button(R.string.area_done, R.id.area_done) { host.back() })
             }
         val scroll = ScrollView(context).apply { addView(controls) }
-        val isWide = context.resources.configuration.orientation == Configuration.ORIENTATION_LANDSCAPE
         return LinearLayout(context).apply {
             orientation = if (isWide) LinearLayout.HORIZONTAL else LinearLayout.VERTICAL
             addView(water, share(isWide, WATER_SHARE))
@@ -113,7 +115,7 @@ internal class AreaScreen(
         context.largeButton(context.getString(words), action).also { it.id = id }
 
     private fun zoomButton(words: Int, said: Int, action: () -> Unit): Button =
-        context.largeButton(context.getString(words), action).also { it.contentDescription = context.getString(said) }
+        context.narrowButton(context.getString(words), action).also { it.contentDescription = context.getString(said) }
 
     /** The draft's frame begins where the phone is, unless something has been drawn. */
     private fun refresh() {
@@ -212,6 +214,9 @@ internal class AreaScreen(
 
     private companion object {
         const val WATER_SHARE = 3f
+
+        /** Of a lying phone's width that the controls have, beside the water and the window's frame. */
+        const val LYING_SHARE = 0.28f
         const val CONTROLS_SHARE = 2f
         const val ZOOM = 1.6f
 

@@ -4,6 +4,7 @@ import org.junit.After
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
+import org.robolectric.RuntimeEnvironment
 import java.util.concurrent.TimeUnit
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
@@ -18,7 +19,8 @@ class ReconnectingLinkTest {
     private val pause = FakePause()
 
     @Volatile private var uptime = 0L
-    private val link = ReconnectingLink(transport, pause) { uptime }
+    private val words: (Int) -> String = RuntimeEnvironment.getApplication()::getString
+    private val link = link(Parting(longestMillis = 30_000, lingeringMillis = 0))
 
     @After
     fun closeLink() = link.close()
@@ -94,7 +96,7 @@ class ReconnectingLinkTest {
     fun closingEndsAReadThatWaits() {
         val board = connected()
         link.close()
-        assertTrue(board.closed)
+        eventually("closed") { Unit.takeIf { board.closed } }
         assertEquals(LinkState.CLOSED, link.health.state)
         assertFalse(link.write("x".toByteArray()))
     }
@@ -123,6 +125,74 @@ class ReconnectingLinkTest {
         board.mayWrite.release(Int.MAX_VALUE)
         val sent = List(9) { assertNotNull(board.written.poll(PATIENCE_SECONDS, TimeUnit.SECONDS)).single().toInt() }
         assertEquals(listOf(0) + (12..19), sent)
+    }
+
+    /** In the worst of ways: not even closing the connection ends the write. */
+    @Test
+    fun aWriteThatHangsIsGivenUpCountedAndTheNextConnectionTakesCommands() {
+        val board = connected()
+        board.mayWrite.drainPermits()
+        assertTrue(link.write("go\n".toByteArray()))
+        eventually("being written") { board.mayWrite.hasQueuedThreads().takeIf { it } }
+        uptime = CommandWriter.LONGEST_WRITE_MILLIS
+        assertEquals(0, link.read(ByteArray(8)))
+        assertEquals(LinkState.CONNECTED, link.health.state, "it may only be slow")
+        uptime++
+        link.write("stop\n".toByteArray())
+        assertEquals(LinkState.WAITING, link.health.state)
+        link.read(ByteArray(8))
+        assertEquals(1L to 1L, link.health.run { writesHung to drops })
+        assertEquals("a command did not go out within a second", link.health.lastError)
+        eventually("closed") { Unit.takeIf { board.closed } }
+        val second = transport.next(FakeConnection())
+        assertEquals(500L, pause.passes())
+        eventually("connected") { link.health.takeIf { it.state == LinkState.CONNECTED } }
+        assertTrue(link.write("stop\n".toByteArray()))
+        assertEquals("stop\n", String(assertNotNull(second.written.poll(PATIENCE_SECONDS, TimeUnit.SECONDS))))
+        assertEquals(listOf(2L, 1L, 0L, 1L), link.health.run { listOf(connects, drops, failures, writesHung) })
+    }
+
+    @Test
+    fun attemptsThatFailAfterAWriteHungAreCounted() {
+        val board = connected()
+        board.mayWrite.drainPermits()
+        link.write("go\n".toByteArray())
+        eventually("being written") { board.mayWrite.hasQueuedThreads().takeIf { it } }
+        uptime = CommandWriter.LONGEST_WRITE_MILLIS + 1
+        link.read(ByteArray(8))
+        transport.next(FakeConnection("host is down"))
+        pause.passes()
+        val health = eventually("failed") { link.health.takeIf { it.failures == 1L } }
+        assertEquals("host is down", health.lastError)
+        assertEquals(1L, health.drops)
+    }
+
+    @Test
+    fun theLastWordsGoOutBeforeTheConnectionIsClosed() {
+        val board = connected()
+        board.mayWrite.drainPermits()
+        for (word in listOf("rest", "disarm")) assertTrue(link.write(word.toByteArray()))
+        eventually("being written") { board.mayWrite.hasQueuedThreads().takeIf { it } }
+        link.close()
+        assertEquals(LinkState.CLOSED, link.health.state)
+        assertFalse(link.write("go".toByteArray()), "none comes after them")
+        assertFalse(board.closed)
+        board.mayWrite.release(2)
+        val sent = List(2) { String(assertNotNull(board.written.poll(PATIENCE_SECONDS, TimeUnit.SECONDS))) }
+        assertEquals(listOf("rest", "disarm"), sent)
+        eventually("closed") { Unit.takeIf { board.closed } }
+    }
+
+    @Test
+    fun lastWordsThatDoNotGoOutAreNotWaitedForForEver() {
+        val hurried = link(Parting(longestMillis = 1, lingeringMillis = 0))
+        val board = transport.next(FakeConnection())
+        hurried.open()
+        eventually("connected") { hurried.health.takeIf { it.state == LinkState.CONNECTED } }
+        board.mayWrite.drainPermits()
+        hurried.write("rest".toByteArray())
+        hurried.close()
+        eventually("closed") { Unit.takeIf { board.closed } }
     }
 
     @Test
@@ -157,6 +227,8 @@ class ReconnectingLinkTest {
         ring.clear()
         assertEquals(0, ring.take(rest))
     }
+
+    private fun link(parting: Parting) = ReconnectingLink(transport, words, pause, parting) { uptime }
 
     private fun connected(): FakeConnection {
         val connection = transport.next(FakeConnection())

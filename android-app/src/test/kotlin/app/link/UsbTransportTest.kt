@@ -18,6 +18,10 @@ import org.robolectric.annotation.Config
 import org.robolectric.shadow.api.Shadow
 import org.robolectric.util.ReflectionHelpers
 import java.io.IOException
+import java.util.concurrent.CopyOnWriteArrayList
+import java.util.concurrent.LinkedBlockingQueue
+import java.util.concurrent.Semaphore
+import java.util.concurrent.TimeUnit
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
@@ -76,6 +80,23 @@ class UsbTransportTest {
         assertEquals(listOf("open", "115200 8 1 0"), driver.port.calls)
     }
 
+    /** With a time of up to 200 ms the library has been seen to lose bytes; without one, closing ends the wait. */
+    @Test
+    fun aReadWaitsWithoutEndAndClosingTheLinkEndsIt() {
+        val port = plugIn(granted = true).port
+        val link = ReconnectingLink(transport, context::getString, FakePause(), Parting(lingeringMillis = 0))
+        link.open()
+        port.arriving.put("{\"m0\"".toByteArray())
+        assertEquals("{\"m0\"", link.text())
+        val (size, timeout) = eventually("it reads on") { port.reads.takeIf { it.size == 2 }?.last() }
+        assertEquals(0, timeout)
+        assertTrue(size >= 512, "the largest packet of USB's bulk endpoints")
+        assertEquals(0, port.ended.availablePermits())
+        link.close()
+        assertTrue(port.ended.tryAcquire(PATIENCE_SECONDS, TimeUnit.SECONDS), "the reader has gone")
+        assertTrue("close" in port.calls)
+    }
+
     @Test
     fun aReplugIsAnotherDeviceAndIsFound() {
         plugIn(granted = true)
@@ -130,7 +151,7 @@ class UsbTransportTest {
     }
 
     private class FakePort : UsbSerialPort {
-        val calls = mutableListOf<String>()
+        val calls = CopyOnWriteArrayList<String>()
         val opened get() = calls.count { it == "open" }
         var hasLines = true
 
@@ -151,12 +172,31 @@ class UsbTransportTest {
 
         override fun setRTS(value: Boolean) = line("rts $value")
 
-        override fun read(into: ByteArray, timeoutMillis: Int): Int = 0
+        val arriving = LinkedBlockingQueue<ByteArray>()
+
+        /** Size of the buffer and time, ms, of each read so far. */
+        val reads = CopyOnWriteArrayList<Pair<Int, Int>>()
+
+        /** A permit for each read that a close has ended. */
+        val ended = Semaphore(0)
+
+        /** As the library's: without a time it waits until something comes or the port is closed. */
+        override fun read(into: ByteArray, timeoutMillis: Int): Int {
+            reads += into.size to timeoutMillis
+            val bytes = if (timeoutMillis == 0) arriving.take() else arriving.poll() ?: return 0
+            if (bytes.isEmpty()) {
+                ended.release()
+                throw IOException("Connection closed")
+            }
+            bytes.copyInto(into)
+            return bytes.size
+        }
 
         override fun write(from: ByteArray, timeoutMillis: Int) = Unit
 
         override fun close() {
             calls += "close"
+            arriving.put(ByteArray(0))
         }
     }
 }

@@ -66,7 +66,7 @@ class LogFileTest {
         log.line("first")
         log.flush()
         assertTrue(log.failed)
-        assertEquals("full", log.report.problem)
+        assertEquals(LogProblem(LogProblem.Reason.NOT_WRITTEN, "full"), log.report.problem)
         val megabyte = "x".repeat(1 shl 20)
         repeat(6) {
             log.line(megabyte)
@@ -90,6 +90,15 @@ class LogFileTest {
         log.flush()
         assertTrue(log.failed)
         assertEquals(1L, log.report.written)
+        assertEquals(LogProblem(LogProblem.Reason.LITTLE_ROOM), log.report.problem)
+    }
+
+    @Test
+    fun aFolderThatCannotBeMadeIsTrouble() {
+        val log = LogFolder({ File(temporary.newFile(), "missions") }, room = room).begin("pond", epochMillis = 0)
+        log.line("one")
+        log.flush()
+        assertEquals(LogProblem(LogProblem.Reason.NO_FOLDER), log.report.problem)
     }
 
     /** The kernel's own full disk, where there is one. */

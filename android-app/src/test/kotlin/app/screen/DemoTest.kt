@@ -99,7 +99,7 @@ class DemoTest {
         activity.go(ScreenName.PAST)
         pass(2.0)
         val past = activity.wordsShown()
-        assertTrue(past.any { it.startsWith("pond") && it.endsWith("complete") }, "$past")
+        assertTrue(past.any { it.startsWith("demo-pond") && it.endsWith("complete") }, "$past")
     }
 
     /** Lets [seconds] s go by for the boat, its disk and the screens. */

@@ -12,6 +12,7 @@ import org.robolectric.Shadows.shadowOf
 import stillwater.app.R
 import stillwater.app.link.LinkChoice
 import stillwater.app.link.SerialDrivers
+import stillwater.app.mission.LogProblem
 import stillwater.app.service.BoatService
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.Gaps
@@ -81,6 +82,22 @@ class LinkScreenTest {
         }
         val bad = activity.shown().filterIsInstance<TextView>().filter { "slept" in it.text }
         assertEquals(activity.getColor(R.color.bad), bad.single().currentTextColor)
+    }
+
+    @Test
+    fun aConnectionThatWasGivenUpAndALogThatIsNotWrittenAreSaid() {
+        val log = Scenes.report.log?.copy(problem = LogProblem(LogProblem.Reason.LITTLE_ROOM))
+        val shot = Scenes.surveying
+        activity.show(
+            shot.copy(link = shot.link.copy(writesHung = 2), mission = Scenes.report.withLog(checkNotNull(log))),
+        )
+        for (line in listOf(
+            "Given up because a command did not go out: 2 times",
+            "Cannot be written: less than 10 MB are left",
+        )) {
+            val shown = activity.shown().filterIsInstance<TextView>().single { it.text.toString() == line }
+            assertEquals(activity.getColor(R.color.bad), shown.currentTextColor)
+        }
     }
 
     @Test

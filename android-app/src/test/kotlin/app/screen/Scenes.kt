@@ -74,7 +74,17 @@ internal object Scenes {
             activity = BoatActivity.STANDING_BY,
             linkName = "Boat 3",
             link =
-            LinkHealth(LinkState.CONNECTED, 2, 1, 3, 48_213, 10_480, 0, 4, 87, "read failed, socket might closed"),
+            LinkHealth(
+                LinkState.CONNECTED,
+                connects = 2,
+                drops = 1,
+                failures = 3,
+                bytesIn = 48_213,
+                bytesOut = 10_480,
+                writesDropped = 4,
+                quietMillis = 87,
+                lastError = "read failed, socket might closed",
+            ),
             board = BoardReport(5_210, 3, 0, BoardState.STANDBY, 15.26, oxygen = 8.71, celsius = 19.4),
             fix = PhoneFix(LatLon(45.3303, -73.1495), 3.2f, 0.9f, 12f, 0),
             fixAgeSeconds = 0.4,

@@ -11,6 +11,10 @@ import org.robolectric.Shadows.shadowOf
 import stillwater.app.R
 import stillwater.app.service.Answer
 import stillwater.app.service.BoatSnapshot
+import stillwater.app.service.PreflightCheck
+import stillwater.app.service.PreflightItem
+import stillwater.app.service.PreflightNote
+import stillwater.app.service.PreflightReason
 import stillwater.control.Danger
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
@@ -78,6 +82,45 @@ class StartScreenTest {
         assertEquals(Settings.ACTION_REQUEST_IGNORE_BATTERY_OPTIMIZATIONS, asked.action)
         activity.button("Choose the link").performClick()
         assertTrue("Connect to" in activity.wordsShown())
+    }
+
+    @Test
+    fun aLineSaysHowFarTheWaterIsAndWhatTheMissionDoesWithout() {
+        fun show(vararg items: PreflightItem) =
+            activity.show(
+                Scenes.loaded.copy(
+                    preflight = Scenes.loaded.preflight.map { old -> items.find { it.check == old.check } ?: old },
+                ),
+            )
+        show(
+            PreflightItem(PreflightCheck.PLACE, true, note = PreflightNote.ON_THE_WAY, metres = 40.4),
+            PreflightItem(PreflightCheck.BOAT_BATTERY, true, note = PreflightNote.NOT_REPORTED),
+        )
+        val words = activity.wordsShown()
+        assertTrue("✓ The mission's water: 40 m from here; armed, the boat waits until it is there" in words, "$words")
+        assertTrue("✓ Boat battery: the board does not say, and the mission does not ask" in words, "$words")
+        assertTrue("All in order; see 2 notes below" in words, "$words")
+        show(
+            PreflightItem(PreflightCheck.PLACE, false, PreflightReason.OTHER_WATER, metres = 11_119.0),
+            PreflightItem(PreflightCheck.BOAT_BATTERY, false, PreflightReason.NOT_REPORTED),
+        )
+        val red = activity.wordsShown()
+        assertTrue("✗ The mission's water: 11.1 km from here; is it the right mission?" in red, "$red")
+        val battery = "the board does not say; where it never does, set \"Low is below\" to 0 V in the mission"
+        assertTrue("✗ Boat battery: $battery" in red, "$red")
+        activity.shown().filterIsInstance<Button>().first { it.text.toString() == "Open the mission" }.performClick()
+        assertTrue(activity.view<View>(R.id.setup).isShown)
+    }
+
+    @Test
+    fun aMissionOfAnotherKindOfBoatIsRefusedInWords() {
+        for ((reason, word) in mapOf(
+            Answer.Reason.OF_A_REAL_BOAT to "a real boat",
+            Answer.Reason.OF_THE_VIRTUAL_BOAT to "the demo's virtual boat",
+        )) {
+            activity.show(Scenes.loaded.copy(answer = Answer(reason)))
+            assertTrue(activity.wordsShown().any { it.startsWith("This mission was begun by $word:") })
+        }
     }
 
     @Test

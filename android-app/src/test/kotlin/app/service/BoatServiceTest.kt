@@ -6,6 +6,7 @@ import android.app.NotificationManager
 import android.content.Context
 import android.content.Intent
 import android.content.pm.ServiceInfo
+import android.os.Looper
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -23,6 +24,7 @@ import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkMaker
 import stillwater.app.link.LinkState
 import stillwater.wire.BoardState
+import java.time.Duration
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
@@ -54,6 +56,7 @@ class BoatServiceTest {
         assertTrue(made.single().open)
         val shown = assertNotNull(shadowOf(service).lastForegroundNotification)
         assertEquals("Standing by, disarmed", shadowOf(shown).contentTitle)
+        assertEquals(Notification.VISIBILITY_PUBLIC, shown.visibility, "STOP is there on a locked phone")
         assertTrue(assertNotNull(ShadowPowerManager.getLatestWakeLock()).isHeld)
         assertEquals(BoatActivity.STANDING_BY, service.snapshot.activity)
         assertEquals("Boat 3", service.snapshot.linkName)
@@ -178,15 +181,6 @@ class BoatServiceTest {
     }
 
     @Test
-    fun aSwipeOfTheAppChangesNothing() {
-        val service = started(BoatService.startIntent(context, board))
-        service.onTaskRemoved(Intent())
-        settle()
-        assertTrue(made.single().open)
-        assertFalse(shadowOf(service).isStoppedBySelf)
-    }
-
-    @Test
     fun anotherLinkReplacesTheFirstOnTheWater() {
         val service = started(BoatService.startIntent(context, board))
         service.onStartCommand(BoatService.startIntent(context, LinkChoice.Usb), 0, 2)
@@ -222,8 +216,45 @@ class BoatServiceTest {
             assertEquals(refusal.message, service.get().snapshot.refusal)
             assertTrue(shadowOf(service.get()).isStoppedBySelf)
             assertTrue(made.isEmpty())
+            val manager = context.getSystemService(NotificationManager::class.java)!!
+            val shown = assertNotNull(shadowOf(manager).getNotification(BoatNotification.REFUSED_ID))
+            assertEquals("Android did not let Stillwater run. Open the app.", shadowOf(shown).contentText)
             service.destroy()
         }
+    }
+
+    /** From Android 14 on, started again after the process died: no position while no window is in sight. */
+    @Test
+    fun wherePositionsAreRefusedInTheBackgroundItGoesOnForTheLinkAndAsksAgainWhenLookedAt() {
+        started(BoatService.startIntent(context, board))
+        services.removeAt(0).destroy()
+        made.clear()
+        val controller = Robolectric.buildService(UnseenService::class.java).create()
+        val service = controller.get()
+        service.onStartCommand(null, 0, 1)
+        settle(service)
+        val place = ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION
+        assertEquals(listOf(place, 0), service.asked)
+        assertEquals(BoatActivity.RECOVERED, service.snapshot.activity)
+        assertTrue(service.snapshot.isWithoutPlace && made.single().open)
+        assertFalse(shadowOf(service).isStoppedBySelf)
+        val shown = assertNotNull(shadowOf(service).lastForegroundNotification)
+        val text = shadowOf(shown).contentText.toString()
+        assertTrue(text.startsWith("Open the app: until then Android gives it no position"), text)
+        // The window is not yet what Android takes for one in sight.
+        service.onBind(null)
+        assertEquals(listOf(place, 0, place), service.asked)
+        service.isSeen = true
+        shadowOf(Looper.getMainLooper()).idleFor(Duration.ofSeconds(1))
+        settle(service)
+        assertEquals(listOf(place, 0, place, place), service.asked)
+        shadowOf(Looper.getMainLooper()).idleFor(Duration.ofSeconds(5))
+        assertEquals(4, service.asked.size, "and no more")
+        assertFalse(service.snapshot.isWithoutPlace)
+        val manager = context.getSystemService(NotificationManager::class.java)!!
+        val now = shadowOf(shadowOf(manager).getNotification(BoatNotification.ID)).contentText
+        assertEquals("Boat 3: connected", now)
+        controller.destroy()
     }
 
     private fun started(intent: Intent?): BoatService {
@@ -238,14 +269,26 @@ class BoatServiceTest {
     private fun settle(service: BoatService = services.last().get()) {
         val boat = shadowOf(service.boatLooper)
         boat.idle()
-        boat.idleFor(java.time.Duration.ofMillis(500))
+        boat.idleFor(Duration.ofMillis(500))
     }
 
     /** Android's answer to a service that it does not let into the foreground. */
     class RefusedService : BoatService() {
         lateinit var refusal: RuntimeException
 
-        override fun foreground(shown: Notification): Unit = throw refusal
+        override fun foreground(shown: Notification, more: Int): Unit = throw refusal
+    }
+
+    /** Android's answer to one that asks for positions while nobody looks. */
+    class UnseenService : BoatService() {
+        val asked = mutableListOf<Int>()
+        var isSeen = false
+
+        override fun foreground(shown: Notification, more: Int) {
+            asked += more
+            if (more != 0 && !isSeen) throw SecurityException("not from the background")
+            super.foreground(shown, more)
+        }
     }
 
     private class FakeLink(val choice: LinkChoice) : BoardLink {

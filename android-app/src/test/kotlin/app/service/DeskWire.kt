@@ -10,6 +10,7 @@ import stillwater.app.link.BoardLink
 import stillwater.app.link.FakePause
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
+import stillwater.app.link.Parting
 import stillwater.app.link.ReconnectingLink
 import stillwater.app.link.eventually
 import java.io.ByteArrayOutputStream
@@ -91,7 +92,13 @@ internal class DirectWire : DeskWire {
 internal class SocketWire(context: Application, private val board: String) : DeskWire {
     private val adapter = context.getSystemService(BluetoothManager::class.java)!!.adapter
     private val pause = FakePause()
-    private val real = ReconnectingLink(BluetoothTransport(context, board, "Boat 3"), pause)
+    private val real =
+        ReconnectingLink(
+            BluetoothTransport(context, board, "Boat 3"),
+            context::getString,
+            pause,
+            Parting(lingeringMillis = 0),
+        )
     private val accepted = AtomicLong()
     private var sent = 0L
 

@@ -3,17 +3,23 @@ package stillwater.app.service
 import android.app.Application
 import android.app.NotificationManager
 import android.app.Service
+import android.content.ComponentName
+import android.content.Intent
+import android.content.pm.ServiceInfo
 import android.os.Looper
-import org.junit.After
-import org.junit.Before
+import android.widget.TextView
+import org.junit.Rule
 import org.junit.Test
 import org.junit.runner.RunWith
+import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.Shadows.shadowOf
 import org.robolectric.annotation.Config
 import org.robolectric.shadows.ShadowNotification
+import org.robolectric.shadows.ShadowPowerManager
 import org.robolectric.shadows.ShadowSystemClock
+import stillwater.app.R
 import stillwater.app.link.BoardLink
 import stillwater.app.link.LinkChoice
 import stillwater.app.link.LinkMaker
@@ -21,14 +27,14 @@ import stillwater.app.mission.FileOutput
 import stillwater.app.mission.LogFolder
 import stillwater.app.mission.LogOpener
 import stillwater.app.mission.LogOutput
+import stillwater.app.screen.MainActivity
+import stillwater.app.screen.preflightWords
 import stillwater.app.screen.stateWords
+import stillwater.app.screen.view
 import stillwater.control.Danger
-import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionState
-import stillwater.mission.RecoveredMission
 import stillwater.mission.StopReason
 import stillwater.model.LatLon
-import java.io.File
 import java.io.IOException
 import java.time.Duration
 import kotlin.test.assertEquals
@@ -42,22 +48,15 @@ import kotlin.test.assertTrue
 @Config(sdk = [34])
 class MissionServiceTest {
     private val context: Application = RuntimeEnvironment.getApplication()
-    private val wire = DirectWire()
-    private val desk = ServiceDesk(wire)
 
-    @Before
-    fun loaded() {
-        desk.start()
-        desk.ask { load(ServiceDesk.POND) }
-        assertTrue(desk.until(10.0) { shot -> shot.preflight.all { it.ready } }, "${desk.snapshot.preflight}")
-    }
-
-    @After
-    fun end() = desk.end()
+    @get:Rule
+    internal val pond = Pond()
+    private val wire get() = pond.wire
+    private val desk get() = pond.desk
 
     @Test
     fun aPersonHoldsItSendsItOnAndCallsItHome() {
-        survey()
+        pond.survey()
         desk.ask { hold() }
         assertTrue(desk.until(1.0) { it.mission?.state == MissionState.Holding(Danger.OPERATOR_HOLD) })
         desk.ask { start() }
@@ -86,7 +85,7 @@ class MissionServiceTest {
     @Test
     fun whenTheBudgetIsSpentItGoesHomeAndSaysSo() {
         desk.ask { load(ServiceDesk.POND.replace("\"seconds\":200", "\"seconds\":60")) }
-        survey()
+        pond.survey()
         val returning = MissionState.Returning(Danger.BUDGET_SPENT)
         assertTrue(desk.until(70.0) { it.mission?.state == returning }, "${desk.state}")
         val words = "Going home: budget spent but for the way home"
@@ -100,15 +99,45 @@ class MissionServiceTest {
         assertEquals("standby", desk.snapshot.board.state?.word)
     }
 
-    /** Eleven kilometres from here: the checklist is green, and yet nothing is armed. */
+    /** Eleven kilometres from here. */
     @Test
-    fun aMissionOfAnotherWaterIsNotArmed() {
+    fun aMissionOfAnotherWaterIsNotBegun() {
         desk.ask { load(ServiceDesk.POND.replace("45.5", "45.6")) }
+        desk.ask { start() }
+        desk.pass(1.0)
+        assertEquals(Answer(Answer.Reason.NOT_READY), desk.snapshot.answer)
+        val red = desk.snapshot.preflight.single { !it.ready }
+        assertEquals(PreflightCheck.PLACE to PreflightReason.OTHER_WATER, red.check to red.reason)
+        assertEquals("11.1 km from here; is it the right mission?", context.preflightWords(red))
+        assertEquals(MissionState.Idle, desk.state)
+        assertFalse("\"arm\"" in desk.told)
+    }
+
+    /** The boat is still on its trailer: the checklist lets it, and the mission waits. */
+    @Test
+    fun aBoatBesideTheWaterIsNotArmedBeforeItIsOnIt() {
+        desk.ask { load(ServiceDesk.POND.replace("45.5", "45.503")) }
+        desk.pass(1.0)
+        val line = desk.snapshot.preflight.single { it.check == PreflightCheck.PLACE }
+        assertEquals(PreflightNote.ON_THE_WAY, line.note)
+        assertTrue(line.ready && assertNotNull(line.metres) in 250.0..350.0, "$line")
         desk.ask { start() }
         desk.pass(25.0)
         assertEquals(MissionState.Preflight(Danger.FENCE), desk.state)
         assertEquals("Waiting: outside the area", context.stateWords(desk.snapshot).lines().first())
         assertFalse("\"arm\"" in desk.told)
+    }
+
+    @Test
+    fun theWrongProbeIsNotedBeforeTheStart() {
+        fun note() = desk.snapshot.preflight.single { it.check == PreflightCheck.PROBE }.note
+        desk.pass(2.0)
+        assertNull(note())
+        for (other in listOf("\"quantity\":\"acidity\",\"port\":1", "\"quantity\":\"dissolved-oxygen\",\"port\":3")) {
+            val spec = ServiceDesk.POND.replace("\"quantity\":\"dissolved-oxygen\",\"port\":1", other)
+            pond.load(spec)
+            assertEquals(PreflightNote.PROBE_SILENT, note(), other)
+        }
     }
 
     @Test
@@ -122,7 +151,7 @@ class MissionServiceTest {
 
     @Test
     fun theStopActionEndsAMissionFirstAndTheServiceOnlyAfterwards() {
-        survey()
+        pond.survey()
         desk.ask { onStartCommand(BoatService.stopIntent(context), 0, 2) }
         assertEquals(MissionState.Stopped(StopReason.OPERATOR), stateSoon())
         assertTrue(desk.boat.board.actuation.isAtRest)
@@ -131,7 +160,7 @@ class MissionServiceTest {
         desk.ask { onStartCommand(BoatService.stopIntent(context), 0, 3) }
         desk.pass(0.5)
         assertTrue(shadowOf(desk.service).isStoppedBySelf)
-        assertTrue(logs().single().name.endsWith(LogFolder.LOG))
+        assertTrue(pond.logs().single().name.endsWith(LogFolder.LOG))
     }
 
     @Test
@@ -141,31 +170,30 @@ class MissionServiceTest {
         val disk = SmallDisk()
         BoatService.logs = LogOpener { file -> disk.over(FileOutput(file)) }
         desk.start()
-        desk.ask { load(ServiceDesk.POND) }
-        desk.until(10.0) { shot -> shot.preflight.all { it.ready } }
-        survey()
+        pond.load()
+        pond.survey()
         desk.pass(30.0)
         disk.isFull = true
-        val before = logs().single().readText()
+        val before = pond.logs().single().readText()
         assertTrue(desk.until(3.0) { it.mission?.state == MissionState.Returning(Danger.LOG_LOST) }, "${desk.state}")
         desk.pass(0.5)
-        assertEquals("No space left on device", desk.report.log?.problem)
+        assertEquals("No space left on device", desk.report.log?.problem?.words)
         assertEquals("Boat 3: connected. LOG NOT WRITTEN: No space left on device", notification().contentText)
         assertTrue(desk.until(120.0) { it.mission?.state == MissionState.Stopped(StopReason.LOG_LOST) })
         desk.pass(6.0)
-        assertEquals(before, logs().single().readText(), "what was written is as it was")
+        assertEquals(before, pond.logs().single().readText(), "what was written is as it was")
         assertTrue(assertNotNull(desk.report.log).let { !it.isClosed && it.written < it.lines })
         // Somebody makes room: all of it is written after all.
         disk.isFull = false
         desk.pass(2.0)
         val log = assertNotNull(desk.report.log)
         assertTrue(log.isClosed && log.lost == 0L && log.written == log.lines, "$log")
-        assertEquals(desk.report.counts.taken, read(logs().single()).readings)
+        assertEquals(desk.report.counts.taken, pond.read(pond.logs().single()).readings)
     }
 
     @Test
     fun aBoatThreadThatHangsHasItsMotorsRested() {
-        survey()
+        pond.survey()
         assertTrue(desk.until(10.0) { !desk.boat.board.actuation.isAtRest })
         wire.fromPhone()
         val boat = shadowOf(desk.service.boatLooper)
@@ -189,7 +217,7 @@ class MissionServiceTest {
 
     @Test
     fun aPhoneThatSleptIsNoticed() {
-        survey()
+        pond.survey()
         assertEquals(Gaps(), desk.snapshot.gaps)
         ShadowSystemClock.simulateDeepSleep(Duration.ofSeconds(20))
         desk.step()
@@ -201,7 +229,7 @@ class MissionServiceTest {
 
     @Test
     fun fixesThatAreWideOrJumpAreCountedAndOnlyTheWideOnesKeptBack() {
-        survey()
+        pond.survey()
         val spec = desk.report.spec.origin
         desk.fix(LatLon(spec.latitude, spec.longitude), accuracy = 80f)
         desk.pass(0.5)
@@ -216,15 +244,15 @@ class MissionServiceTest {
 
     @Test
     fun anotherLinkOnTheWaterDoesNotEndTheMission() {
-        survey()
+        pond.survey()
         desk.ask { onStartCommand(BoatService.startIntent(context, LinkChoice.Usb), 0, 2) }
         assertTrue(desk.until(5.0) { it.mission?.state == MissionState.Surveying })
-        assertEquals(1, logs().size)
+        assertEquals(1, pond.logs().size)
     }
 
     @Test
     fun theTraceHasWhatTheMapMadeOfEachReading() {
-        survey()
+        pond.survey()
         desk.pass(20.0)
         val trace = desk.report.trace
         assertEquals(desk.report.counts.taken, trace.size.toLong())
@@ -266,9 +294,8 @@ class MissionServiceTest {
                 }
             }
         desk.start(links = links)
-        desk.ask { load(ServiceDesk.POND) }
-        desk.until(10.0) { shot -> shot.preflight.all { it.ready } }
-        survey()
+        pond.load()
+        pond.survey()
         desk.pass(5.0)
         desk.ask { stop() }
         desk.until(10.0) { it.mission?.isOver == true }
@@ -279,7 +306,7 @@ class MissionServiceTest {
 
     @Test
     fun aBoatUnderWayIsNotLeftForAVirtualOne() {
-        survey()
+        pond.survey()
         val board = desk.snapshot.linkName
         desk.service.onStartCommand(BoatService.startIntent(context, LinkChoice.Demo), 0, 2)
         desk.pass(1.0)
@@ -290,29 +317,46 @@ class MissionServiceTest {
         assertTrue(desk.until(5.0) { !desk.boat.board.actuation.isAtRest }, "it sails on")
     }
 
+    /** As Android does it: the window goes without a word, then the service hears that the app was swiped away. */
+    @Test
+    @Config(sdk = [26, 29, 34, 35])
+    fun aSwipeOfTheAppEndsTheWindowAndNothingElse() {
+        pond.survey()
+        val name = ComponentName(context, BoatService::class.java)
+        shadowOf(context).setComponentNameAndServiceForBindService(name, desk.service.onBind(null))
+        val window = Robolectric.buildActivity(MainActivity::class.java).setup()
+        desk.pass(2.0)
+        assertTrue("Surveying" in window.get().view<TextView>(R.id.state).text)
+        window.pause().stop().destroy()
+        desk.service.onUnbind(Intent(context, BoatService::class.java))
+        desk.service.onTaskRemoved(Intent(context, MainActivity::class.java))
+        val asked = generateSequence { shadowOf(context).nextStartedService }.mapNotNull { it.action }.toList()
+        assertEquals(emptyList(), asked, "the window asked for nothing on its way out")
+        val lines = assertNotNull(desk.report.log).lines
+        val told = desk.told.length
+        desk.pass(10.0)
+        assertEquals(MissionState.Surveying, desk.state)
+        assertTrue(assertNotNull(desk.report.log).lines >= lines + 90, "it is still written down")
+        assertTrue("{\"m0\"" in desk.told.substring(told), "and steered")
+        assertFalse(shadowOf(desk.service).isStoppedBySelf)
+        assertTrue(assertNotNull(ShadowPowerManager.getLatestWakeLock()).isHeld)
+        val flags = context.packageManager.getServiceInfo(name, 0).flags
+        assertEquals(0, flags and ServiceInfo.FLAG_STOP_WITH_TASK, "nor does Android end it with the app")
+    }
+
     @Test
     fun afterStopTheServiceIsStillOneThatAndroidStartsAgain() {
-        survey()
+        pond.survey()
         val answer = desk.service.onStartCommand(BoatService.stopIntent(context), 0, 2)
         assertEquals(Service.START_STICKY, answer)
         desk.pass(1.0)
         assertTrue(desk.snapshot.linkName != null, "the link stays, to tell the board to rest")
     }
 
-    private fun survey() {
-        desk.ask { start() }
-        assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Surveying }, "${desk.snapshot.answer}")
-    }
-
     private fun stateSoon(): MissionState {
         desk.pass(1.0)
         return desk.state
     }
-
-    private fun logs(): List<File> = BoatService.logOf(context, "").listFiles().orEmpty().sorted()
-
-    private fun read(file: File): RecoveredMission =
-        assertNotNull(MissionRecovery().apply { file.forEachLine { line(it) } }.recovered())
 
     private fun notification(): ShadowNotification {
         val manager = context.getSystemService(NotificationManager::class.java)!!

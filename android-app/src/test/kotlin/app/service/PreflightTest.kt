@@ -14,6 +14,7 @@ import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
 import stillwater.app.pose.PoseProblem
 import kotlin.test.assertEquals
+import kotlin.test.assertNull
 
 /** Each line of the checklist by itself, and what makes it red. */
 @RunWith(RobolectricTestRunner::class)
@@ -40,7 +41,7 @@ class PreflightTest {
         assertEquals(mapOf(link to PreflightReason.NOT_CONNECTED), red(boat(state = LinkState.WAITING)))
         assertEquals(mapOf(link to PreflightReason.BOARD_SILENT), red(boat(silence = 2.5)))
         val charge = PreflightCheck.BOAT_BATTERY
-        assertEquals(mapOf(charge to PreflightReason.UNKNOWN_CHARGE), red(boat(volts = null)))
+        assertEquals(mapOf(charge to PreflightReason.NOT_REPORTED), red(boat(volts = null)))
         assertEquals(mapOf(charge to PreflightReason.LOW_CHARGE), red(boat(volts = 10.9)))
         val fix = PreflightCheck.FIX
         for ((problem, reason) in mapOf(
@@ -55,6 +56,36 @@ class PreflightTest {
         assertEquals(mapOf(fix to PreflightReason.FIX_WIDE), red(boat(accuracy = 11f)))
         assertEquals(mapOf(fix to PreflightReason.FIX_WIDE), red(boat(accuracy = null)))
         assertEquals(mapOf(fix to PreflightReason.NO_HEADING), red(boat(hasHeading = false)))
+    }
+
+    /** A boat whose board has no wire to its battery goes on the water where its mission says that none is measured. */
+    @Test
+    fun aBatteryThatIsNotReportedIsAcceptedByTheMissionAndSaidSo() {
+        assertEquals(emptyMap(), red(boat(volts = null, lowest = 0.0)))
+        assertEquals(PreflightNote.NOT_REPORTED, note(PreflightCheck.BOAT_BATTERY, boat(volts = null, lowest = 0.0)))
+        assertEquals(PreflightNote.NOT_WATCHED, note(PreflightCheck.BOAT_BATTERY, boat(volts = 9.0, lowest = 0.0)))
+        assertNull(note(PreflightCheck.BOAT_BATTERY, boat()))
+        val unasked = boat(volts = null, lowest = null)
+        assertEquals(PreflightReason.NOT_REPORTED, red(unasked)[PreflightCheck.BOAT_BATTERY], "no mission yet")
+    }
+
+    /** Not red: some boards let their probes speak only once they are armed. */
+    @Test
+    fun aProbeThatWasNotHeardIsNoted() {
+        assertEquals(emptyMap(), red(boat(hasProbe = false)))
+        assertEquals(PreflightNote.PROBE_SILENT, note(PreflightCheck.PROBE, boat(hasProbe = false)))
+        assertNull(note(PreflightCheck.PROBE, boat()))
+    }
+
+    @Test
+    fun aMissionOfAnotherWaterIsRedAndOneNearByIsNoted() {
+        val place = PreflightCheck.PLACE
+        assertEquals(mapOf(place to PreflightReason.OTHER_WATER), red(boat(metres = 1_001.0)))
+        assertEquals(mapOf(place to PreflightReason.NO_FIX), red(boat(metres = null)))
+        assertEquals(emptyMap(), red(boat(metres = 1_000.0)))
+        assertEquals(PreflightNote.ON_THE_WAY, note(place, boat(metres = 0.5)))
+        assertNull(note(place, boat()))
+        assertEquals(emptyMap(), red(boat(metres = null, hasMission = false)))
     }
 
     @Test
@@ -85,6 +116,9 @@ class PreflightTest {
         return items.filter { !it.ready }.associate { it.check to it.reason }
     }
 
+    private fun note(check: PreflightCheck, boat: BoatAtRest): PreflightNote? =
+        Preflight(context).look(boat).single { it.check == check }.note
+
     private fun boat(
         hasLink: Boolean = true,
         state: LinkState = LinkState.CONNECTED,
@@ -95,16 +129,23 @@ class PreflightTest {
         accuracy: Float? = 5f,
         hasHeading: Boolean = true,
         isVirtual: Boolean = false,
+        lowest: Double? = 11.0,
+        metres: Double? = 0.0,
+        hasMission: Boolean = true,
+        hasProbe: Boolean = true,
     ) = BoatAtRest(
         hasLink = hasLink,
         link = LinkHealth(state),
         boardSilence = silence,
         volts = volts,
-        lowestVolts = 11.0,
+        lowestVolts = lowest,
         pose = pose,
         fixAgeSeconds = age,
         accuracyMetres = accuracy,
         hasHeading = hasHeading,
         isVirtual = isVirtual,
+        hasMission = hasMission,
+        hasProbe = hasProbe,
+        metresToArea = metres,
     )
 }

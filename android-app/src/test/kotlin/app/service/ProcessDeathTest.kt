@@ -1,23 +1,21 @@
 package stillwater.app.service
 
 import android.app.Application
-import org.junit.After
-import org.junit.Before
+import org.junit.Rule
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.annotation.Config
+import stillwater.app.link.LinkChoice
 import stillwater.app.mission.LogFolder
 import stillwater.app.mission.MissionReport
 import stillwater.control.Danger
-import stillwater.mission.MissionRecovery
 import stillwater.mission.MissionState
 import stillwater.mission.RecoveredMission
 import java.io.File
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
-import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
 /** The process ends without a word, whatever the mission is about: it comes back disarmed, with its map and its log. */
@@ -25,18 +23,10 @@ import kotlin.test.assertTrue
 @Config(sdk = [34])
 class ProcessDeathTest {
     private val context: Application = RuntimeEnvironment.getApplication()
-    private val wire = DirectWire()
-    private val desk = ServiceDesk(wire)
 
-    @Before
-    fun loaded() {
-        desk.start()
-        desk.ask { load(ServiceDesk.POND) }
-        assertTrue(desk.until(10.0) { shot -> shot.preflight.all { it.ready } }, "${desk.snapshot.preflight}")
-    }
-
-    @After
-    fun end() = desk.end()
+    @get:Rule
+    internal val pond = Pond()
+    private val desk get() = pond.desk
 
     @Test
     fun whileItWaitsForFixesThatAgree() {
@@ -112,19 +102,56 @@ class ProcessDeathTest {
         dieAndComeBack()
     }
 
-    private fun survey() {
+    @Test
+    fun whatARealBoatBeganTheDemoDoesNotGoOnWith() {
+        survey()
+        desk.pass(5.0)
+        val file = dieAndComeBack()
+        val name = desk.snapshot.linkName
+        desk.ask { onStartCommand(BoatService.startIntent(context, LinkChoice.Demo), 0, 2) }
+        desk.pass(5.0)
+        assertTrue(desk.snapshot.isDemo)
+        val before = file.readText()
         desk.ask { start() }
-        assertTrue(desk.until(25.0) { it.mission?.state == MissionState.Surveying }, "${desk.snapshot.answer}")
+        desk.pass(1.0)
+        assertEquals(Answer(Answer.Reason.OF_A_REAL_BOAT), desk.snapshot.answer)
+        assertEquals(MissionState.Idle, desk.state)
+        assertEquals(before, file.readText())
+        // Its own boat is taken up again, and goes on.
+        desk.ask { onStartCommand(BoatService.startIntent(context, ServiceDesk.BOARD), 0, 3) }
+        pond.green()
+        assertEquals(name, desk.snapshot.linkName)
+        survey()
+        val whole = read(file)
+        assertEquals(name to false, whole.boat to whole.isVirtual)
     }
 
-    /** Kills the process and has Android start it anew; answers the log as it was left, a line of it cut. */
-    private fun dieAndComeBack(): File {
+    @Test
+    fun whatTheDemoBeganARealBoatDoesNotGoOnWith() {
+        survey()
+        desk.pass(5.0)
+        dieAndComeBack { it.replace("\"virtual\":false", "\"virtual\":true") }
+        pond.green()
+        desk.ask { start() }
+        desk.pass(1.0)
+        assertEquals(Answer(Answer.Reason.OF_THE_VIRTUAL_BOAT), desk.snapshot.answer)
+        assertEquals(MissionState.Idle, desk.state)
+    }
+
+    private fun survey() = pond.survey()
+
+    private fun logs() = pond.logs()
+
+    private fun read(file: File) = pond.read(file)
+
+    /** Kills the process and has Android start it anew; answers the log as it was left: a line cut, then [made]. */
+    private fun dieAndComeBack(made: (String) -> String = { it }): File {
         val file = logs().single()
         assertTrue(file.name.endsWith(LogFolder.INCOMPLETE))
-        val left = file.readText().dropLast(20)
+        val left = made(file.readText().dropLast(20))
         desk.end()
         // As it was on the disk, and at the board: nobody closed anything, nor rested the motors.
-        wire.fromPhone()
+        pond.wire.fromPhone()
         file.writeText(left)
         val told = desk.told.length
         desk.start(intent = null)
@@ -139,11 +166,6 @@ class ProcessDeathTest {
         assertEquals(listOf(file.name), logs().map { it.name })
         return file
     }
-
-    private fun logs(): List<File> = BoatService.logOf(context, "").listFiles().orEmpty().sorted()
-
-    private fun read(file: File): RecoveredMission =
-        assertNotNull(MissionRecovery().apply { file.forEachLine { line(it) } }.recovered())
 
     /** What was shown before the process died is shown after it, but for what was not on the disk yet: a second. */
     private fun sameWay(before: MissionReport, after: MissionReport) {

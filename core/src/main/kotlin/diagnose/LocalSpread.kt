@@ -1,0 +1,76 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/** Where residuals scatter more than elsewhere. */
+internal object LocalSpread {
+    private const val PARTS = 24
+    private const val FEWEST = 40
+
+    /** Rows, and standard errors of their mean rank, from which they are gathered. */
+    private const val FEWEST_GATHERED = 4
+    private const val GATHERED = 3.3
+
+    /** Below this the scatter of so few rows' own spread would count. */
+    private const val CLEAR = 1.3
+
+    /** For each row by how much [z], residuals of [fit], scatter more than overall at such times, values, rates or conditions. */
+    fun of(fit: ModelFit, z: DoubleArray): DoubleArray = of(z, columns(fit))
+
+    /**
+     * Whether [rows] are gathered at some times, values, rates or conditions: then it is the noise that is larger there.
+     * By the mean of their ranks, and by how far these are from the middle.
+     */
+    fun isConcentrated(fit: ModelFit, rows: List<Int>): Boolean {
+        if (rows.size < FEWEST_GATHERED) return false
+        return columns(fit).filter { column -> column.any { it != column[0] } }.any { column ->
+            val sorted = column.sortedArray()
+            val ranks = rows.map { row -> rank(sorted, column[row]) }
+            val lone = sqrt(12.0 * rows.size)
+            abs(ranks.average() - 0.5) * lone > GATHERED || abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED
+        }
+    }
+
+    /** The share of [sorted] below [value], of equal ones half. */
+    private fun rank(sorted: DoubleArray, value: Double): Double {
+        fun below(limit: (Double) -> Boolean): Int {
+            var low = 0
+            var high = sorted.size
+            while (low < high) {
+                val middle = (low + high) / 2
+                if (limit(sorted[middle])) low = middle + 1 else high = middle
+            }
+            return low
+        }
+        return (below { it < value } + below { it <= value }) / 2.0 / sorted.size
+    }
+
+    private fun columns(fit: ModelFit): List<DoubleArray> {
+        val series = fit.model.series
+        val shown = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
+        val rates = DoubleArray(series.size) { abs(shown[it] - shown[maxOf(it - 1, 0)]) }
+        return listOf(series.times, shown, rates, series.speed) + fit.model.scales.centred.values
+    }
+
+    /**
+     * For each row by how much [z] scatter more than overall among rows alike in one of [columns], at least 1; of the
+     * columns the one that says most. Spreads are robust: single wild rows do not count.
+     */
+    private fun of(z: DoubleArray, columns: List<DoubleArray>): DoubleArray {
+        val factors = DoubleArray(z.size) { 1.0 }
+        val size = maxOf(z.size / PARTS, FEWEST)
+        val overall = median(DoubleArray(z.size) { abs(z[it]) })
+        if (z.size < 2 * size || !(overall > 0)) return factors
+        for (column in columns) {
+            val order = column.indices.sortedBy { column[it] }
+            for (part in order.chunked(size)) {
+                // The last rows are too few by themselves.
+                val rows = if (part.size < size) order.takeLast(size) else part
+                val factor = median(DoubleArray(rows.size) { abs(z[rows[it]]) }) / overall
+                if (factor > CLEAR) for (i in part) factors[i] = maxOf(factors[i], factor)
+            }
+        }
+        return factors
+    }
+}

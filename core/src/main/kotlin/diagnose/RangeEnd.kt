@@ -1,0 +1,35 @@
+package stillwater.diagnose
+
+import kotlin.math.sqrt
+
+/** Whether readings stay at an end of the range. */
+internal object RangeEnd {
+    private const val PART = 0.15
+    private const val DEVIATIONS = 3.0
+
+    /**
+     * Whether the readings that [fit] takes for ones at an end go on beyond it with what the model without an end
+     * foretells: then the reference's extremes were its own noise, or the response is curved, and there is no end.
+     */
+    fun isNone(fit: ModelFit, used: BooleanArray): Boolean {
+        val model = fit.model
+        val term = model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return false
+        val at = model.slot(term)
+        val open = fit.numbers.copyOf().also {
+            it[at] = -2 * ResponseModel.NO_END
+            it[at + 1] = 2 * ResponseModel.NO_END
+        }
+        val foretold = DoubleArray(used.size).also { model.predict(open, it) }
+        var squares = 0.0
+        var products = 0.0
+        var scatter = 0.0
+        for (i in foretold.indices) {
+            if (!used[i]) continue
+            val beyond = foretold[i] - foretold[i].coerceIn(minOf(fit.numbers[at], fit.numbers[at + 1]), fit.numbers[at + 1])
+            squares += beyond * beyond
+            products += beyond * fit.residuals[i]
+            scatter += beyond * beyond * fit.residuals[i] * fit.residuals[i]
+        }
+        return products > PART * squares && products > DEVIATIONS * sqrt(scatter)
+    }
+}

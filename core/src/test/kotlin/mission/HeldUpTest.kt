@@ -1,0 +1,61 @@
+package stillwater.mission
+
+import stillwater.control.Danger
+import stillwater.model.Position
+import kotlin.math.cos
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** A boat that cannot get where it is to go. */
+class HeldUpTest {
+    private fun spec(changes: (String) -> String = { it }) =
+        MissionSpec.fromJson(changes(Desk.SMALL.replace("self-calibrating", "averaging")))
+
+    /** East of [east] m the boat makes no way to the east, as on a bar. */
+    private fun barred(spec: MissionSpec, seed: Int, east: Double): Desk {
+        val desk = Desk(spec, seed)
+        desk.meanwhile = {
+            val boat = desk.boat.dynamics
+            boat.currentX = if (boat.x > east) -maxOf(0.0, boat.surge * cos(boat.heading)) else 0.0
+        }
+        desk.until(3.0) { false }
+        desk.mission.start()
+        return desk
+    }
+
+    private fun Desk.distanceHome() =
+        Position(boat.dynamics.x, boat.dynamics.y).distanceTo(spec.home.position)
+
+    @Test
+    fun theBudgetBringsABoatHomeThatDoesNotReachItsWaypoint() {
+        // Less than the minute after which a waypoint is given up is left when the boat comes to the bar.
+        val spec = spec { it.replace("900", "105") }.copy(home = PlaceSpec(5.0, 55.0))
+        val desk = barred(spec, 491, 9.0)
+        assertTrue(desk.until(300.0) { it == MissionState.Returning(Danger.BUDGET_SPENT) }, "${desk.mission.state}")
+        assertTrue(desk.mission.used < 105, "used ${desk.mission.used}")
+        assertTrue(desk.until(100.0) { it == MissionState.Stopped(StopReason.COMPLETED) }, "${desk.mission.state}")
+        assertTrue(desk.mission.used < 105, "used ${desk.mission.used} s of 105")
+        assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
+    }
+
+    /** A boat that lies on a bar uses no metres. */
+    @Test
+    fun waypointsThatAreNotReachedAreGivenUpOneByOneAndThenTheMissionIsOver() {
+        val desk = barred(spec { it.replace("\"seconds\":900", "\"metres\":900") }, 492, 24.0)
+        assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "${desk.mission.state}")
+        assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state)
+        assertTrue(desk.mission.givenUp >= 3, "${desk.mission.givenUp} given up")
+        assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
+    }
+
+    /** Three deviations of the place, some 2 m, are kept from the shore, and home counts as reached within 0.5 m. */
+    @Test
+    fun aHomeInACornerOfTheShoreIsComeTo() {
+        val spec = spec { it.replace("900", "150") }
+            .copy(home = PlaceSpec(-19.8, -19.8), boat = BoatSpec(arrival = 0.5))
+        val desk = barred(spec, 494, 1e9)
+        assertTrue(desk.until(400.0) { it == MissionState.Stopped(StopReason.COMPLETED) }, "${desk.mission.state}")
+        assertTrue(desk.distanceHome() < 8.0, "${desk.distanceHome()} m from home")
+    }
+}
