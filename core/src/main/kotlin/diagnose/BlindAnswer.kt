@@ -34,7 +34,8 @@ internal class BlindAnswer(
         val all = sets + listOfNotNull(listOf(Cause.OUTLIERS).takeIf { isLoose })
         val verdict = verdict(all, left.first(), chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
-        val sensor = ExtendedSensor(asFit(last), outliers.size()?.takeIf { isLoose })
+        // Where nothing was chosen a lag of either kind was named, which the base stands for.
+        val sensor = ExtendedSensor(asFit(if (chosen.isEmpty()) base else last), outliers.size()?.takeIf { isLoose })
         val extended = sensor.spec("extended").takeIf { isNamed }
         val tried = candidates(first)
         // Of what was only tried nobody need know that it ended at a bound.
@@ -112,6 +113,17 @@ internal class BlindAnswer(
                 "The readings lag the water by ${three(lag.timeConstant.timeConstant)} s as a first-order lag, or by " +
                     "${three(lag.delay)} s as a dead time" +
                     if (lag.isOpen(settings.separation)) "." else ", which explains less.",
+            )
+            add(
+                "The correction of a track (correct) compares passes over the same place alone, without a model of " +
+                    "the water between them: its lag may differ, and where it is outside of the interval here, neither " +
+                    "should be relied on.",
+            )
+        }
+        if (!last.isResolved) {
+            add(
+                "The water has finer structure than these numbers show, or the response another shape: the interval " +
+                    "of the lag may be too narrow.",
             )
         }
         if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {

@@ -39,7 +39,6 @@ internal class BlindDiagnosis(
         val lag = BlindLag(search, base)
         isShapeOpen = lag.isOpen(settings.separation)
         isLagSeen = lag.isSeen
-        isResolved = base.isResolved
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (isShapeOpen) lag.both else base
         val first = Round(start)
@@ -58,6 +57,9 @@ internal class BlindDiagnosis(
         private val still = search.still(state)
         private val stillTries = BlindTrials(search, still)
 
+        /** Whether the water has waves finer than those it was given: what is missing looks like another response. */
+        private val isBlurred = !state.isResolved
+
         /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
         private val changing = state.score - still.score
 
@@ -71,6 +73,7 @@ internal class BlindDiagnosis(
                 val likely = all.filter { isLikely(it) }.sortedByDescending { it.worth }.take(MOST_LIKELY).toSet()
                 all.map {
                     when {
+                        isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it)
                         it in likely -> settled(it)
                         it.term?.cause in SLOW -> it.instead(-changing)
                         else -> it
@@ -85,6 +88,18 @@ internal class BlindDiagnosis(
         }
 
         /**
+         * [trial] on top of a model whose water has waves finer than those it was given: that is so where there are,
+         * but also where a wrong response makes passes over the same water contradict each other. It counts where it leaves
+         * no such waves, or explains more than missing ones could be taken for.
+         */
+        private fun resolved(trial: BlindTrial): BlindTrial {
+            val settled = settled(trial)
+            val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
+            val isClear = settled.state?.isResolved == true || goesWithMore
+            return if (isClear) settled else settled.atMost(0.0)
+        }
+
+        /**
          * [trial] with the water and the noise that suit it.
          *
          * Water that changes in time can imitate a drift or a jump. Those are held against water that stays the same
@@ -94,7 +109,8 @@ internal class BlindDiagnosis(
         private fun settled(trial: BlindTrial): BlindTrial {
             val term = checkNotNull(trial.term)
             val without = if (term.cause in SLOW) still else state
-            val found = search.improved(search.requieted(with(without, trial)))
+            val begun = if (isBlurred) begun(without, term, trial) else with(without, trial)
+            val found = search.improved(search.requieted(if (isBlurred) search.improved(begun) else begun))
             val searched = if (term.times.isEmpty()) 0.0 else tries.searched(term.times.size)
             val first = tries.settled(trial, found, without.score, searched)
             if (first.pValue > settings.level) return first.instead(-maxOf(state.score - without.score, 0.0))
@@ -103,6 +119,16 @@ internal class BlindDiagnosis(
             val rest = if (without === state) best else maxOf(state.score, likewise(state, found))
             val trying = tries.settled(trial, found, best, searched)
             return if (found.score > rest) trying.among(best - rest) else trying.instead(best - rest)
+        }
+
+        /** The likeliest of [trial] and of other beginnings of [term], far from what the wrong water makes of it. */
+        private fun begun(without: BlindState, term: Term, trial: BlindTrial): BlindState {
+            val model = checkNotNull(trial.model)
+            val starts = if (term.cause in BlindSearch.LINEAR) tries.starts(model, term) else emptyList()
+            val others = starts.map {
+                search.settled(model.terms, it, without.fit.design.noise, without.variances, before = without)
+            }
+            return (others + with(without, trial)).maxBy { it.score }
         }
 
         /** The score of [other] with the noise of [found]. */
@@ -114,7 +140,7 @@ internal class BlindDiagnosis(
         }
 
         /** What no cause explains. */
-        val looks: List<BlindTrial> = BlindLooks(state, tries, !isShapeOpen && isResolved).all()
+        val looks: List<BlindTrial> = BlindLooks(state, tries, !isShapeOpen && !isBlurred).all()
         private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
 
         init {
@@ -131,15 +157,10 @@ internal class BlindDiagnosis(
     /** Whether not even a time constant and a dead time can be told apart: then nothing between them can be named. */
     private var isShapeOpen = false
 
-    /** Whether the waves of the water go as far down as the water does: what is missing looks like another response. */
-    private var isResolved = true
-
     /** Whether there is a lag at all, for certain. */
     private var isLagSeen = false
 
-    private fun terms(): List<Term> = all().filter { isResolved || it.cause !in BlindSearch.LINEAR }
-
-    private fun all(): List<Term> = buildList {
+    private fun terms(): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
         // A lag that does not show for certain has no shape to be named.
         if (!isShapeOpen && isLagSeen) {
@@ -169,7 +190,7 @@ internal class BlindDiagnosis(
         var round = first
         while (chosen.size < settings.mostCauses) {
             val significant = round.causes.indices.filter { round.adjustedCauses[it] < STRICTER * settings.level }
-            val best = significant.map { round.causes[it] }.maxByOrNull { it.worth } ?: break
+            val best = significant.map { round.causes[it] }.maxByOrNull { it.likelier } ?: break
             val look = round.looks.indices.filter { round.adjustedLooks[it] < STRICTER * settings.structureLevel }
                 .map { round.looks[it] }.maxByOrNull { it.worth }
             // What no cause explains comes first where it is the stronger: a cause would be named for its shadow.
@@ -179,6 +200,22 @@ internal class BlindDiagnosis(
             if (chosen.size < settings.mostCauses) round = Round(state).also { ended = it }
         }
         if (chosen.size == settings.mostCauses) ended = null
+        return needed(chosen)
+    }
+
+    /** [chosen] without what the others have made needless; what is left keeps its rounds. */
+    private fun needed(chosen: List<BlindStep>): List<BlindStep> {
+        if (chosen.size < 2) return chosen
+        val full = chosen.last().state
+        for (i in 0 until chosen.size - 1) {
+            val without = search.improved(search.requieted(without(chosen.first().round.state, chosen, i)))
+            val lost = (full.score - without.score) / chosen[i].trial.inflation
+            if (lost > NEEDLESS) continue
+            val rest = chosen.filterIndexed { k, _ -> k != i }
+            ended = Round(without)
+            val last = rest.last()
+            return needed(rest.dropLast(1) + BlindStep(last.trial, last.round, without))
+        }
         return chosen
     }
 
@@ -200,11 +237,11 @@ internal class BlindDiagnosis(
     private fun sets(base: BlindState, chosen: List<BlindStep>): List<List<Cause>> = chosen.mapIndexed { i, step ->
         val round = if (i == chosen.size - 1) step.round else Round(without(base, chosen, i))
         val taken = chosen.filter { it !== step }.map { it.trial.name }
-        val own = round.causes.firstOrNull { it.term?.cause == step.trial.term?.cause }?.worth ?: step.trial.worth
+        val own = round.causes.firstOrNull { it.name == step.trial.name } ?: step.trial
         val others = round.causes.filter {
-            it.name != step.trial.name && it.name !in taken && own - it.worth < settings.separation &&
-                it.pValue < settings.level
-        }.sortedByDescending { it.worth }.mapNotNull { it.term?.cause }
+            it.name != own.name && it.name !in taken && it.pValue < settings.level &&
+                own.likelier - it.likelier < settings.separation * own.inflation
+        }.sortedByDescending { it.likelier }.mapNotNull { it.term?.cause }
         val cause = checkNotNull(step.trial.term).cause
         // Where nobody knows the water nothing tells a change of the sensor's offset from one of all the water.
         val twin = if (cause in SLOW) listOf(Cause.TIME_VARYING_FIELD) else emptyList()
@@ -241,6 +278,15 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+
+        /** The same that water finer than was resolved does not give a response of another shape. */
+        private const val BEYOND_WAVES = 100.0
+
+        /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
+        private val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)
+
+        /** The same below which a cause goes again, once others are named beside it. */
+        private const val NEEDLESS = 8.0
         private const val SMALLEST_RANGE = 1e-100
 
         /** Causes that water which changes in time can imitate. */

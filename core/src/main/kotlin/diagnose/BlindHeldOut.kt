@@ -28,11 +28,10 @@ internal object BlindHeldOut {
             val to = ((stretch + 1).toLong() * z.size / STRETCHES).toInt()
             val halves = Array(to - from) { fit.halfRow(from + it) }
             val count = halves.size
-            val left = DoubleArray(count * count)
-            for (a in 0 until count) {
-                for (b in 0..a) left[a * count + b] = (if (a == b) 1.0 else 0.0) - dot(halves[a], halves[b])
+            val left = Array(count) { a ->
+                DoubleArray(a + 1) { b -> (if (a == b) 1.0 else 0.0) - dot(halves[a], halves[b]) }
             }
-            val factor = FlatCholesky(left, count)
+            val factor = Cholesky(left)
             val half = factor.half(DoubleArray(count) { z[from + it] })
             errors += squares(half)
             twice += squares(half) / variance - factor.logDeterminant + count * ln(2 * PI * variance)

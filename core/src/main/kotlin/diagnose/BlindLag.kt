@@ -58,6 +58,17 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
     }
 
+    /**
+     * Whether neither a time constant nor a dead time alone will do: then what is at work beside a lag can be told.
+     * All have noise of their own.
+     */
+    val isNeitherAlone: Boolean by lazy {
+        if (both === timeConstant) return@lazy false
+        val better = search.improved(search.requieted(both))
+        val worse = if (timeConstant.score > deadTime.score) timeConstant else deadTime
+        (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE
+    }
+
     /** The dead time, s. */
     val delay: Double get() = deadTime.numbers.last()
 
@@ -86,7 +97,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         BlindEvidence.between(none, if (timeConstant.score > deadTime.score) timeConstant else deadTime)
 
     /** Whether the log cannot tell a time constant from a dead time. */
-    fun isOpen(separation: Double): Boolean = isSeen &&
+    fun isOpen(separation: Double): Boolean = isSeen && !isNeitherAlone &&
         (preference < separation || BlindEvidence.between(deadTime, timeConstant) < SURE || isShared)
 
     /**
@@ -108,6 +119,9 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     private companion object {
         const val LAG_SEEN = 12.0
         const val WORTH = 4.0
+
+        /** Twice the gain in log-likelihood over inflation of a second number, at 0.01 %. */
+        const val MUCH = 15.0
 
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
         const val SURE = 2.8

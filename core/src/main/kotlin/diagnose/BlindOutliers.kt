@@ -44,7 +44,7 @@ internal class BlindOutliers(state: BlindState) {
     /** After a jump the next reading stays; after an outlier it comes back. */
     private fun isSingle(i: Int): Boolean {
         val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
-        return off > RETURNED * abs(residuals[i] - residuals[i - 1]) && off > STEPS * resolution && isAlone(i)
+        return Spikes.isSingle(residuals, i) && off > STEPS * resolution && isAlone(i)
     }
 
     /** Whether reading [i] is off the line between its neighbours as none about it is: a sharp front is no outlier. */
@@ -75,7 +75,6 @@ internal class BlindOutliers(state: BlindState) {
 
         /** Seven median bends are 4.7 normal standard deviations. */
         const val ALONE = 7.0
-        const val RETURNED = 0.75
         const val STEPS = 4
     }
 }

@@ -297,18 +297,22 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
     private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
         val whole = ResponseModel(series.withReference(modes.columns[0]), terms, held, scales)
         val linear = terms.filter { it.cause in LINEAR }
-        val truth = DoubleArray(n)
-        val model = ResponseModel(series.withReference(truth), linear, held, scales)
-        val own = base(numbers[ResponseModel.TIME_CONSTANT]).copyOf(model.parameters.size)
-        for (term in linear) {
-            for (k in 0 until model.width(term)) own[model.slot(term) + k] = numbers[whole.slot(term) + k]
+        val own = base(numbers[ResponseModel.TIME_CONSTANT]) + linear.flatMap { term ->
+            List(whole.width(term)) { numbers[whole.slot(term) + it] }
         }
-        val columns = Array(modes.size) { k ->
-            modes.columns[k].copyInto(truth)
-            DoubleArray(n).also { model.predict(own, it) }
+        val columns = arrayOfNulls<DoubleArray>(modes.size)
+        // A model has working space of its own, which tasks cannot share.
+        BlindDesign.each(PARTS) { part ->
+            val truth = DoubleArray(n)
+            val model = ResponseModel(series.withReference(truth), linear, held, scales)
+            for (k in part until modes.size step PARTS) {
+                modes.columns[k].copyInto(truth)
+                model.truthChanged()
+                columns[k] = DoubleArray(n).also { model.predict(own, it) }
+            }
         }
         val fading = DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / own[0]) }
-        return columns + fading
+        return columns.requireNoNulls() + fading
     }
 
     private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
@@ -341,6 +345,9 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
 
         /** Mean square of waves, over the noise's, that no cause's fit would miss. */
         const val UNSEEN = 1e-3
+
+        /** Parts of the work that may be done at the same time. */
+        const val PARTS = 4
         const val FINER = 1.3
         val WIDER = doubleArrayOf(0.0, 0.25, 0.6).toList()
 

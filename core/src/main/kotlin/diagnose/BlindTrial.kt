@@ -32,6 +32,12 @@ internal class BlindTrial(
     /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
     val worth: Double get() = ratio - 2 * degrees
 
+    /**
+     * The same before inflation, by which causes are held against each other: how far each one's scores seem correlated
+     * differs by chance.
+     */
+    val likelier: Double get() = ratio * inflation - 2 * degrees
+
     /** This trial where it is on top of a model whose twice log-likelihood is higher by [score] than the base's. */
     fun instead(score: Double): BlindTrial = atMost(ratio + score / inflation)
 
@@ -98,6 +104,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = DoubleArray(n) { base.residuals[it] - best.residuals[it] }
         return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
     }
+
+    /** Places, far from each other, where a fit of [model] may begin, of which [term] is new. */
+    fun starts(model: ResponseModel, term: Term): List<DoubleArray> = Starts(asFit, model, term).all()
 
     /** Places where the range may end: beyond ever fewer of the readings. */
     private fun ends(model: ResponseModel, term: Term, start: DoubleArray): List<DoubleArray> {

@@ -85,7 +85,8 @@ public class Diagnosis(
         val settled = settled(held)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
         val spikes = Spikes.of(settled.whitened).filter {
-            abs(settled.residuals[it]) > settled.model.scales.resolution && !unknown.isInDoubt(it)
+            abs(settled.residuals[it]) > settled.model.scales.resolution && !unknown.isInDoubt(it) &&
+                Spikes.isSingle(settled.residuals, it)
         }
         spikes.forEach { used[it] = false }
         val base = if (spikes.isEmpty()) settled else base(held, settled)

@@ -34,12 +34,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         mixture = Spikes.ratio(z)
     }
 
-    /** Whether the reading sticks out from both its neighbours. */
-    private fun isSingle(i: Int): Boolean {
-        val own = fit.residuals[i]
-        val beside = listOfNotNull(fit.residuals.getOrNull(i - 1), fit.residuals.getOrNull(i + 1))
-        return beside.all { (own - it) * own > own * own / 2 }
-    }
+    private fun isSingle(i: Int) = Spikes.isSingle(fit.residuals, i)
 
     /** Of there being sudden changes that last. */
     val lastingPValue: Double get() = Evidence.poissonTail(lasting.size, series.size * BEYOND)

@@ -5,6 +5,7 @@ import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sin
+import kotlin.math.sqrt
 
 /**
  * The reading that a sensor with the causes [terms] would give along a log whose truth is the log's reference.
@@ -30,7 +31,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private val taus = DoubleArray(n)
     private val isGap = scales.unknown?.isGap
     private val spline = Spline(series.times, scales.unknown?.isBroken)
-    private val truthSpline by lazy { Spline(series.times, scales.unknown?.isBroken).also { it.fit(truth) } }
+    private val truthSpline by lazy { Spline(series.times, scales.unknown?.isBroken) }
+    private var isFitted = false
     private var isDelayed = false
 
     /** Index of the first parameter of [term]. */
@@ -43,6 +45,18 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     fun width(term: Term): Int = layout.widths.getValue(term.key)
 
     private fun slot(cause: Cause) = layout.slots.getValue(cause.label)
+
+    /** To be called after other values were written into the log's reference. */
+    fun truthChanged() {
+        isFitted = false
+    }
+
+    /** The truth between the rows. */
+    private fun truthCurve(): Spline {
+        if (!isFitted) truthSpline.fit(truth)
+        isFitted = true
+        return truthSpline
+    }
 
     /**
      * Writes the reading without noise for [p], in the order of [parameters], into [out], length n; before its rounding
@@ -85,13 +99,14 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             return
         }
         var from = 0
+        val curve = truthCurve()
         for (i in 0 until n) {
             var time = series.times[i]
             if (distance != 0.0) time = layout.way.timeAt(i, -distance)
             time -= deadTime
             while (from < n - 2 && series.times[from + 1] < time) from++
             while (from > 0 && series.times[from] > time) from--
-            work[i] = truthSpline.at(from, time)
+            work[i] = curve.at(from, time)
         }
     }
 
@@ -105,6 +120,10 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         taus.fill(p[TIME_CONSTANT])
         if (exponent != 0.0) for (i in 0 until n) taus[i] *= exp(-exponent * scales.logSpeed[i])
         if (change != 0.0) for (i in 0 until n) taus[i] *= exp(-change * scales.warmth[i])
+        // Water that goes on evenly is passed as fast, and as warm, as halfway between the rows.
+        if (!held && (exponent != 0.0 || change != 0.0)) {
+            for (i in n - 1 downTo 1) taus[i] = sqrt(taus[i - 1] * taus[i])
+        }
     }
 
     /** A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. */
@@ -112,7 +131,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val up = factor * exp(asymmetry / 2)
         val down = factor * exp(-asymmetry / 2)
         val isTruth = input === work && !isDelayed
-        val curve = if (isTruth && !held) truthSpline else spline
+        val curve = if (isTruth && !held) truthCurve() else spline
         if (!held && !isTruth) spline.fit(input)
         var state = input[0]
         out[0] = state

@@ -12,6 +12,9 @@ internal object Spikes {
     private const val TIMES_SPREAD = 5.5
     private const val NORMAL = 1.4826
 
+    /** Of the way there the way back, less half: of a single row it is 1, of a jump a half. */
+    private const val RETURNED = 0.75
+
     /**
      * The rows whose residual is more than 5.5 robust standard deviations off the median of the seven around it.
      *
@@ -27,6 +30,13 @@ internal object Spikes {
             val beside = maxOf(abs(off.getOrElse(i - 1) { 0.0 }), abs(off.getOrElse(i + 1) { 0.0 }))
             abs(off[i]) > TIMES_SPREAD * spread && beside < 0.8 * abs(off[i])
         }
+    }
+
+    /** Whether after row [i] the [residuals] come back: after a jump, or after what fades slowly, they stay. */
+    fun isSingle(residuals: DoubleArray, i: Int): Boolean {
+        if (i == 0 || i == residuals.size - 1) return true
+        val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
+        return off > RETURNED * abs(residuals[i] - residuals[i - 1])
     }
 
     /** Standard deviation of [residuals], of which single ones may be wild. */

@@ -117,7 +117,8 @@ internal class Weighing(
             if (name != Conditions.HEADING && column.any { it != 0.0 }) add(Term(Cause.CROSS_SENSITIVITY, name))
         }
         add(Term(Cause.DRIFT))
-        add(Term(Cause.OFFSET_STEPS))
+        // A handful of rows has no place for a jump.
+        if (series.size >= FEWEST_ROWS) add(Term(Cause.OFFSET_STEPS))
         add(Term(Cause.HYSTERESIS))
         if (scales.resolution > COARSE * sqrt(base.variance)) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))

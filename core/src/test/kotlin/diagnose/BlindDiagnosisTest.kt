@@ -48,6 +48,17 @@ class BlindDiagnosisTest {
     }
 
     @Test
+    fun whatTheHalvesContradictIsNotNamed() {
+        val early = log(SensorStage.Asymmetric(9.0, 3.0)).values
+        val late = log(SensorStage.Asymmetric(5.0, 4.0)).values
+        val values = DoubleArray(n) { if (it < n / 2) early[it] else late[it] }
+        val times = DoubleArray(n) { it.toDouble() }
+        val verdict = Diagnosis(MeasuredSeries(times, x, y, values, null)).run().verdict
+        assertIs<Verdict.Unexplained>(verdict)
+        assertContains(verdict.what, "halves")
+    }
+
+    @Test
     fun aJumpOfTheOffsetIsNamedWithoutAReference() {
         val verdict = Diagnosis(log(SensorStage.Lag(4.0), SensorStage.Jumps(listOf(250.0), listOf(0.3)))).run().verdict
         assertContains(causes(verdict), Cause.OFFSET_STEPS)

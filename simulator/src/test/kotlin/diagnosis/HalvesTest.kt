@@ -11,7 +11,7 @@ import stillwater.cli.DiagnoseCommand
 import java.nio.file.Files
 import java.nio.file.Path
 import kotlin.test.Test
-import kotlin.test.assertTrue
+import kotlin.test.assertEquals
 
 /** A survey of a lake that changes while the boat is on it. */
 class HalvesTest {
@@ -29,17 +29,10 @@ class HalvesTest {
     }
 
     @Test
-    fun nothingIsNamedInARealSurveyThatItsHalvesDoNotName() {
+    fun nothingIsNamedInARealSurveyThatItsHalvesContradict() {
         val data = System.getenv("STILLWATER_DATA")
         assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")
-        val log = Path.of(data, "catabot", "catabot_china_20200915.csv")
-        val whole = named(log)
-        if (whole.isEmpty()) return
-        val lines = Files.readAllLines(log)
-        val middle = lines.size / 2
-        for (rows in listOf(lines.subList(1, middle), lines.subList(middle, lines.size))) {
-            val half = Files.write(directory.resolve("half.csv"), listOf(lines[0]) + rows)
-            assertTrue(named(half).containsAll(whole), "$whole is not named in ${rows.size} rows of it")
-        }
+        // Each half alone called it jumps at times of its own.
+        assertEquals(emptyList(), named(Path.of(data, "catabot", "catabot_china_20200915.csv")))
     }
 }
