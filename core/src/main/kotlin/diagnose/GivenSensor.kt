@@ -95,7 +95,7 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
     }
 
     private fun range(stage: SensorStage.Range) {
-        fun shown(limit: Double) = calibrations.drop(passed).fold(limit) { value, it -> it.gain * value + it.offset }
+        fun shown(limit: Double) = calibrations.drop(passed).fold(limit) { value, next -> next.gain * value + next.offset }
         val lower = stage.lower?.let(::shown)
         val upper = stage.upper?.let(::shown)
         val (low, high) = if (gainLeft() < 0) upper to lower else lower to upper
@@ -163,6 +163,6 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
             stage is SensorStage.Combined
 
         private fun isWarmth(stage: SensorStage) = stage is SensorStage.TemperatureLag ||
-            stage is SensorStage.Combined && stage.relativeChange != 0.0
+            (stage is SensorStage.Combined && stage.relativeChange != 0.0)
     }
 }

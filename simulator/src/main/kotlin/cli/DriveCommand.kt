@@ -75,8 +75,8 @@ class DriveCommand : WorkCommand("drive") {
     override fun helpEpilog(context: Context) = helpEnd(
         "Enter begins the mission; any line with a word in it, such as `stop`, or Ctrl-C ends it, also before it " +
             "began: the motors rest, the board is disarmed, the log is closed. DIR gets mission.txt " +
-            "(mission.txt.incomplete until then), cells.csv and a figure. Exit code 0 when the mission was completed, " +
-            "1 when it ended otherwise or surveyed nothing.",
+            "(mission.txt.incomplete until then), cells.csv and a figure. Exit code 0 when the mission was " +
+            "completed, 1 when it ended otherwise or surveyed nothing.",
         listOf(
             "stillwater drive pond.json --port /dev/ttyACM0 --declination -14 --out pond",
             "stillwater drive pond.json --port /dev/pts/3 --phone tcp:127.0.0.1:4002 --yes",

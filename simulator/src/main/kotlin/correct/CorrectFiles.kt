@@ -3,12 +3,12 @@ package stillwater.correct
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
-import kotlinx.serialization.json.addJsonObject
 import kotlinx.serialization.json.buildJsonArray
 import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonArray
 import kotlinx.serialization.json.putJsonObject
+import stillwater.estimate.CandidateStanding
 import stillwater.io.AddedColumns
 import stillwater.io.AnnotatedLog
 import stillwater.io.SurveyLog
@@ -106,58 +106,52 @@ class CorrectFiles(
         put("sensor_from", result.origin.name.lowercase())
         put("ambiguous", result.choice?.isAmbiguous ?: false)
         put("open", buildJsonArray { result.choice?.open?.forEach { add(JsonPrimitive(it.kind.label)) } })
-        putJsonArray("candidates") {
-            result.choice?.standings?.forEach { standing ->
-                add(
-                    buildJsonObject {
-                        put("response", standing.candidate.kind.label)
-                        putJsonObject("parameters") {
-                            standing.candidate.kind.parameters.forEachIndexed { i, name ->
-                                val interval = standing.candidate.interval(i)
-                                putJsonObject(name) {
-                                    put("value", standing.candidate.parameter(i))
-                                    put("low", finite(interval.start))
-                                    // Null where the log does not say how large it may be.
-                                    put("high", finite(interval.endInclusive))
-                                }
-                            }
-                        }
-                        put("mean_delay_s", finite(standing.candidate.response.meanDelay))
-                        put("held_out_score", finite(standing.candidate.heldOutScore))
-                        put("behind", finite(standing.behind))
-                        put("behind_error", finite(standing.error))
-                        put("open", standing.isOpen)
-                        put("weight", finite(standing.weight))
-                    },
-                )
-            }
-        }
+        putJsonArray("candidates") { result.choice?.standings?.forEach { add(candidate(it)) } }
         result.before?.let { put("opposite_legs_before", finite(it.opposite.mean)) }
         result.after?.let { put("opposite_legs_after", finite(it.opposite.mean)) }
         // The readings smoothed in the same way with no lag undone.
         result.smoothed?.let { put("opposite_legs_smoothed", finite(it.opposite.mean)) }
         heldOut?.let { scores ->
-            putJsonArray("held_out") {
-                for (score in scores) {
-                    addJsonObject {
-                        put("learned_on", score.learnedOn)
-                        put("legs", score.legs)
-                        put("opposite_legs_before", finite(score.before))
-                        put("opposite_legs_after", finite(score.after))
-                        put("opposite_legs_smoothed", finite(score.smoothed))
-                        score.passes?.let {
-                            put("pairs_of_passes", it.pairs)
-                            put("passes_rms_before", it.before)
-                            put("passes_rms_after", it.after)
-                            put("passes_rms_smoothed", finite(it.smoothed))
-                        }
-                    }
-                }
-            }
+            putJsonArray("held_out") { scores.forEach { add(split(it)) } }
         }
         put("mean_half_width", finite(summary.halfWidth))
         put("learned_on", result.learnedOn)
         put("blocks", result.blocks)
+    }
+
+    private fun candidate(standing: CandidateStanding) = buildJsonObject {
+        put("response", standing.candidate.kind.label)
+        putJsonObject("parameters") {
+            standing.candidate.kind.parameters.forEachIndexed { i, name ->
+                val interval = standing.candidate.interval(i)
+                putJsonObject(name) {
+                    put("value", standing.candidate.parameter(i))
+                    put("low", finite(interval.start))
+                    // Null where the log does not say how large it may be.
+                    put("high", finite(interval.endInclusive))
+                }
+            }
+        }
+        put("mean_delay_s", finite(standing.candidate.response.meanDelay))
+        put("held_out_score", finite(standing.candidate.heldOutScore))
+        put("behind", finite(standing.behind))
+        put("behind_error", finite(standing.error))
+        put("open", standing.isOpen)
+        put("weight", finite(standing.weight))
+    }
+
+    private fun split(score: HeldOutScore) = buildJsonObject {
+        put("learned_on", score.learnedOn)
+        put("legs", score.legs)
+        put("opposite_legs_before", finite(score.before))
+        put("opposite_legs_after", finite(score.after))
+        put("opposite_legs_smoothed", finite(score.smoothed))
+        score.passes?.let {
+            put("pairs_of_passes", it.pairs)
+            put("passes_rms_before", it.before)
+            put("passes_rms_after", it.after)
+            put("passes_rms_smoothed", finite(it.smoothed))
+        }
     }
 
     /** JSON has no other numbers. */
@@ -229,8 +223,8 @@ class CorrectFiles(
             "A slow sensor drags old water along, so that passes in different directions disagree. Each candidate " +
                 "response is undone in phase only, and short runs of the track are foretold from the other passes " +
                 "near them; the better they agree, the higher its score. Each group of runs is scored with " +
-                "parameters one Newton step from the best ones towards what the other groups alone would give; how rough the " +
-                "water is was learned from all of them.",
+                "parameters one Newton step from the best ones towards what the other groups alone would give; how " +
+                "rough the water is was learned from all of them.",
             "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
                 "from the scatter between groups of neighbouring runs. What is not ruled out stays open, and the " +
                 "corrected value is the mean over it.",

@@ -65,19 +65,17 @@ internal data class CsvColumns(
                     "a column time_s or unix_time_s, or --time COLUMN",
                     "columns ${names.joinToString(", ")}",
                 )
-            var latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
-            var longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
-            val inDegrees = latitude != NONE && longitude != NONE
-            if (!inDegrees) {
+            val latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
+            val longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
+            val place = if (latitude != NONE && longitude != NONE) {
+                Place(latitude, longitude, NONE, NONE)
+            } else {
                 choice.halfAPlace()?.let { throw problem(null, it, "neither") }
-                latitude = NONE
-                longitude = NONE
+                val x = choice.x?.let(::named) ?: recognised(X)
+                val y = choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
+                Place(NONE, NONE, x, y)
             }
-            val x = if (inDegrees) NONE else choice.x?.let(::named) ?: recognised(X)
-            val y = if (inDegrees) NONE else choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
-            val hasPlace = inDegrees || (x != NONE && (y != NONE || choice.x != null))
-            val isBench = !choice.needsPlace && !inDegrees && x == NONE && y == NONE
-            if (!hasPlace && !isBench) {
+            if (!place.suffices(choice)) {
                 throw problem(
                     null,
                     "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x",
@@ -85,12 +83,24 @@ internal data class CsvColumns(
                 )
             }
             val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
-            val used = setOf(time, latitude, longitude, x, y) + conditions.values
+            val used = place.columns + time + conditions.values
             val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
-            usedTwice(listOf(time, latitude, longitude, x, y, value))?.let { (column, uses) ->
+            usedTwice(place.columns + time + value)?.let { (column, uses) ->
                 throw problem(names[column], "one use of it as time, position or readings", "$uses")
             }
-            return CsvColumns(names, time, latitude, longitude, x, y, value, conditions)
+            return CsvColumns(names, time, place.latitude, place.longitude, place.x, place.y, value, conditions)
+        }
+
+        /** Columns of the positions, [NONE] where they have no such column. */
+        private class Place(val latitude: Int, val longitude: Int, val x: Int, val y: Int) {
+            val columns = listOf(latitude, longitude, x, y)
+
+            /** Whether that is what [choice] needs: degrees, metres, x alone where it was named, or no place at all. */
+            fun suffices(choice: LogChoice): Boolean = when {
+                latitude == NONE && x == NONE && y == NONE -> !choice.needsPlace
+                latitude != NONE -> true
+                else -> x != NONE && (y != NONE || choice.x != null)
+            }
         }
 
         /** What is missing where one of latitude and longitude was named alone. */

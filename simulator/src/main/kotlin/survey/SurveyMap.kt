@@ -61,8 +61,7 @@ data class MapSettings(
  * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
  * @property learned the estimator that learned the time constant, or null where it did not run.
  * @property legs the straight legs. @property mismatch their comparison, or null where there is too little.
- * @property rangeGiven whether the user gave [prior]. @property outsideRange readings outside [prior].
- * @property epsilonGiven whether the user gave the bounded filter's epsilon.
+ * @property outsideRange readings outside [prior].
  * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
  * @property settings what was asked for. @property interval what the interval filter's bounds assume, or null where it
  *   did not run.
@@ -81,14 +80,18 @@ class SurveyMap internal constructor(
     val passes: CellPasses,
     val legs: Legs,
     val mismatch: LegMismatch?,
-    val rangeGiven: Boolean,
     val outsideRange: Long,
-    val epsilonGiven: Boolean,
     val stepSlope: Double,
     val settings: MapSettings,
     val learned: SelfCalibratingEstimator?,
     val interval: IntervalAssumption?,
 ) {
+    /** Whether the user gave [prior]. */
+    val rangeGiven: Boolean get() = settings.prior != null
+
+    /** Whether the user gave the bounded filter's epsilon. */
+    val epsilonGiven: Boolean get() = settings.epsilon != null
+
     /** Unit of the quantity as the user gave it, or null. */
     val unit: String? get() = settings.unit
 
@@ -159,9 +162,7 @@ class SurveyMap internal constructor(
                 passes,
                 legs,
                 mismatch.await(),
-                rangeGiven = settings.prior != null,
                 outsideRange,
-                epsilonGiven = settings.epsilon != null,
                 stepSlope,
                 settings,
                 estimators.values.firstNotNullOfOrNull(::learner),
