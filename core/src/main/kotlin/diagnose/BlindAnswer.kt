@@ -116,8 +116,8 @@ internal class BlindAnswer(
             )
             add(
                 "The correction of a track (correct) compares passes over the same place alone, without a model of " +
-                    "the water between them: its lag may differ, and where it is outside of the interval here, neither " +
-                    "should be relied on.",
+                    "the water between them: its lag may differ, and where it is outside of the interval here, " +
+                    "neither should be relied on.",
             )
         }
         if (!last.isResolved) {

@@ -95,7 +95,10 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
     }
 
     private fun range(stage: SensorStage.Range) {
-        fun shown(limit: Double) = calibrations.drop(passed).fold(limit) { value, next -> next.gain * value + next.offset }
+        fun shown(limit: Double) = calibrations.drop(passed).fold(limit) { value, next ->
+            next.gain * value +
+                next.offset
+        }
         val lower = stage.lower?.let(::shown)
         val upper = stage.upper?.let(::shown)
         val (low, high) = if (gainLeft() < 0) upper to lower else lower to upper

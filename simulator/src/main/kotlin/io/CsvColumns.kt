@@ -83,7 +83,7 @@ internal data class CsvColumns(
                 )
             }
             val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
-            val used = place.columns + time + conditions.values
+            val used = place.columns.toSet() + time + conditions.values
             val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
             usedTwice(place.columns + time + value)?.let { (column, uses) ->
                 throw problem(names[column], "one use of it as time, position or readings", "$uses")
