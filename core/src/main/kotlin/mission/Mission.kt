@@ -189,7 +189,9 @@ public class Mission(
         port.hear(time)
         val ruling = assess()
         val before = state
-        state = MissionPhases.next(state, PhaseInput(ruling, port.state, navigator.isHome, spec.failsafe.rearms))
+        // A board that does not wake by drives is as good as disarmed.
+        val board = if (port.isAsleep(time)) BoardState.STANDBY else port.state
+        state = MissionPhases.next(state, PhaseInput(ruling, board, navigator.isHome, spec.failsafe.rearms))
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)
         command(before)

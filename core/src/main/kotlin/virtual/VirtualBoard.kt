@@ -18,6 +18,7 @@ import kotlin.math.roundToInt
  * @property volts of the battery, V.
  * @property knowsProbe whether port 1 has its probe built in; else it is silent until it was told, as on firmware v4.2.0,
  *   and again after each reset.
+ * @property wakesByDrives whether a drive ends the rest that the watchdog began; else the motors need arming again.
  * @throws IllegalArgumentException if a number is out of its range.
  */
 public data class BoardSpec(
@@ -29,6 +30,7 @@ public data class BoardSpec(
     val oxygenPeriod: Double = 3.0,
     val volts: Double = 15.3,
     val knowsProbe: Boolean = true,
+    val wakesByDrives: Boolean = true,
 ) {
     init {
         for ((name, value) in listOf(
@@ -194,7 +196,7 @@ public class VirtualBoard(
     }
 
     private fun move(match: MatchResult) {
-        if (mode == Mode.CONNECTED) enter(Mode.ACTIVE)
+        if (mode == Mode.CONNECTED && spec.wakesByDrives) enter(Mode.ACTIVE)
         if (mode != Mode.ACTIVE) return
         first = share(match.groupValues[1])
         second = share(match.groupValues[2])

@@ -62,6 +62,30 @@ class LinkHalvesTest {
         }
     }
 
+    /** By its source a version of the firmware stays at rest after its watchdog until it is armed. */
+    @Test
+    fun aBoardThatDrivesDoNotWakeIsArmedAgain() {
+        for (wakes in listOf(true, false)) {
+            val desk = Desk(
+                Desk.small(),
+                473,
+                board = BoardSpec(oxygenPeriod = 1.0, wakesByDrives = wakes),
+                wrapped = { Halves(it).also { made -> halves = made } },
+            )
+            desk.mission.start()
+            assertTrue(desk.until(60.0) { !desk.boat.board.actuation.isAtRest && it == MissionState.Surveying })
+            halves.isMute = true
+            repeat(7) { desk.step() }
+            assertTrue(desk.boat.board.actuation.isAtRest, "its watchdog has rested it")
+            halves.isMute = false
+            halves.told.clear()
+            assertTrue(desk.until(15.0) { !desk.boat.board.actuation.isAtRest }, "wakes $wakes")
+            repeat(50) { desk.step() }
+            val arm = PlatypusEncoder.encode(Command.Arm).decodeToString().trim()
+            assertEquals(!wakes, arm in halves.told, "armed again only where it must be")
+        }
+    }
+
     /** The phone is busy just when it would notice: the next step is 0.6 s after the last word, and by then nothing was said. */
     @Test
     fun aSilenceThatIsNoticedLateIsAnsweredWithRestAllTheSame() {

@@ -156,6 +156,7 @@ internal class CsvSurvey private constructor(
                 ?: numberProblem(row, NORTH, northColumn)
                 ?: numberProblem(row, EAST, eastColumn)
                 ?: numberProblem(row, VALUE, columns.value)
+                ?: codeProblem(row)
                 ?: conditionProblem(row)
                 ?: rangeProblem(row)
                 ?: reachProblem(row)
@@ -173,6 +174,14 @@ internal class CsvSurvey private constructor(
         private fun commaHint(text: String) =
             if (!DecimalText.parse(text.replace(',', '.')).isNaN()) " (decimals need a point)" else ""
 
+        /** What many loggers write where they have no reading is a number, and no reading. */
+        private fun codeProblem(row: CsvRow): LogProblem? {
+            val value = row.numbers[VALUE]
+            if (!isMissing(value)) return null
+            val found = "$value, which stands for a missing one"
+            return problem(row.line, columns.value, "a reading", found, "rows with a code for a missing value")
+        }
+
         private fun conditionProblem(row: CsvRow): LogProblem? {
             for (i in conditionNames.indices) {
                 if (conditionSlots[i] < SLOTS || row.numbers[conditionSlots[i]].isFinite()) continue
@@ -189,7 +198,7 @@ internal class CsvSurvey private constructor(
             val latitude = row.numbers[NORTH]
             val longitude = row.numbers[EAST]
             val reason = "positions off the globe"
-            sizeProblem(row, TIME, columns.time, LARGEST_NUMBER)?.let { return it }
+            timeSizeProblem(row)?.let { return it }
             sizeProblem(row, VALUE, columns.value, LARGEST_NUMBER)?.let { return it }
             return when {
                 !inDegrees -> sizeProblem(row, EAST, eastColumn, LARGEST_METRES)
@@ -204,6 +213,13 @@ internal class CsvSurvey private constructor(
                     problem(row.line, northColumn, "a latitude short of the pole", "$latitude", reason)
                 else -> null
             }
+        }
+
+        private fun timeSizeProblem(row: CsvRow): LogProblem? {
+            val time = row.numbers[TIME]
+            if (abs(time) <= LARGEST_SECONDS) return null
+            val found = "$time" + if (abs(time) < LARGEST_SECONDS * MILLIS) ": milliseconds?" else ""
+            return problem(row.line, columns.time, "seconds", found, "rows with a number out of all bounds")
         }
 
         private fun sizeProblem(row: CsvRow, slot: Int, column: Int, largest: Double): LogProblem? {
@@ -258,7 +274,7 @@ internal class CsvSurvey private constructor(
             val measured = LinkedHashMap<String, Double>()
             conditionNames.forEachIndexed { i, name ->
                 val number = row.numbers[conditionSlots[i]]
-                if (number.isFinite()) measured[name] = number
+                if (number.isFinite() && !isMissing(number)) measured[name] = number
             }
             return Conditions(measured)
         }
@@ -274,6 +290,10 @@ internal class CsvSurvey private constructor(
         private const val LONGEST_FIELD = 1 shl 20
         private const val LARGEST_NUMBER = 1e300
         private const val LARGEST_METRES = 1e9
+
+        /** The year 5138, or 1973 in milliseconds. */
+        private const val LARGEST_SECONDS = 1e11
+        private const val MILLIS = 1000
         private val LINE = Regex("""line (\d+)""")
         private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
 
@@ -283,6 +303,8 @@ internal class CsvSurvey private constructor(
         private const val EAST = 2
         private const val VALUE = 3
         private const val SLOTS = 4
+
+        private fun isMissing(value: Double) = value == -9999.0 || value == -99999.0 || value == -999999.0
 
         fun open(content: LogContent, choice: LogChoice): CsvSurvey {
             val headerLine = content.head.indexOfFirst { it.isNotBlank() }

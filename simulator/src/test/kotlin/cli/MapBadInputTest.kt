@@ -142,6 +142,18 @@ class MapBadInputTest {
                 "found '1e999' (too large)",
                 "rows with text where a number belongs",
             ),
+            csv(
+                "code for a missing value",
+                HEAD + GOOD + "3,45.5,-73.1,-9999\n",
+                "log.csv:5: column do_mg_l: expected a reading, found -9999.0, which stands for a missing one",
+                "rows with a code for a missing value",
+            ),
+            csv(
+                "milliseconds",
+                HEAD + GOOD + "1752480000000,45.5,-73.1,8\n",
+                "log.csv:5: column time_s: expected seconds, found 1.75248E12: milliseconds?",
+                "rows with a number out of all bounds",
+            ),
             csv("empty field", HEAD + GOOD + "3,45.5,-73.1,\n", "found nothing", "rows with an empty field"),
             csv("empty time", HEAD + GOOD + ",45.5,-73.1,8\n", "column time_s", "rows with an empty field"),
             csv(
