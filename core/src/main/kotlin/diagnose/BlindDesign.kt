@@ -1,19 +1,18 @@
 package stillwater.diagnose
 
-import java.util.stream.IntStream
-
 /**
  * The waves as the sensor shows them, whitened, and their normal equations: all that is needed to integrate the water
  * out.
  *
  * @param shown each wave as the sensor shows it, not whitened; flat-prior columns last. Retained.
+ * @param loops how the columns and the halves of the sums are gone through.
  * @property noise what whitens. @property size number of columns.
  */
-internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
+internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loops: Loops) {
     val size: Int = shown.size
     private val n = shown[0].size
     private val columns = arrayOfNulls<DoubleArray>(size).also { out ->
-        each(size) { k -> out[k] = DoubleArray(n).also { noise.whiten(shown[k], it) } }
+        loops.each(size) { k -> out[k] = DoubleArray(n).also { noise.whiten(shown[k], it) } }
     }.requireNoNulls()
 
     /** The lower half of RᵀR, row by row. */
@@ -23,7 +22,7 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
         val count = (n + STRETCH - 1) / STRETCH
         val halves = arrayOf(0 until count / 2, count / 2 until count)
         val parts = arrayOf(gram, Array(size) { DoubleArray(it + 1) })
-        each(halves.size) { half ->
+        loops.each(halves.size) { half ->
             val rows = Array(STRETCH) { DoubleArray(size) }
             for (stretch in halves[half]) add(rows, stretch * STRETCH, parts[half])
         }
@@ -117,8 +116,5 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise) {
     companion object {
         private const val STRETCH = 64
         private const val AT_ONCE = 4
-
-        /** Does [task] for each number below [count], on all cores; tasks must not write what others read. */
-        fun each(count: Int, task: (Int) -> Unit) = IntStream.range(0, count).parallel().forEach(task)
     }
 }

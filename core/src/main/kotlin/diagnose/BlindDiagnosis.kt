@@ -14,9 +14,10 @@ import kotlin.math.sqrt
 internal class BlindDiagnosis(
     private val series: MeasuredSeries,
     private val settings: DiagnosisSettings,
+    loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
-    private val search by lazy { BlindSearch(series) { progress(SEARCH * it) } }
+    private val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
     private var rounds = 0
 
     /** The share [done] of a round is behind: each takes half of what is left. */

@@ -10,7 +10,11 @@ import kotlin.math.sqrt
  *
  * @param progress told how much of [best] is done, a share within 0..1 that grows.
  */
-internal class BlindSearch(private val series: MeasuredSeries, private val progress: (Double) -> Unit = {}) {
+internal class BlindSearch(
+    private val series: MeasuredSeries,
+    private val loops: Loops = Loops.IN_TURN,
+    private val progress: (Double) -> Unit = {},
+) {
     private val n = series.size
 
     /** Rows that are fitted. */
@@ -285,7 +289,7 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         val last = designLast
         val columns = shown(terms, numbers, modes)
         if (last != null && designOf === columns && last.noise === noise) return last
-        return BlindDesign(columns, noise).also {
+        return BlindDesign(columns, noise, loops).also {
             designLast = it
             designOf = columns
         }
@@ -302,7 +306,7 @@ internal class BlindSearch(private val series: MeasuredSeries, private val progr
         }
         val columns = arrayOfNulls<DoubleArray>(modes.size)
         // A model has working space of its own, which tasks cannot share.
-        BlindDesign.each(PARTS) { part ->
+        loops.each(PARTS) { part ->
             val truth = DoubleArray(n)
             val model = ResponseModel(series.withReference(truth), linear, held, scales)
             for (k in part until modes.size step PARTS) {

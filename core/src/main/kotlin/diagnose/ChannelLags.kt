@@ -58,26 +58,32 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
         /**
          * Learns the lags of the channel in [series], called [name], and of [others], columns of the same rows by name,
          * NaN where a row has none. What [diagnosed], the diagnosis of [series], has found is not searched again;
-         * [progress] is told how much is done, a share within 0..1 that grows.
+         * [loops] says how what can be done at once is, and [progress] is told how much is done, a share within 0..1 that grows.
          */
         public fun of(
             series: MeasuredSeries,
             name: String,
             others: Map<String, DoubleArray>,
             diagnosed: DiagnosisResult? = null,
+            loops: Loops = Loops.IN_TURN,
             progress: (Double) -> Unit = {},
         ): ChannelLags {
-            val own = diagnosed?.lag?.let { ChannelLag(name, it.delay, it.error) } ?: lag(name, series)
+            val own = diagnosed?.lag?.let { ChannelLag(name, it.delay, it.error) } ?: lag(name, series, loops)
             return ChannelLags(
                 listOf(own) + others.entries.mapIndexed { i, (other, column) ->
-                    lag(other, series.withValues(column)) { progress((i + it) / others.size) }
+                    lag(other, series.withValues(column), loops) { progress((i + it) / others.size) }
                 },
             )
         }
 
-        private fun lag(name: String, series: MeasuredSeries, progress: (Double) -> Unit = {}): ChannelLag {
+        private fun lag(
+            name: String,
+            series: MeasuredSeries,
+            loops: Loops,
+            progress: (Double) -> Unit = {},
+        ): ChannelLag {
             if (BlindDiagnosis.tooLittle(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
-            val search = BlindSearch(series, progress)
+            val search = BlindSearch(series, loops, progress)
             return BlindLag(search, search.best()).channel(name)
         }
     }

@@ -13,6 +13,7 @@ import kotlin.math.abs
  *
  * Pure: the same log gives the same answer. Cost: of the order of a second for a thousand rows.
  *
+ * @param loops how what can be done at once is; the answer is the same bits.
  * @param progress told how much is done, a share within 0..1 that grows; at most a few hundred times.
  * @throws IllegalArgumentException if there is a reference and parts of the given sensor would be lost, or take a
  *   condition that [series] has not; the message is for the user.
@@ -20,6 +21,7 @@ import kotlin.math.abs
 public class Diagnosis(
     private val series: MeasuredSeries,
     private val settings: DiagnosisSettings = DiagnosisSettings(),
+    private val loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
     private val unknown = UnknownTruth.of(series)
@@ -37,9 +39,9 @@ public class Diagnosis(
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
         val reference = series.reference
-            ?: return BlindDiagnosis(series, settings, progress).run().also { progress(1.0) }
+            ?: return BlindDiagnosis(series, settings, loops, progress).run().also { progress(1.0) }
         val quieter = quieter(reference)
-        return if (quieter == null) weighed() else Diagnosis(quieter, settings, progress).weighed()
+        return if (quieter == null) weighed() else Diagnosis(quieter, settings, loops, progress).weighed()
     }
 
     /**

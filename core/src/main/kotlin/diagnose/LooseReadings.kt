@@ -25,7 +25,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         // Noise may be larger at some values, speeds or times than at others: that is no outlier yet.
         LocalSpread.of(fit, z).forEachIndexed { i, factor -> z[i] /= factor }
         fun isFar(i: Int) = abs(fit.residuals[i]) > FARTHEST * spread + resolution / 2
-        val usual = Spikes.spread(z)
+        val usual = usual()
         val sudden = z.indices.filter { abs(z[it]) > FARTHEST * usual }
         // A single reading makes two sudden changes.
         lasting = sudden.filterNot { isSingle(it) || (it > 0 && abs(z[it - 1]) > FARTHEST * usual && isSingle(it - 1)) }
@@ -34,16 +34,28 @@ internal class LooseReadings(private val fit: ModelFit) {
         mixture = Spikes.ratio(z)
     }
 
+    /** Spread of the rows that are not in doubt. */
+    private fun usual() = Spikes.spread(z.filter { it != 0.0 }.toDoubleArray())
+
     private fun isSingle(i: Int) = Spikes.isSingle(fit.residuals, i)
 
-    /** Of there being sudden changes that last. */
-    val lastingPValue: Double get() = Evidence.poissonTail(lasting.size, series.size * BEYOND)
+    /** Of there being sudden changes that last; those where the truth itself is sudden are none. */
+    val lastingPValue: Double
+        get() = if (LocalSpread.isConcentrated(fit, lasting)) {
+            1.0
+        } else {
+            Evidence.poissonTail(
+                lasting.size,
+                series.size * BEYOND,
+            )
+        }
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
     val pValue: Double = Evidence.poissonTail(spikes.size, series.size * BEYOND).let { lone ->
         val far = mixture.size > FARTHEST * spread && resolution < spread
         val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
-        if (LocalSpread.isConcentrated(fit, z.indices.filter { abs(z[it]) > TAIL * Spikes.spread(z) })) 1.0 else found
+        val usual = usual()
+        if (LocalSpread.isConcentrated(fit, z.indices.filter { abs(z[it]) > TAIL * usual })) 1.0 else found
     }
 
     /** How often and how far. */

@@ -220,7 +220,7 @@ internal class Weighing(
         const val FEWEST_ROWS = 60
 
         /** Sudden changes that last: fewer are jumps. */
-        const val FEWEST_CHANGES = 3
+        const val FEWEST_CHANGES = 5
         const val NORMAL_95 = 1.96
         const val LEFT = 0.25
         const val SLOWEST = 0.02

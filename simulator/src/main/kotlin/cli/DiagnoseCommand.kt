@@ -13,6 +13,7 @@ import kotlinx.coroutines.runBlocking
 import stillwater.diagnose.Diagnosis
 import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.DiagnosisSettings
+import stillwater.diagnosis.AT_ONCE
 import stillwater.diagnosis.Diagnosed
 import stillwater.diagnosis.DiagnosisFiles
 import stillwater.diagnosis.DiagnosisJson
@@ -113,7 +114,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     }
 
     private fun diagnosis(read: DiagnosisLog, given: SensorSpec?, progress: (Double) -> Unit) = try {
-        Diagnosis(read.series, DiagnosisSettings(base = given), progress)
+        Diagnosis(read.series, DiagnosisSettings(base = given), AT_ONCE, progress)
     } catch (wrong: IllegalArgumentException) {
         throw failure("--sensor $sensor: ${wrong.message}")
     }

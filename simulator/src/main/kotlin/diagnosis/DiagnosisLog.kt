@@ -44,7 +44,7 @@ class DiagnosisLog private constructor(
         null
     } else {
         val others = compare.associateWith { checkNotNull(columns.condition(compared(it))) }
-        ChannelLags.of(series, quantity, others, result, progress)
+        ChannelLags.of(series, quantity, others, result, AT_ONCE, progress)
     }
 
     companion object {
