@@ -174,6 +174,19 @@ internal class CorrectSummary(
             "(${duration(result.statistics.duration)}): what it shows of the water is mostly from before it"
     }
 
+    /** What to say where undoing the response sets passes farther apart than they were; null where it does not. */
+    private fun worse(): String? {
+        val before = result.before?.opposite?.mean ?: return null
+        val after = result.after?.opposite?.mean ?: return null
+        if (!(after > WORSE * before)) return null
+        val legs = "opposite legs differ by ${percent(after / before - 1)} more than as measured"
+        return when (result.origin) {
+            SensorOrigin.GIVEN -> "$legs: the sensor given is not this one's"
+            else -> "$legs: none of the responses that were tried is this sensor's. Do not use the corrected values " +
+                "without another look; diagnose knows more kinds of response, and --sensor takes what it finds"
+        }
+    }
+
     private fun hint(twoPaths: CandidateResponse): String {
         val share = twoPaths.kind.parameters.lastIndex
         val range = twoPaths.interval(share)
@@ -204,6 +217,7 @@ internal class CorrectSummary(
                 add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }
             slowest()?.let(::add)
+            worse()?.let(::add)
             val silent = result.track.silent.count { it }
             if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
@@ -226,4 +240,9 @@ internal class CorrectSummary(
             }
             if (result.withoutReference > 0) add("${result.withoutReference} readings have no reference")
         }
+
+    private companion object {
+        /** Legs that differ by a few percent more may do so by chance. */
+        const val WORSE = 1.1
+    }
 }

@@ -93,6 +93,16 @@ class GivenSensorTest {
     }
 
     @Test
+    fun aSensorThatSetsOppositeLegsApartIsWarnedOf() {
+        val log = file("log.csv", survey(SensorStage.Lag(4.0)))
+        for ((tau, isWrong) in listOf(4.0 to false, 20.0 to true)) {
+            val result = run("correct", log, "--value", "do_mg_l", "--sensor", spec(SensorStage.Lag(tau)))
+            assertEquals(0, result.statusCode, result.output)
+            assertEquals(isWrong, "the sensor given is not this one's" in result.stderr, "$tau s: ${result.stderr}")
+        }
+    }
+
+    @Test
     fun missingOrWrongConditionIsNamed() {
         val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
         val log = file("log.csv", survey(stage))
