@@ -12,8 +12,8 @@ internal object LocalSpread {
     private const val FEWEST_GATHERED = 4
     private const val GATHERED = 3.3
 
-    /** Below this the scatter of so few rows' own spread would count. */
-    private const val CLEAR = 1.3
+    /** Three standard errors of a median of absolute normal residuals, in itself, times the root of their number. */
+    private const val CLEAR = 3.5
 
     /** For each row by how much [z], residuals of [fit], scatter more than overall at such times, values, rates or conditions. */
     fun of(fit: ModelFit, z: DoubleArray): DoubleArray = of(z, columns(fit))
@@ -69,7 +69,7 @@ internal object LocalSpread {
                 // The last rows are too few by themselves.
                 val rows = if (part.size < size) order.takeLast(size) else part
                 val factor = median(DoubleArray(rows.size) { abs(z[rows[it]]) }) / overall
-                if (factor > CLEAR) for (i in part) factors[i] = maxOf(factors[i], factor)
+                if (factor > 1 + CLEAR / sqrt(rows.size.toDouble())) for (i in part) factors[i] = maxOf(factors[i], factor)
             }
         }
         return factors
