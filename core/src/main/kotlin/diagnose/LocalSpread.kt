@@ -69,7 +69,11 @@ internal object LocalSpread {
                 // The last rows are too few by themselves.
                 val rows = if (part.size < size) order.takeLast(size) else part
                 val factor = median(DoubleArray(rows.size) { abs(z[rows[it]]) }) / overall
-                if (factor > 1 + CLEAR / sqrt(rows.size.toDouble())) for (i in part) factors[i] = maxOf(factors[i], factor)
+                if (factor >
+                    1 + CLEAR / sqrt(rows.size.toDouble())
+                ) {
+                    for (i in part) factors[i] = maxOf(factors[i], factor)
+                }
             }
         }
         return factors

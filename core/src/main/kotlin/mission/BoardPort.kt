@@ -51,7 +51,8 @@ public class BoardPort(
     private var isAsked = false
     private var isAnswerOld = false
     private var ordered: Command? = null
-    private var idleFrom = Double.POSITIVE_INFINITY
+    private var hasDriven = false
+    private var idleAnswers = 0
 
     /** What the board last said of itself; null where it has said nothing since it was last told to be otherwise. */
     public var state: BoardState? = null
@@ -107,16 +108,16 @@ public class BoardPort(
         if (!isNewRest && now.seconds - toldAt < pause) return
         toldAt = now.seconds
         sent = actuation
-        if (actuation.isAtRest) idleFrom = Double.POSITIVE_INFINITY
+        if (!actuation.isAtRest) hasDriven = true
         // A line that is hit on the way is not heard, and of a first rest that must not happen.
         repeat(if (isNewRest) REST_COPIES else 1) { send(Command.Move(actuation)) }
     }
 
     /**
-     * Whether the board says that it rests for want of commands though it has been told drives for [WAKING] s: one that
-     * does not go on by itself needs arming.
+     * Whether the board has said [ASLEEP] times on end that it rests for want of commands though it was told to drive
+     * before each: one that does not go on by itself needs arming.
      */
-    public fun isAsleep(now: BoatTime): Boolean = now.seconds - idleFrom >= WAKING
+    public val isAsleep: Boolean get() = idleAnswers >= ASLEEP
 
     /** Whether rest was said for long enough, and the board says that its motors rest. */
     private fun isRestKept(now: BoatTime) = now.seconds - restedFrom >= RESTING &&
@@ -132,6 +133,7 @@ public class BoardPort(
             state = null
             isAnswerOld = isAsked
         }
+        if (command == Command.Arm) idleAnswers = 0
         ordered = command
         send(command)
     }
@@ -168,8 +170,12 @@ public class BoardPort(
     /** Where the old answer was lost on the way a new one is passed over in its place, and the next one counts. */
     private fun takeState(said: BoardState) {
         if (!isAnswerOld) state = said
-        val isIdle = said == BoardState.CONNECTED && !sent.isAtRest
-        idleFrom = if (isIdle) minOf(idleFrom, now.seconds) else Double.POSITIVE_INFINITY
+        if (said != BoardState.CONNECTED) {
+            idleAnswers = 0
+        } else if (hasDriven) {
+            idleAnswers++
+        }
+        hasDriven = false
         isAnswerOld = false
         isAsked = false
     }
@@ -187,8 +193,8 @@ public class BoardPort(
         /** Time between rests that are kept, s: boards disarm themselves 5 s after their watchdog. */
         private const val REMINDER = 2.0
 
-        /** Drives within which a board that wakes by them has said so: it is asked twice, s. */
-        private const val WAKING = 2.5
+        /** Answers, of which a lost drive may have made one. */
+        private const val ASLEEP = 3
 
         /** Boards say ten times a second what their motors get; older than this it is not known, s. */
         private const val ECHO = 0.35

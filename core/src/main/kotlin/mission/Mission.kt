@@ -190,7 +190,7 @@ public class Mission(
         val ruling = assess()
         val before = state
         // A board that does not wake by drives is as good as disarmed.
-        val board = if (port.isAsleep(time)) BoardState.STANDBY else port.state
+        val board = if (port.isAsleep) BoardState.STANDBY else port.state
         state = MissionPhases.next(state, PhaseInput(ruling, board, navigator.isHome, spec.failsafe.rearms))
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)

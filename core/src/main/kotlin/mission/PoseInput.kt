@@ -100,7 +100,7 @@ internal class PoseInput(
         }
         val time = minOf(waitingTime, now)
         // The longer without a fix, the farther off the first one may be that is taken.
-        if (time - fixTime > oldestFix) {
+        if (time - fixTime > PAUSE * oldestFix) {
             isBelieved = false
             agreeSince = Double.NaN
         }
@@ -139,6 +139,9 @@ internal class PoseInput(
 
         /** The same after a pause, s, where they agree with what was believed before it. */
         const val RENEWED = 5.0
+
+        /** Of the age at which a fix is too old to drive by: a receiver that says one each 3 s makes no pauses. */
+        const val PAUSE = 2.0
 
         /** Fixes nearer in time are one, s. */
         const val SAME_FIX = 0.02

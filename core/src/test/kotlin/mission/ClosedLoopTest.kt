@@ -166,7 +166,7 @@ class ClosedLoopTest {
         desk.begin()
         desk.meanwhile = { desk.boat.takeFix() }
         assertTrue(desk.until(4.0) { it == MissionState.Holding(Danger.FIX_STALE) })
-        desk.until(2.0) { false }
+        desk.until(4.0) { false }
         assertTrue(desk.boat.board.actuation.isAtRest)
         desk.meanwhile = {}
         // The first fix after a pause may be a jump: they must agree for 5 s, and come once a second.

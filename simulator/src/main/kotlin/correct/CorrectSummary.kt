@@ -182,8 +182,9 @@ internal class CorrectSummary(
         val legs = "opposite legs differ by ${percent(after / before - 1)} more than as measured"
         return when (result.origin) {
             SensorOrigin.GIVEN -> "$legs: the sensor given is not this one's"
-            else -> "$legs: none of the responses that were tried is this sensor's. Do not use the corrected values " +
-                "without another look; diagnose knows more kinds of response, and --sensor takes what it finds"
+            else ->
+                "$legs: none of the responses that were tried is this sensor's. Do not use the corrected values " +
+                    "without another look; diagnose knows more kinds of response, and --sensor takes what it finds"
         }
     }
 

@@ -84,8 +84,12 @@ internal class ReconnectingLink(
         synchronized(lock) { session }?.giveUpWhatHangs()
     }
 
-    /** From one [open] to the next [close]; what an ended one still does, nobody sees. */
-    private inner class Session : CommandWriter.Told {
+    /**
+     * From one [open] to the next [close], or until a command hangs; what an ended one still does, nobody sees.
+     *
+     * @param isAfterHang whether it follows one whose connection was given up.
+     */
+    private inner class Session(private val isAfterHang: Boolean = false) : CommandWriter.Told {
         private val reader = Thread(::connectAndRead, "link-read").apply { isDaemon = true }
         private val waits = ReconnectWaits()
 
@@ -96,9 +100,6 @@ internal class ReconnectingLink(
         /** Of the connection that came about last; null before the first. */
         @Volatile var writer: CommandWriter? = null
             private set
-
-        /** The writer whose connection was given up. */
-        @Volatile private var hung: CommandWriter? = null
 
         fun start() = reader.start()
 
@@ -121,11 +122,13 @@ internal class ReconnectingLink(
 
         fun giveUpWhatHangs() {
             val writer = this.writer?.takeIf { it.isHung } ?: return
+            // Where a write hangs the read may, too, and the close of both: the next attempt waits for none of them.
+            val next = Session(isAfterHang = true)
             synchronized(lock) {
-                if (hung === writer || session !== this) return
-                hung = writer
+                if (session !== this) return
+                ended = true
+                session = next
                 counted = counted.copy(
-                    // At once: nobody knows when the reader will see it.
                     state = LinkState.WAITING,
                     drops = counted.drops + 1,
                     writesHung = counted.writesHung + 1,
@@ -134,9 +137,11 @@ internal class ReconnectingLink(
             }
             // Of this caller nobody may be kept waiting; and a close has been seen to wait for the write.
             Thread(writer::closeConnection, "link-give-up").apply { isDaemon = true }.start()
+            next.start()
         }
 
         private fun connectAndRead() {
+            if (isAfterHang) rest()
             while (!ended) {
                 report { copy(state = LinkState.CONNECTING) }
                 try {
@@ -153,11 +158,15 @@ internal class ReconnectingLink(
                     writer?.finish()
                     writer = null
                 }
-                try {
-                    if (!ended) pause.pause(waits.next())
-                } catch (_: InterruptedException) {
-                    check(ended) { "only end() interrupts" }
-                }
+                if (!ended) rest()
+            }
+        }
+
+        private fun rest() {
+            try {
+                pause.pause(waits.next())
+            } catch (_: InterruptedException) {
+                check(ended) { "only end() interrupts" }
             }
         }
 
@@ -200,8 +209,6 @@ internal class ReconnectingLink(
 
         private fun lost(error: Exception) {
             if (!ended) Log.i(TAG, "${transport.name}: $error")
-            // Given up by us, it is counted already; and why it is lost is not what the system says of our closing it.
-            if (hung != null && hung === writer) return
             report {
                 val had = state == LinkState.CONNECTED
                 copy(

@@ -78,7 +78,12 @@ internal class LogFile(
 
     /** Lets go of the file and leaves it incomplete. */
     fun release() {
-        output?.close()
+        try {
+            output?.close()
+        } catch (error: IOException) {
+            // What was flushed is on the disk; the boat is not to be left over this.
+            trouble(LogProblem(LogProblem.Reason.NOT_WRITTEN, error.message ?: error.javaClass.simpleName))
+        }
         output = null
     }
 

@@ -156,11 +156,8 @@ internal class Documents(
             Result.success(work())
         } catch (e: IOException) {
             Result.failure(e)
-        } catch (e: SecurityException) {
-            Result.failure(e)
-        } catch (e: IllegalArgumentException) {
-            Result.failure(e)
-        } catch (e: UnsupportedOperationException) {
+        } catch (@Suppress("TooGenericExceptionCaught") e: RuntimeException) {
+            // Whatever another app's documents throw comes back here, and is no reason to end the process that steers the boat.
             Result.failure(e)
         }
 

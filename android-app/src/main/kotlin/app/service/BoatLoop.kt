@@ -56,6 +56,9 @@ internal class BoatLoop(
     /** How many connections of the link have begun with a board that was told to stand still. */
     private var disarmed = 0L
 
+    /** Whether the board was asked since the link came about. */
+    private var isAnswerDue = false
+
     /** What the service is about, to be shown; any thread. */
     @Volatile var activity = BoatActivity.IDLE
 
@@ -240,8 +243,10 @@ internal class BoatLoop(
     /** Whatever a board was told before this connection, by a process that died perhaps: it is over. */
     private fun greet() {
         val connects = held.link?.health?.connects ?: 0
-        if (connects != disarmed && !missions.isUnderWay) standStill()
+        if (connects == disarmed) return
+        if (!missions.isUnderWay) standStill()
         disarmed = connects
+        isAnswerDue = false
     }
 
     /** No mission listens. A question a second keeps a link alive that is cut when idle; no board is to be armed. */
@@ -251,7 +256,9 @@ internal class BoatLoop(
         askedAt = now
         held.write(PlatypusEncoder.encode(Command.AskState))
         val state = held.ears.report.state
-        if (state != null && state != BoardState.STANDBY) standStill()
+        // A question alone would keep the watchdog of a board quiet that runs and is not heard.
+        if (if (state == null) isAnswerDue else state != BoardState.STANDBY) standStill()
+        isAnswerDue = true
     }
 
     private fun standStill() {

@@ -9,8 +9,8 @@ import kotlin.test.assertNotNull
 /** Long enough for any machine; a test that has to wait so long has failed. */
 internal const val PATIENCE_SECONDS = 30L
 
-/** One end of a line to a board that the test plays. */
-internal class FakeConnection(private val refusal: String? = null) : Connection {
+/** One end of a line to a board that the test plays. [isStuck] is one whose closing ends nothing and never returns. */
+internal class FakeConnection(private val refusal: String? = null, private val isStuck: Boolean = false) : Connection {
     private val incoming = LinkedBlockingQueue<ByteArray>()
     val written = LinkedBlockingQueue<ByteArray>()
 
@@ -48,6 +48,7 @@ internal class FakeConnection(private val refusal: String? = null) : Connection 
     }
 
     override fun close() {
+        if (isStuck) Semaphore(0).acquireUninterruptibly()
         closed = true
         incoming.add(END)
     }

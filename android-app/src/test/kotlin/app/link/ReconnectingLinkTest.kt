@@ -152,6 +152,25 @@ class ReconnectingLinkTest {
         assertEquals(listOf(2L, 1L, 0L, 1L), link.health.run { listOf(connects, drops, failures, writesHung) })
     }
 
+    /** A driver that holds everything: its write, its read, and whoever closes it. */
+    @Test
+    fun aConnectionThatNothingEndsIsLeftBehind() {
+        val board = connected(FakeConnection(isStuck = true))
+        board.mayWrite.drainPermits()
+        link.write("go\n".toByteArray())
+        eventually("being written") { board.mayWrite.hasQueuedThreads().takeIf { it } }
+        uptime = CommandWriter.LONGEST_WRITE_MILLIS + 1
+        link.read(ByteArray(8))
+        val second = transport.next(FakeConnection())
+        assertEquals(500L, pause.passes())
+        eventually("connected") { link.health.takeIf { it.state == LinkState.CONNECTED } }
+        // What the first still says is nobody's.
+        board.boardSends("late\n")
+        assertTrue(link.write("stop\n".toByteArray()))
+        assertEquals("stop\n", String(assertNotNull(second.written.poll(PATIENCE_SECONDS, TimeUnit.SECONDS))))
+        assertEquals(listOf(2L, 1L, 0L, 1L), link.health.run { listOf(connects, drops, failures, writesHung) })
+    }
+
     @Test
     fun attemptsThatFailAfterAWriteHungAreCounted() {
         val board = connected()
@@ -230,8 +249,8 @@ class ReconnectingLinkTest {
 
     private fun link(parting: Parting) = ReconnectingLink(transport, words, pause, parting) { uptime }
 
-    private fun connected(): FakeConnection {
-        val connection = transport.next(FakeConnection())
+    private fun connected(connection: FakeConnection = FakeConnection()): FakeConnection {
+        transport.next(connection)
         link.open()
         eventually("connected") { link.health.takeIf { it.state == LinkState.CONNECTED } }
         return connection

@@ -84,6 +84,21 @@ class LogFileTest {
     }
 
     @Test
+    fun aFileThatCannotBeClosedIsTroubleAndNothingElse() {
+        val output =
+            object : LogOutput {
+                override fun append(bytes: ByteArray) = Unit
+
+                override fun close(): Unit = throw IOException("gone")
+            }
+        val log = LogFile(file, { output }, room)
+        log.line("one")
+        assertTrue(log.close())
+        assertEquals(LogProblem(LogProblem.Reason.NOT_WRITTEN, "gone"), log.report.problem)
+        assertEquals(1L, log.report.written)
+    }
+
+    @Test
     fun littleRoomIsTroubleBeforeTheDiskIsFull() {
         val log = LogFile(file, LogOpener(::FileOutput)) { 1_000_000 }
         log.line("one")

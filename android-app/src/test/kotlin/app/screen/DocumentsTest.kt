@@ -161,6 +161,19 @@ class DocumentsTest {
         assertTrue("Not written: ENOSPC" in activity.wordsShown(), "${activity.wordsShown()}")
     }
 
+    /** Any exception of another app's provider comes back to its caller. */
+    @Test
+    fun aProviderThatFailsInAnyWayDoesNotEndTheProcess() {
+        val broken =
+            object : OutputStream() {
+                override fun write(b: Int): Unit = error("its account is gone")
+            }
+        take(broken)
+        openPast()
+        choose("CSV", document)
+        assertTrue("Not written: its account is gone" in activity.wordsShown(), "${activity.wordsShown()}")
+    }
+
     @Test
     fun whatIsChosenIsWrittenEvenWhenTheProcessDiedMeanwhile() {
         take()

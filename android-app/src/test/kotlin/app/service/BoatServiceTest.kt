@@ -36,11 +36,14 @@ import kotlin.test.assertTrue
 class BoatServiceTest {
     private val context: Application = RuntimeEnvironment.getApplication()
     private val made = mutableListOf<FakeLink>()
+
+    /** Whether boards are heard. */
+    private var answers = true
     private val services = mutableListOf<ServiceController<BoatService>>()
 
     @Before
     fun fakeLinks() {
-        BoatService.links = LinkMaker { _, choice -> FakeLink(choice).also { made += it } }
+        BoatService.links = LinkMaker { _, choice -> FakeLink(choice, answers).also { made += it } }
     }
 
     @After
@@ -138,6 +141,20 @@ class BoatServiceTest {
         val before = link.asked
         repeat(10) { settle() }
         assertEquals(before + 5, link.asked, "in five seconds")
+    }
+
+    /** A question keeps the watchdog quiet of a board that runs and is not heard. */
+    @Test
+    fun aBoardThatIsNotHeardIsToldToRestWithEachQuestion() {
+        answers = false
+        started(BoatService.startIntent(context, board))
+        val link = made.single()
+        // The first question leaves time for its answer.
+        repeat(2) { settle() }
+        val asked = link.asked
+        val before = link.sent.count { "disarm" in it }
+        repeat(6) { settle() }
+        assertEquals(link.asked - asked, link.sent.count { "disarm" in it } - before)
     }
 
     @Test
@@ -291,7 +308,7 @@ class BoatServiceTest {
         }
     }
 
-    private class FakeLink(val choice: LinkChoice) : BoardLink {
+    private class FakeLink(val choice: LinkChoice, private val answers: Boolean) : BoardLink {
         @Volatile var open = false
 
         @Volatile var state = LinkState.CONNECTED
@@ -319,7 +336,12 @@ class BoatServiceTest {
         /** All but the questions. */
         override fun write(bytes: ByteArray): Boolean {
             val text = String(bytes)
-            if ("state" in text) asked++ else sent += text
+            if ("state" in text) {
+                asked++
+                if (answers) arriving += "{\"e\":{\"type\":\"state\",\"data\":\"standby\"}}\r\n".toByteArray()
+            } else {
+                sent += text
+            }
             return true
         }
 
