@@ -113,8 +113,8 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loo
         return out
     }
 
-    companion object {
-        private const val STRETCH = 64
-        private const val AT_ONCE = 4
+    private companion object {
+        const val STRETCH = 64
+        const val AT_ONCE = 4
     }
 }

@@ -46,12 +46,8 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
 
     private fun take(stage: SensorStage) {
         when (stage) {
-            is SensorStage.Lag -> if (timeConstant.isNaN()) {
-                timeConstant = stage.timeConstant
-            } else {
-                second =
-                    stage.timeConstant
-            }
+            is SensorStage.Lag ->
+                if (timeConstant.isNaN()) timeConstant = stage.timeConstant else second = stage.timeConstant
             is SensorStage.Asymmetric -> {
                 first(exp((ln(stage.rising) + ln(stage.falling)) / 2))
                 put(Cause.ASYMMETRIC_RESPONSE, ln(stage.rising / stage.falling))
@@ -86,7 +82,9 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
     }
 
     /** The gain of all stages that are still to come: the model has what is before them behind them. */
-    private fun gainLeft() = calibrations.drop(passed).fold(1.0) { product, stage -> product * stage.gain }
+    private fun gainLeft() = left().fold(1.0) { product, next -> product * next.gain }
+
+    private fun left() = calibrations.drop(passed)
 
     /** The lag that may depend on conditions has [tau], s; one before it is then the second. */
     private fun first(tau: Double) {
@@ -95,10 +93,7 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
     }
 
     private fun range(stage: SensorStage.Range) {
-        fun shown(limit: Double) = calibrations.drop(passed).fold(limit) { value, next ->
-            next.gain * value +
-                next.offset
-        }
+        fun shown(limit: Double) = left().fold(limit) { value, next -> next.gain * value + next.offset }
         val lower = stage.lower?.let(::shown)
         val upper = stage.upper?.let(::shown)
         val (low, high) = if (gainLeft() < 0) upper to lower else lower to upper
@@ -147,10 +142,7 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
             require(lags.size <= 2 && lags.count { it !is SensorStage.Lag } <= 1) {
                 "expected at most two lags, one of which does not change, in a sensor that is taken as given"
             }
-            for (kind in listOf(SensorStage.Slew::class, SensorStage.Backlash::class, SensorStage.Range::class)) {
-                require(spec.stages.count { kind.isInstance(it) } <= 1) { ONCE }
-            }
-            require(spec.stages.count { it is SensorStage.Jumps } <= 1) { ONCE }
+            for (kind in SINGLE) require(spec.stages.count { kind.isInstance(it) } <= 1) { ONCE }
             val cross = spec.stages.filterIsInstance<SensorStage.Cross>().map { it.condition }
             require(cross.size == cross.toSet().size) { ONCE }
             val needed = if (spec.stages.any(::isWarmth)) cross + Conditions.TEMPERATURE else cross
@@ -158,6 +150,12 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
             require(missing.isEmpty()) { "it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}" }
         }
 
+        private val SINGLE = listOf(
+            SensorStage.Slew::class,
+            SensorStage.Backlash::class,
+            SensorStage.Range::class,
+            SensorStage.Jumps::class,
+        )
         private const val ONCE = "expected at most one slew limit, hysteresis, saturation, list of offset steps, and " +
             "cross-sensitivity to each condition in a sensor that is taken as given"
 

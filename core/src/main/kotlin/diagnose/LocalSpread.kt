@@ -69,11 +69,8 @@ internal object LocalSpread {
                 // The last rows are too few by themselves.
                 val rows = if (part.size < size) order.takeLast(size) else part
                 val factor = median(DoubleArray(rows.size) { abs(z[rows[it]]) }) / overall
-                if (factor >
-                    1 + CLEAR / sqrt(rows.size.toDouble())
-                ) {
-                    for (i in part) factors[i] = maxOf(factors[i], factor)
-                }
+                val least = 1 + CLEAR / sqrt(rows.size.toDouble())
+                if (factor > least) for (i in part) factors[i] = maxOf(factors[i], factor)
             }
         }
         return factors

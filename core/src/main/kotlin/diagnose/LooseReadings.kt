@@ -41,22 +41,18 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     /** Of there being sudden changes that last; those where the truth itself is sudden are none. */
     val lastingPValue: Double
-        get() = if (LocalSpread.isConcentrated(fit, lasting)) {
-            1.0
-        } else {
-            Evidence.poissonTail(
-                lasting.size,
-                series.size * BEYOND,
-            )
-        }
+        get() = if (LocalSpread.isConcentrated(fit, lasting)) 1.0 else tail(lasting.size)
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
-    val pValue: Double = Evidence.poissonTail(spikes.size, series.size * BEYOND).let { lone ->
+    val pValue: Double = tail(spikes.size).let { lone ->
         val far = mixture.size > FARTHEST * spread && resolution < spread
         val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
         val usual = usual()
         if (LocalSpread.isConcentrated(fit, z.indices.filter { abs(z[it]) > TAIL * usual })) 1.0 else found
     }
+
+    /** Of so many rows being far off by chance. */
+    private fun tail(count: Int) = Evidence.poissonTail(count, series.size * BEYOND)
 
     /** How often and how far. */
     fun size(): SpikeSize =

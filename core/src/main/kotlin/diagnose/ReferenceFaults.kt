@@ -29,8 +29,8 @@ internal class ReferenceFaults(
                 "the readings are ahead of the reference by %.2g s: its clock is behind, or it has a lag of its own"
                     .format(Locale.ROOT, ahead)
             explained > base.score && smoothest() >= explained ->
-                "the readings follow a smoother course than the " +
-                    "reference's: it is noisy, or sees other water than the sensor"
+                "the readings follow a smoother course than the reference's: it is noisy, or sees other water than " +
+                    "the sensor"
             else -> null
         }
     }

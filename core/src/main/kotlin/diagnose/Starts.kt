@@ -51,16 +51,9 @@ internal class Starts(
             Triple(0.4, 4.0, 0.5),
         ).map { (first, ratio, share) -> with(ratio, share).also { it[ResponseModel.TIME_CONSTANT] = tau * first } }
         Cause.DEAD_TIME -> {
-            val early = if (term.isEitherWay) {
-                listOf(
-                    -series.period / 3,
-                    -series.period,
-                    -3 * series.period,
-                )
-            } else {
-                emptyList()
-            }
-            (early + listOf(series.period, tau / 3, tau, 3 * tau)).map { delay ->
+            val late = listOf(series.period, tau / 3, tau, 3 * tau)
+            val early = listOf(-series.period / 3, -series.period, -3 * series.period)
+            (if (term.isEitherWay) early + late else late).map { delay ->
                 with(delay).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3) }
             }
         }

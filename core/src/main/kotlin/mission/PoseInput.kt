@@ -15,7 +15,7 @@ import stillwater.model.LocalFrame
  *
  * @property frame in which the track has its metres.
  * @property track the estimate.
- * @param oldestFix after a longer pause between two fixes they have to agree again, s.
+ * @param oldestFix after a pause between two fixes of more than twice this they have to agree again, s.
  */
 internal class PoseInput(
     val frame: LocalFrame,

@@ -40,6 +40,9 @@ class FieldConditionsTest {
         }
     }
 
+    private fun readings(water: Water, random: java.util.Random) =
+        lagged(water::at).also { for (i in it.indices) it[i] += 0.01 * random.nextGaussian() }
+
     private fun diagnosed(values: DoubleArray, reference: DoubleArray): DiagnosisResult {
         val times = DoubleArray(n) { it.toDouble() }
         return Diagnosis(MeasuredSeries(times, times, DoubleArray(n), values, reference)).run()
@@ -66,7 +69,7 @@ class FieldConditionsTest {
         for (seed in 11L..13L) {
             val water = Water(seed)
             val random = java.util.Random(seed)
-            val values = lagged(water::at).also { for (i in it.indices) it[i] += 0.01 * random.nextGaussian() }
+            val values = readings(water, random)
             val late = DoubleArray(n) { water.at(it - 2.0) }
             val verdict = assertIs<Verdict.Unexplained>(diagnosed(values, late).verdict, "seed $seed")
             assertContains(verdict.what, "ahead of the reference by")
@@ -78,7 +81,7 @@ class FieldConditionsTest {
         for (seed in 21L..23L) {
             val water = Water(seed)
             val random = java.util.Random(seed)
-            val values = lagged(water::at).also { for (i in it.indices) it[i] += 0.01 * random.nextGaussian() }
+            val values = readings(water, random)
             var patch = 0.0
             val beside = DoubleArray(n) { i ->
                 patch = 0.7 * patch + 0.05 * random.nextGaussian()

@@ -185,9 +185,11 @@ class DriveCommand : WorkCommand("drive") {
             MapCautions.of(mission) + missing
         }
         // A mission that was taken up again and not begun is as unfinished as it was.
-        val log = if (reason == null && resume) LogOnDisk.unfinished(directory) else file.complete()
+        val isUnfinished = reason == null && resume
+        val log = if (isUnfinished) LogOnDisk.unfinished(directory) else file.complete()
         for (warning in warnings) echo("warning: $warning", err = true)
-        val why = reason?.name?.lowercase() ?: ("stopped before it began" + if (resume) ", still to be resumed" else "")
+        val still = if (isUnfinished) ", still to be resumed" else ""
+        val why = reason?.name?.lowercase() ?: "stopped before it began$still"
         val borders = if (mission.unplaced > 0) " (${mission.unplaced} at borders, of no cell)" else ""
         val quantity = mission.spec.probe.quantity.withUnit
         val readings = "${counted(mission.readings.passed, "reading")} of $quantity$borders"

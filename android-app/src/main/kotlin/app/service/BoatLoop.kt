@@ -257,7 +257,8 @@ internal class BoatLoop(
         held.write(PlatypusEncoder.encode(Command.AskState))
         val state = held.ears.report.state
         // A question alone would keep the watchdog of a board quiet that runs and is not heard.
-        if (if (state == null) isAnswerDue else state != BoardState.STANDBY) standStill()
+        val isUnheard = state == null && isAnswerDue
+        if (isUnheard || (state != null && state != BoardState.STANDBY)) standStill()
         isAnswerDue = true
     }
 
