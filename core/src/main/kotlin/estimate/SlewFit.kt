@@ -32,14 +32,15 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     override suspend fun calibrate(tape: Recording) {
         moves = false
+        val noise = firstNoise(tape)
         val count = slopes(tape)
         tape.spend(tape.size)
         if (count == 0) return
         val slowest = slopes[count / 2]
-        val fastest = slopes[count - 1]
+        val fastest = maxOf(slopes[count - 1], fastestStep(tape, sqrt(noise)))
         if (!(fastest > 0)) return
         moves = true
-        noiseVariance = firstNoise(tape)
+        noiseVariance = noise
         scan(tape, maxOf(slowest, fastest / WIDEST), fastest)
         // What is left says how much noise there is, and that how far to trust the rate.
         repeat(ROUNDS) {
@@ -92,6 +93,23 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         return count
     }
 
+    /**
+     * The largest slope over fewer readings than [SPAN] of which [noise] leaves no doubt: where the water differs by less
+     * than the sensor moves in [SPAN] readings, it has come to rest before.
+     */
+    private fun fastestStep(tape: Recording, noise: Double): Double {
+        var fastest = 0.0
+        for (span in 1 until SPAN) {
+            for (i in span until tape.size) {
+                if (tape.slot(i) == LagBank.NONE || !isOneStay(tape, i, span)) continue
+                val moved = abs(tape.value(i) - tape.value(i - span)) - BEYOND_NOISE * noise
+                val elapsed = tape.time(i) - tape.time(i - span)
+                if (moved > fastest * elapsed && elapsed > 0) fastest = moved / elapsed
+            }
+        }
+        return fastest
+    }
+
     private fun isOneStay(tape: Recording, i: Int, span: Int): Boolean {
         for (before in i - span until i) if (tape.slot(before) != tape.slot(i)) return false
         return true
@@ -125,6 +143,9 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     private companion object {
         const val ROUNDS = 2
         const val SPAN = 5
+
+        /** Difference of two readings that noise does not make, standard deviations of one: 5.7 of the difference. */
+        const val BEYOND_NOISE = 8.0
         const val WIDEST = 10.0
         const val MARGIN = 1.2
         const val GRID = 1.04

@@ -131,6 +131,30 @@ class SelfCalibratingEstimatorTest {
     }
 
     @Test
+    fun findsASlewLimitThatActsForAReadingOrTwoAtATime() {
+        // Neighbours differ by up to 0.013: at 0.01 a reading the sensor is there in two, if not in one.
+        val steps = doubleArrayOf(0.5, 0.501, 0.503, 0.507, 0.512, 0.516, 0.513, 0.525, 0.538, 0.535)
+        val row = Grid.unit(steps.size, 1)
+        val estimator = SelfCalibratingEstimator(row, Interval.UNIT)
+        val sensor = SensorSpec("", listOf(SensorStage.Slew(0.01))).build(0.5, Random(1))
+        var time = 0.0
+        repeat(120) { move ->
+            val back = move % (2 * steps.size - 2)
+            val cell = minOf(back, 2 * steps.size - 2 - back)
+            repeat(10) {
+                time++
+                val reading = sensor.step(steps[cell], 1.0, Conditions.NONE)
+                estimator.update(BoatTime(time), row.centerX(cell), row.centerY(cell), reading)
+            }
+        }
+        val belief = estimator.sensor()
+        assertEquals(SensorKind.SLEW_LIMIT, belief.chosen.kind, "$belief")
+        assertTrue(belief.isExplained, "$belief")
+        assertEquals(0.01, belief.chosen.parameters.single().value, 1e-4, "$belief")
+        for (cell in steps.indices) assertEquals(steps[cell], estimator.map.value(cell), 1e-3, "$cell")
+    }
+
+    @Test
     fun saysSoWhenNoModelExplainsTheReadingsAndFallsBackOnBoundsWithoutOne() {
         val others = listOf(
             listOf(SensorStage.TwoPath(2.0, 60.0, 0.4)),
