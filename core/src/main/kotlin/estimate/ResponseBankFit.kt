@@ -57,7 +57,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     val covariance: Double get() = -tilt * certain(spreadSecond) * bank.firstStep * bank.secondStep
 
     /** A variance in steps squared: once the nodes stay where they are, the surface is not exact to better than this. */
-    private fun certain(variance: Double) = if (follows) maxOf(variance, FINEST) else variance
+    private fun certain(variance: Double) = if (follows) maxOf(variance, kind.exactness * kind.exactness) else variance
 
     /** From now on there is no tape to start over from. */
     fun follow() {
@@ -322,7 +322,6 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         const val SECOND_SPREAD = 10.0
         const val MOST_CORRELATED = 0.99
         const val FARTHEST = 2.0
-        const val FINEST = 1.0 / 16
         const val FIRST_REACH = 0.2
         const val FIRST_STEP = 0.3
         const val HALVINGS = 5
