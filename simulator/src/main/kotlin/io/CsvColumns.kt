@@ -5,6 +5,7 @@ package stillwater.io
  *
  * @property names the header.
  * @property time column with the time.
+ * @property date column with the date where [time] is a time of day, or [NONE].
  * @property latitude column with the latitude, or [NONE] where positions are in metres.
  * @property longitude column with the longitude, or [NONE].
  * @property x column with metres east, or [NONE] where positions are in degrees or there are none.
@@ -15,6 +16,7 @@ package stillwater.io
 internal data class CsvColumns(
     val names: List<String>,
     val time: Int,
+    val date: Int,
     val latitude: Int,
     val longitude: Int,
     val x: Int,
@@ -22,6 +24,13 @@ internal data class CsvColumns(
     val value: Int,
     val conditions: Map<String, Int>,
 ) {
+    /** Columns that were recognised by names other than Stillwater's own, for people. */
+    fun notes(): List<String> = buildList {
+        val place = listOf(latitude, longitude, x, y).filter { it != NONE }.map { names[it] }
+        if (place.any { it !in RECOGNISED }) add("places from ${place.joinToString(" and ")}")
+        if (names[time] !in RECOGNISED && date == NONE) add("times from ${names[time]}")
+    }
+
     companion object {
         const val NONE = -1
         private val TIMES = listOf("time_s", "unix_time_s")
@@ -35,10 +44,19 @@ internal data class CsvColumns(
         private const val Y = "y_m"
         private val RECOGNISED = TIMES + listOf(LATITUDE, LONGITUDE, X, Y)
 
+        /** [header] with a number behind names that come several times, `temp#1` and `temp#2`. */
+        fun distinct(header: List<String>): List<String> {
+            val counts = header.groupingBy { it }.eachCount()
+            val seen = HashMap<String, Int>()
+            return header.map { name ->
+                if (name.isEmpty() || counts.getValue(name) == 1) name else "$name#${seen.merge(name, 1, Int::plus)}"
+            }
+        }
+
         /**
-         * The columns that [choice] means in a log with the header [names].
+         * The columns that [choice] means in a log with the header [names], which differ.
          *
-         * @param sample the first row, by which columns of numbers are told from others; may be empty.
+         * @param sample the first row of readings, by which columns of numbers are told from others; may be empty.
          * @param problem makes the error for column (or null), expected, found.
          */
         fun of(
@@ -49,30 +67,44 @@ internal data class CsvColumns(
         ): CsvColumns {
             fun named(name: String): Int {
                 val index = names.indexOf(name)
-                if (index < 0) throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
-                if (names.lastIndexOf(name) != index) throw problem(name, "one such column", "several")
-                return index
+                if (index >= 0) return index
+                val twins = names.filter { it.startsWith("$name#") }
+                if (twins.size > 1) throw problem(name, "one of ${twins.joinToString(", ")}", "several such columns")
+                throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
             }
 
-            fun recognised(name: String) = if (name in names) named(name) else NONE
+            fun recognised(name: String, others: List<Int> = emptyList()): Int = when {
+                name in names || names.any { it.startsWith("$name#") } -> named(name)
+                else -> others.singleOrNull() ?: NONE
+            }
 
             val inMetres = choice.x != null || choice.y != null
             if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
             val time = choice.time?.let(::named)
-                ?: TIMES.map(::recognised).firstOrNull { it != NONE }
-                ?: throw problem(
-                    null,
-                    "a column time_s or unix_time_s, or --time COLUMN",
-                    "columns ${names.joinToString(", ")}",
-                )
-            val latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
-            val longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
+                ?: TIMES.map { recognised(it) }.firstOrNull { it != NONE }
+                ?: knownTime(names, sample, problem)
+            val date = when {
+                choice.date != null -> named(choice.date)
+                DateText.ofDay(sample.getOrNull(time).orEmpty()).isNaN() -> NONE
+                else -> ColumnNames.dates(names).firstOrNull { it != time } ?: NONE
+            }
+            val latitude = if (inMetres) {
+                NONE
+            } else {
+                choice.latitude?.let(::named) ?: recognised(LATITUDE, ColumnNames.latitudes(names))
+            }
+            val longitude = if (inMetres) {
+                NONE
+            } else {
+                choice.longitude?.let(::named) ?: recognised(LONGITUDE, ColumnNames.longitudes(names))
+            }
             val place = if (latitude != NONE && longitude != NONE) {
                 Place(latitude, longitude, NONE, NONE)
             } else {
                 choice.halfAPlace()?.let { throw problem(null, it, "neither") }
-                val x = choice.x?.let(::named) ?: recognised(X)
-                val y = choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
+                val x = choice.x?.let(::named) ?: recognised(X, ColumnNames.easts(names))
+                val y = choice.y?.let(::named)
+                    ?: if (choice.x == null) recognised(Y, ColumnNames.norths(names)) else NONE
                 Place(NONE, NONE, x, y)
             }
             if (!place.suffices(choice)) {
@@ -83,12 +115,32 @@ internal data class CsvColumns(
                 )
             }
             val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
-            val used = place.columns.toSet() + time + conditions.values
+            val used = place.columns.toSet() + time + date + conditions.values
             val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
-            usedTwice(place.columns + time + value)?.let { (column, uses) ->
+            usedTwice(place.columns + time + date + value)?.let { (column, uses) ->
                 throw problem(names[column], "one use of it as time, position or readings", "$uses")
             }
-            return CsvColumns(names, time, place.latitude, place.longitude, place.x, place.y, value, conditions)
+            return CsvColumns(names, time, date, place.latitude, place.longitude, place.x, place.y, value, conditions)
+        }
+
+        /** The column with the time by the names that loggers use. */
+        private fun knownTime(
+            names: List<String>,
+            sample: List<String>,
+            problem: (String?, String, String) -> LogProblem,
+        ): Int {
+            val known = ColumnNames.times(names)
+            for (columns in known) {
+                // Of several, those with a time and not a number.
+                val texts = columns.filter { CellText.isTime(sample.getOrNull(it).orEmpty()) }
+                (columns.singleOrNull() ?: texts.singleOrNull())?.let { return it }
+            }
+            if (known.isEmpty()) {
+                val found = "columns ${names.joinToString(", ")}"
+                throw problem(null, "a column time_s or unix_time_s, or --time COLUMN", found)
+            }
+            val several = known.first().joinToString(", ") { names[it] }
+            throw problem(null, "--time with one of $several", "${known.first().size} columns that could hold the time")
         }
 
         /** Columns of the positions, [NONE] where they have no such column. */
@@ -123,9 +175,9 @@ internal data class CsvColumns(
             problem: (String?, String, String) -> LogProblem,
         ): Int {
             val candidates = names.indices.filter { index ->
-                val field = sample.getOrNull(index)
-                val numeric = field.isNullOrBlank() || !DecimalText.parse(field).isNaN()
-                index !in used && names[index] !in RECOGNISED && numeric
+                val field = sample.getOrNull(index).orEmpty()
+                val numeric = CellText.isMissing(field) || CellText.isNumber(field, comma = true)
+                index !in used && names[index] !in RECOGNISED && !ColumnNames.isKnown(names[index]) && numeric
             }
             candidates.singleOrNull()?.let { return it }
             throw when {

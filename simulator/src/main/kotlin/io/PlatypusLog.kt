@@ -30,7 +30,7 @@ internal class PlatypusLog private constructor(
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
         val pass = Pass(sink)
-        BoundedLines(content.reader(progress)).use { lines ->
+        BoundedLines(content.reader(progress = progress)).use { lines ->
             for (line in lines) pass.take(line, lines.peek())
         }
         return pass.end()
