@@ -56,7 +56,7 @@ public class TrackAgreement private constructor(
         private const val GROUPS = 20
         private const val ROUNDS = 5
 
-        /** A single place where the passes differ without measure is not to widen all intervals. */
+        /** Squares beyond so many times what is expected count as that: one place is not to widen all intervals. */
         private const val LARGEST = 25.0
         private const val SLOPE_ROWS = 2
 
@@ -105,18 +105,17 @@ public class TrackAgreement private constructor(
             }
             // Two intervals of no width allow nothing, which no division stands.
             val least = allowed.filter { it > 0 }.minOrNull() ?: Double.MIN_VALUE
-            for (n in allowed.indices) {
-                allowed[n] = maxOf(allowed[n], least)
-                squares[n] = minOf(squares[n], LARGEST * allowed[n])
-            }
+            for (n in allowed.indices) allowed[n] = maxOf(allowed[n], least)
         }
 
-        fun ratio() = squares.indices.sumOf { squares[it] / allowed[it] } / squares.size
+        private fun ratio(n: Int) = minOf(squares[n] / allowed[n], LARGEST)
+
+        fun ratio() = squares.indices.sumOf(::ratio) / squares.size
 
         fun error(ratio: Double): Double {
             val sums = DoubleArray(GROUPS)
             for (n in squares.indices) {
-                sums[(n.toLong() * GROUPS / squares.size).toInt()] += squares[n] / allowed[n] - ratio
+                sums[(n.toLong() * GROUPS / squares.size).toInt()] += ratio(n) - ratio
             }
             return sqrt(sums.sumOf { it * it } * GROUPS / (GROUPS - 1)) / squares.size
         }
@@ -125,17 +124,20 @@ public class TrackAgreement private constructor(
         fun fit(): Pair<Double, Double> {
             var late = 0.0
             var wide = 0.0
-            repeat(ROUNDS) {
+            repeat(ROUNDS) { round ->
                 var aa = 0.0
                 var ab = 0.0
                 var bb = 0.0
                 var ay = 0.0
                 var by = 0.0
                 for (n in squares.indices) {
-                    val weight = 1 / (allowed[n] + late * changes[n] + 2 * wide)
+                    val expected = allowed[n] + late * changes[n] + 2 * wide
+                    val weight = 1 / expected
                     val a = changes[n] * weight
                     val b = 2 * weight
-                    val y = (squares[n] - allowed[n]) * weight
+                    // The first round knows no measure yet.
+                    val square = if (round == 0) squares[n] else minOf(squares[n], LARGEST * expected)
+                    val y = (square - allowed[n]) * weight
                     aa += a * a
                     ab += a * b
                     bb += b * b

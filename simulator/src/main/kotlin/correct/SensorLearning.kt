@@ -57,6 +57,9 @@ internal object SensorLearning {
     /** A log that is not many times as long as a lag that it does not tell from none tells nothing of lags. */
     private const val FEW_LAGS = 10
 
+    /** A lag known to such a factor only is not known. */
+    private const val MOST_FACTOR = 10
+
     /** Rows with a reference are this much rarer than rows before what lies between them counts. */
     private const val SPARSE = 1.5
 
@@ -138,9 +141,11 @@ internal object SensorLearning {
     private fun fault(series: TrackSeries, part: TrackSeries, learner: ReferenceLearner): String? {
         val range = learner.lagRange()
         val length = part.times.last() - part.times.first()
-        if (range.start == 0.0 && range.endInclusive > length / FEW_LAGS) {
+        val least = if (range.start == 0.0) length / FEW_LAGS else MOST_FACTOR * range.start
+        if (range.endInclusive > least) {
+            val begin = if (range.start == 0.0) "none" else duration(range.start)
             val end = if (range.endInclusive.isInfinite()) "more than it is long" else duration(range.endInclusive)
-            return "its ${part.size} rows, ${duration(length)} long, fit any lag from none to $end"
+            return "its ${part.size} rows, ${duration(length)} long, fit any lag from $begin to $end"
         }
         val isSparse = part.medianStep > SPARSE * series.medianStep
         if (isSparse && learner.roughness() > MOST_ROUGHNESS) {
