@@ -59,8 +59,9 @@ public class ReferenceLearner(
     }
 
     /**
-     * How far the reference bends between its rows, as a share of what the best first-order lag leaves of the readings: a
-     * quarter of the root mean square of what a row differs by from the line through the rows beside it. Dimensionless.
+     * How far the reference bends between its rows, as a share of what the best first-order lag leaves of the readings:
+     * a quarter of the root mean square of what a row differs by from the line through the rows beside it.
+     * Dimensionless.
      */
     public fun roughness(): Double {
         var bend = 0.0
@@ -76,7 +77,8 @@ public class ReferenceLearner(
         val delays = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
         val best = delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
         val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(best))
-        val left = sqrt(shown.indices.sumOf { (series.values[it] - offset - gain * shown[it]).let { e -> e * e } } / shown.size)
+        for (i in residuals.indices) residuals[i] = series.values[i] - offset - gain * shown[i]
+        val left = sqrt(residuals.sumOf { it * it } / residuals.size)
         val bent = kotlin.math.abs(gain) * sqrt(bend / maxOf(1, count)) / FROM_DOUBLE
         return if (left > 0) bent / left else Double.POSITIVE_INFINITY
     }

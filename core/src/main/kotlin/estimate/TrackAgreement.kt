@@ -5,14 +5,14 @@ import kotlin.math.sqrt
 /**
  * Whether a corrected track agrees with itself where it comes to the same place again, as far as its intervals say.
  *
- * Of a response that is not the sensor's the intervals know nothing. But passes in other directions and at other speeds then
- * differ by more than the intervals allow, mostly where the water changes fast:
+ * Of a response that is not the sensor's the intervals know nothing. But passes in other directions and at other speeds
+ * then differ by more than the intervals allow, mostly where the water changes fast:
  *
  *     E (c₁ − c₂)² = s₁² + s₂² + a² (ċ₁² + ċ₂²) + 2 b²
  *
- * with s from the intervals, a what the time is wrong by and b what the value is wrong by, both fitted, none below 0. Water
- * that changed between the passes and fixes that are off count too: from the passes alone nobody can tell. Errors that
- * all passes share, such as detail that no pass shows, do not show here.
+ * with s from the intervals, a what the time is wrong by and b what the value is wrong by, both fitted, none below 0.
+ * Water that changed between the passes and fixes that are off count too: from the passes alone nobody can tell. Errors
+ * that all passes share, such as detail that no pass shows, do not show here.
  *
  * @property crossings number of places that were compared.
  * @property ratio mean of (c₁ − c₂)² / (s₁² + s₂²): 1 where the intervals hold; NaN below [FEWEST] crossings.
@@ -92,21 +92,21 @@ public class TrackAgreement private constructor(
 
         init {
             order.forEachIndexed { n, k ->
-                fun both(of: (Int) -> Double, square: Boolean): Pair<Double, Double> {
-                    fun at(i: Int, share: Double) = ((1 - share) * of(i) + share * of(i + 1)).let { if (square) it * it else it }
-                    return at(found.one(k), found.shareOne(k)) to at(found.other(k), found.shareOther(k))
-                }
-                val values = both({ track.values[it] }, square = false)
-                val spreads = both({ (track.upper[it] - track.lower[it]) / (2 * TWO_SIDED) }, square = true)
-                val rates = both({ slopes[it] }, square = true)
-                squares[n] = (values.first - values.second).let { it * it }
-                allowed[n] = spreads.first + spreads.second
-                changes[n] = rates.first + rates.second
+                fun one(of: (Int) -> Double) = between(of, found.one(k), found.shareOne(k))
+                fun other(of: (Int) -> Double) = between(of, found.other(k), found.shareOther(k))
+                fun spread(row: Int) = (track.upper[row] - track.lower[row]) / (2 * TWO_SIDED)
+                squares[n] = square(one { track.values[it] } - other { track.values[it] })
+                allowed[n] = square(one(::spread)) + square(other(::spread))
+                changes[n] = square(one { slopes[it] }) + square(other { slopes[it] })
             }
             // Two intervals of no width allow nothing, which no division stands.
             val least = allowed.filter { it > 0 }.minOrNull() ?: Double.MIN_VALUE
             for (n in allowed.indices) allowed[n] = maxOf(allowed[n], least)
         }
+
+        private fun between(of: (Int) -> Double, row: Int, share: Double) = (1 - share) * of(row) + share * of(row + 1)
+
+        private fun square(number: Double) = number * number
 
         private fun ratio(n: Int) = minOf(squares[n] / allowed[n], LARGEST)
 

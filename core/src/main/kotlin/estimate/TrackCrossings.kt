@@ -9,8 +9,8 @@ import kotlin.math.hypot
  * places that a later pass goes through.
  *
  * Crossing k is [shareOne] of the way from reading [one] to the next, and [shareOther] of the way from reading [other]
- * to the next; reading [other] is at least [LEAST_STEPS] median steps later. Segments over gaps, and those of a boat that
- * lies still, count for nothing.
+ * to the next; reading [other] is at least [LEAST_STEPS] median steps later. Segments over gaps, and those of a boat
+ * that lies still, count for nothing.
  *
  * @param series the readings, with positions that grow from fix to fix. Retained.
  */

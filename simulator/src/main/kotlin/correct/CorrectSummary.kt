@@ -27,6 +27,8 @@ internal class CorrectSummary(
     /** The unit after a number, with a blank before it; empty without one. */
     val unitAfter: String = unit?.let { " $it" }.orEmpty()
 
+    private val trust = CorrectTrust(result, unitAfter)
+
     /** The quantity with its unit. */
     val quantity: String = unit?.let { "${result.log.quantity} ($it)" } ?: result.log.quantity
 
@@ -69,8 +71,8 @@ internal class CorrectSummary(
             if (isNone(candidate, i)) {
                 // Its own interval is of a logarithm, which goes on and on towards none.
                 val least = digits(maxOf(interval.endInclusive, result.series.medianStep / STEP_PARTS), 2)
-                return@joinToString "${parameterName(candidate.kind.parameters[i]).removeSuffix(" in s")} none found, " +
-                    "under $least s"
+                val name = parameterName(candidate.kind.parameters[i]).removeSuffix(" in s")
+                return@joinToString "$name none found, under $least s"
             }
             val value = digits(candidate.parameter(i), 3)
             "${parameterName(candidate.kind.parameters[i])} $value" +
@@ -81,11 +83,11 @@ internal class CorrectSummary(
 
     /** Whether the time that parameter [i] is is too short to be seen in rows so far apart. */
     private fun isNone(candidate: CandidateResponse, i: Int) = candidate.kind.parameters[i].endsWith("_s") &&
-        candidate.kind.parameters[i] != "rate_per_s" &&
+        candidate.kind.parameters[i] != RATE &&
         candidate.interval(i).endInclusive < result.series.medianStep / 2
 
     private fun parameterName(name: String) = when (name) {
-        "rate_per_s" -> "rate per s"
+        RATE -> "rate per s"
         else -> name.removeSuffix("_s").replace('_', ' ') + if (name.endsWith("_s")) " in s" else ""
     }
 
@@ -102,7 +104,7 @@ internal class CorrectSummary(
             add("evidence" to evidence())
             add("opposite legs" to legs())
             add("rows" to rows())
-            add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average; " + CorrectTrust(result, unitAfter).words)
+            add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average; ${trust.words}")
             heldOut?.let { add("held out" to heldOut(it)) }
             heldOut?.let(::passes)?.let { add("passes not learned on" to it) }
             add("duration" to duration(result.statistics.duration))
@@ -243,7 +245,7 @@ internal class CorrectSummary(
             }
             slowest()?.let(::add)
             worse()?.let(::add)
-            addAll(CorrectTrust(result, unitAfter).warnings)
+            addAll(trust.warnings)
             val silent = result.track.silent.count { it }
             if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
@@ -268,6 +270,8 @@ internal class CorrectSummary(
         }
 
     private companion object {
+        const val RATE = "rate_per_s"
+
         /** Times below such a part of the distance of rows are none, however narrow their interval. */
         const val STEP_PARTS = 10
 

@@ -1,6 +1,7 @@
 package stillwater.correct
 
 import stillwater.survey.Wording.Companion.digits
+import kotlin.math.sqrt
 
 /**
  * How far the intervals of a [CorrectedLog] were checked, and held, in words.
@@ -33,8 +34,8 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     private fun contradicted(): String? {
         if (!agreement.isContradicted) return null
-        val excess = "passes through the same ${places()} differ by ${digits(Math.sqrt(agreement.ratio), 2)} times what " +
-            "the intervals allow"
+        val times = digits(sqrt(agreement.ratio), 2)
+        val excess = "passes through the same ${places()} differ by $times times what the intervals allow"
         val parts = listOfNotNull(
             "as if times were wrong by ${digits(agreement.lateness, 2)} s".takeIf { agreement.lateness > 0 },
             "as if values were wrong by ${digits(agreement.spread, 2)}$unitAfter".takeIf { agreement.spread > 0 },
@@ -49,15 +50,15 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     private fun unchecked(): String? {
         if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
-        return "the track comes to ${places()} a second time, too few to check the intervals by: they hold if the sensor is " +
-            "one of those named"
+        return "the track comes to ${places()} a second time, too few to check the intervals by: they hold if the " +
+            "sensor is one of those named"
     }
 
     /** A rate that is reached often hides what else the sensor does. */
     private fun limited(): String? {
         if (result.origin != SensorOrigin.RATE) return null
-        return "a lag beside the rate limit was not looked for and is not in the intervals, which then hold far less than " +
-            "95 % of the rows: diagnose looks for both, and --sensor takes what it finds"
+        return "a lag beside the rate limit was not looked for and is not in the intervals, which then hold far less " +
+            "than 95 % of the rows: diagnose looks for both, and --sensor takes what it finds"
     }
 
     private companion object {

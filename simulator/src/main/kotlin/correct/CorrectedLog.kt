@@ -46,7 +46,8 @@ enum class SensorOrigin(val label: String) {
  * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
  * @property withoutReference readings left out because the reference is missing there.
  * @property referenceFault why the reference was not learned from, for people; null where it was, or there is none.
- * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened for it.
+ * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
+ * for it.
  * @property held whether the reference looks held over each step, as in a simulation: the sensor is that of such steps.
  */
 class CorrectedLog internal constructor(
@@ -92,7 +93,8 @@ class CorrectedLog internal constructor(
      */
     fun heldOut(between: ClosedFloatingPointRange<Double>? = null): List<HeldOutScore> {
         // A thinned track's points are not the rows.
-        if (origin != SensorOrigin.REVISITS || before == null || series.size > SensorLearning.MOST_LEARNED) return emptyList()
+        if (origin != SensorOrigin.REVISITS || before == null) return emptyList()
+        if (series.size > SensorLearning.MOST_LEARNED) return emptyList()
         val range = between ?: series.xs.min()..series.xs.max()
         val passes = PassDifference(series.xs, before.legs.legs, range.start, range.endInclusive)
             .takeIf { log.oneDimensional }

@@ -25,9 +25,9 @@ import kotlin.random.Random
  *
  * @property origin where it comes from. @property choice the candidates, or null where nothing was chosen.
  * @property likely the responses to undo. @property stages the most likely, with its calibration.
- * @property readings what was learned on. @property blocks runs held against others. @property withoutReference readings
- * without one. @property held whether the reference looks held over each step. @property fault why the reference was not
- * learned from, or null.
+ * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
+ * readings without one. @property held whether the reference looks held over each step. @property fault why the
+ * reference was not learned from, or null.
  */
 internal class Learned(
     val origin: SensorOrigin,
@@ -63,7 +63,7 @@ internal object SensorLearning {
     /** Rows with a reference are this much rarer than rows before what lies between them counts. */
     private const val SPARSE = 1.5
 
-    /** The water between rows with a reference is not known where it bends by as much as what is left of the readings. */
+    /** The water between rows with a reference is not known where it bends by half of what is left of the readings. */
     private const val MOST_ROUGHNESS = 0.5
     private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
@@ -149,7 +149,8 @@ internal object SensorLearning {
         }
         val isSparse = part.medianStep > SPARSE * series.medianStep
         if (isSparse && learner.roughness() > MOST_ROUGHNESS) {
-            return "it has a row every ${duration(part.medianStep)} only, and the water between them is not known well enough"
+            val rows = "it has a row every ${duration(part.medianStep)} only"
+            return "$rows, and the water between them is not known well enough"
         }
         return null
     }

@@ -15,10 +15,10 @@ import kotlin.math.abs
 /**
  * A survey log as comma, semicolon or tab separated values with a header line.
  *
- * Rows need a time, times that grow, and latitudes and longitudes that exist and lie within 1000 km of the first. A reading
- * or position that is missing, and says so, is no error: such rows are left out and counted. Positions of exactly 0, 0
- * degrees are a receiver's way of saying that it has no fix. What stands before the table, and how it is written, is
- * found by [CsvLayout] and [CsvTimes].
+ * Rows need a time, times that grow, and latitudes and longitudes that exist and lie within 1000 km of the first. A
+ * reading or position that is missing, and says so, is no error: such rows are left out and counted. Positions of
+ * exactly 0, 0 degrees are a receiver's way of saying that it has no fix. What stands before the table, and how it is
+ * written, is found by [CsvLayout] and [CsvTimes].
  */
 internal class CsvSurvey private constructor(
     internal val content: LogContent,
@@ -82,7 +82,8 @@ internal class CsvSurvey private constructor(
     /** What the parser says, in the words of the log. */
     private fun parseProblem(failure: CsvParseException): LogProblem {
         val texts = generateSequence<Throwable>(failure) { it.cause }.map { it.message.orEmpty() }.toList()
-        val line = texts.firstNotNullOfOrNull { LINE.find(it) }?.groupValues?.get(1)?.toLongOrNull()?.plus(layout.headerLine - 1)
+        val read = texts.firstNotNullOfOrNull { LINE.find(it) }?.groupValues?.get(1)?.toLongOrNull()
+        val line = read?.plus(layout.headerLine - 1)
         return when {
             texts.any { "closing quote" in it } ->
                 problem(line, null, "a separator after a closing quote", "something else", null)

@@ -15,8 +15,8 @@ import java.nio.file.Path
  * A file known to be text, with what its beginning says about it.
  *
  * @property file the file.
- * @property charset encoding, from the byte order mark; without one UTF-8, or Windows-1252, which holds Latin-1, where the
- * first bytes are none.
+ * @property charset encoding, from the byte order mark; without one UTF-8, or Windows-1252, which holds Latin-1, where
+ * the first bytes are none.
  * @property platypus version of the Platypus log it is, or null where it is none.
  * @property head the first lines, without a byte order mark.
  */

@@ -193,8 +193,7 @@ internal class PlatypusLog private constructor(
 
         fun open(content: LogContent, version: PlatypusVersion, choice: LogChoice): PlatypusLog {
             fun problem(expected: String, found: String) = LogProblem(content.file, null, null, expected, found)
-            val columns = listOfNotNull(choice.time, choice.date, choice.latitude, choice.longitude, choice.x, choice.y) +
-                choice.conditions.values
+            val columns = choice.copy(value = null).named
             if (columns.isNotEmpty()) {
                 throw problem("a survey CSV for column ${columns.first()}", "a Platypus log, which has no columns")
             }

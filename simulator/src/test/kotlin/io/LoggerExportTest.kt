@@ -90,8 +90,8 @@ class LoggerExportTest {
         private const val AT_EIGHT = 28_800.0
         private val WINDOWS = Charset.forName("windows-1252")
 
-        private val MISSING = "time_s,x_m,y_m,v\n0,0,0,8.1\n10,0,0,\n20,0,0,NaN\n30,0,0,n/a\n40,0,0,---\n50,0,0,NULL\n" +
-            "60,1,0,8.2\n70,1,0,-9999\n120,2,0,8.3\n"
+        private val MISSING = "time_s,x_m,y_m,v\n0,0,0,8.1\n10,0,0,\n20,0,0,NaN\n30,0,0,n/a\n40,0,0,---\n" +
+            "50,0,0,NULL\n60,1,0,8.2\n70,1,0,-9999\n120,2,0,8.3\n"
 
         @JvmStatic
         fun cases() = exports() + people() + listOf(
@@ -131,7 +131,8 @@ class LoggerExportTest {
                 "MiniDOT made up\nSensor: 1\nDO compensated for salinity: 0.0 ppt\n\n" +
                     "Unix Timestamp, UTC_Date_&_Time, Battery, x, y, Dissolved Oxygen\n" +
                     "(Second), (none), (Volt), (m), (m), (mg/l)\n" +
-                    "1752480000, 2025-07-14 08:00:00, 3.5, 0, 0, 8.1\n1752480060, 2025-07-14 08:01:00, 3.5, 1, 0, 8.2\n" +
+                    "1752480000, 2025-07-14 08:00:00, 3.5, 0, 0, 8.1\n" +
+                    "1752480060, 2025-07-14 08:01:00, 3.5, 1, 0, 8.2\n" +
                     "1752480120, 2025-07-14 08:02:00, 3.5, 2, 0, 8.3\n",
                 "header in line 5, units in line 6, places from x and y, times from Unix Timestamp",
                 EIGHT,
@@ -139,7 +140,8 @@ class LoggerExportTest {
             ),
             Case(
                 "HOBO: title, short years, AM and PM, rows of events",
-                "\"Plot Title: 7\"\n\"#\",\"Date Time, GMT-05:00\",\"DO, mg/L (LGR S/N: 1)\",\"x_m\",\"y_m\",\"Detached\"\n" +
+                "\"Plot Title: 7\"\n" +
+                    "\"#\",\"Date Time, GMT-05:00\",\"DO, mg/L (LGR S/N: 1)\",\"x_m\",\"y_m\",\"Detached\"\n" +
                     "1,07/14/25 08:00:00 AM,8.1,0,0,\n2,07/14/25 08:00:30 AM,,0,0,Logged\n" +
                     "3,07/14/25 08:01:00 AM,8.2,1,0,\n4,07/14/25 08:02:00 AM,8.3,2,0,\n",
                 "header in line 2, dates as month/day/year, as line 3 shows",
@@ -181,7 +183,8 @@ class LoggerExportTest {
         private fun people() = listOf(
             Case(
                 "semicolons, decimal commas, day first",
-                "sep=;\nDatum;Latitude;Longitude;DO\n14.07.2025 08:00;45,0;7,0;8,1\n14.07.2025 08:01;45,0;7,0001;8,2\n" +
+                "sep=;\nDatum;Latitude;Longitude;DO\n" +
+                    "14.07.2025 08:00;45,0;7,0;8,1\n14.07.2025 08:01;45,0;7,0001;8,2\n" +
                     "14.07.2025 08:02;45,0;7,0002;8,3\n",
                 "semicolon separated, header in line 2, decimal commas, dates as day/month/year, as line 3 shows",
                 EIGHT,
@@ -195,26 +198,30 @@ class LoggerExportTest {
             ),
             Case(
                 "keys and values before a table of more columns",
-                "Device,EXO\nSerial,12\nInterval,1\nTime (s),Latitude,Longitude,DO\n0,45,7,8.1\n60,45,7,8.2\n120,45,7,8.3\n",
+                "Device,EXO\nSerial,12\nInterval,1\n" +
+                    "Time (s),Latitude,Longitude,DO\n0,45,7,8.1\n60,45,7,8.2\n120,45,7,8.3\n",
                 "header in line 4",
                 0.0,
             ),
             Case(
                 "asked for day first",
-                "date,time,x_m,y_m,v\n05/06/2025,08:00:00,0,0,8.1\n05/06/2025,08:01:00,1,0,8.2\n05/06/2025,08:02:00,2,0,8.3\n",
+                "date,time,x_m,y_m,v\n" +
+                    "05/06/2025,08:00:00,0,0,8.1\n05/06/2025,08:01:00,1,0,8.2\n05/06/2025,08:02:00,2,0,8.3\n",
                 "dates as day/month/year, as asked for",
                 EIGHT - 39 * 86_400,
                 LogChoice(dateOrder = DateOrder.DAY_FIRST),
             ),
             Case(
                 "a date that is the same either way",
-                "date,time,x_m,y_m,v\n05/05/2025,8:00 a.m.,0,0,8.1\n05/05/2025,8:01 a.m.,1,0,8.2\n05/05/2025,8:02 am,2,0,8.3\n",
+                "date,time,x_m,y_m,v\n" +
+                    "05/05/2025,8:00 a.m.,0,0,8.1\n05/05/2025,8:01 a.m.,1,0,8.2\n05/05/2025,8:02 am,2,0,8.3\n",
                 "times from date and time",
                 EIGHT - 70 * 86_400,
             ),
             Case(
                 "name of the month",
-                "date_time,x_m,y_m,v\n14-Jul-2025 08:00,0,0,8.1\n14-Jul-2025 08:01,1,0,8.2\n14-Jul-2025 08:02,2,0,8.3\n",
+                "date_time,x_m,y_m,v\n" +
+                    "14-Jul-2025 08:00,0,0,8.1\n14-Jul-2025 08:01,1,0,8.2\n14-Jul-2025 08:02,2,0,8.3\n",
                 "times from date_time",
                 EIGHT,
             ),
