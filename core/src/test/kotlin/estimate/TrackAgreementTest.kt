@@ -47,9 +47,22 @@ class TrackAgreementTest {
     @Test
     fun crossingIsWhereTwoPassesMeet() {
         // East along y = 0, round, and north along x = 5.25 from t = 60 on, which is at y = 0.5 at t = 71.
-        val track = series(90, { if (it < 30) it else if (it < 60) 30.0 else 5.25 }, {
-            if (it < 30) 0.0 else if (it < 60) it - 100 else it - 70.5
-        })
+        fun x(t: Double) = if (t < 30) {
+            t
+        } else if (t < 60) {
+            30.0
+        } else {
+            5.25
+        }
+
+        fun y(t: Double) = if (t < 30) {
+            0.0
+        } else if (t < 60) {
+            t - 100
+        } else {
+            t - 70.5
+        }
+        val track = series(90, ::x, ::y)
         val found = TrackCrossings(track)
         assertEquals(1, found.size)
         assertEquals(listOf(5, 70), listOf(found.one(0), found.other(0)))
@@ -60,16 +73,17 @@ class TrackAgreementTest {
     @Test
     fun neitherRestNorLinesBesideEachOtherAreCrossings() {
         assertEquals(0, TrackCrossings(series(500, { 0.0 }, { 0.0 })).size)
-        assertEquals(0, TrackCrossings(series(500, { 0.1 * sin(it) }, { 3.0 })).let { minOf(it.size, 0) })
-        val legs = series(400, { val along = it % 100; if ((it / 100).toInt() % 2 == 0) along else 99 - along }, {
-            5.0 * (it / 100).toInt()
-        })
+        val legs = series(
+            400,
+            { if ((it / 100).toInt() % 2 == 0) it % 100 else 99 - it % 100 },
+            { 5.0 * (it / 100).toInt() },
+        )
         assertEquals(0, TrackCrossings(legs).size)
     }
 
     @Test
     fun onALineEachPlaceIsComparedWithTheNextPass() {
-        val casts = series(300, { val t = it % 100; if (t < 50) t else 100 - t }, { 0.0 })
+        val casts = series(300, { if (it % 100 < 50) it % 100 else 100 - it % 100 }, { 0.0 })
         val found = TrackCrossings(casts)
         assertTrue(found.size > 200, "${found.size}")
         for (k in 0 until found.size) {

@@ -1,11 +1,11 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
+import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
-import com.github.ajalt.clikt.parameters.types.choice
 import stillwater.io.DateOrder
 import stillwater.io.LogChoice
 
@@ -29,8 +29,11 @@ class LogOptions : OptionGroup(
     )
     private val dateOrder by option(
         "--date-order",
+        metavar = DateOrder.entries.joinToString("|") { it.flag },
         help = "order of day, month and year in dates such as 05/06/2025; needed where no date in the log shows it",
-    ).choice(DateOrder.entries.associateBy { it.flag })
+    ).convert { text ->
+        DateOrder.entries.firstOrNull { it.flag == text } ?: throw BadFlag(name, "dmy, mdy or ymd", "'$text'")
+    }
     private val latitude by option("--lat", metavar = "COLUMN", help = "column with the latitude in degrees")
     private val longitude by option("--lon", metavar = "COLUMN", help = "column with the longitude in degrees")
     private val x by option(

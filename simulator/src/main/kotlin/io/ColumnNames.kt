@@ -33,8 +33,10 @@ internal object ColumnNames {
     private val SECONDS = Regex("""(?i)(_s|_sec|_seconds|[(\[]\s*(s|sec|secs|seconds?)\s*[)\]]|unix.*|epoch.*)$""")
 
     /** [name] in small letters, without units in brackets and what follows a comma, parts joined by `_`. */
-    fun plain(name: String): String = name.lowercase().replace(IN_BRACKETS, " ").substringBefore(',')
-        .replace(MARKS, "_").trim('_')
+    fun plain(name: String): String {
+        val bare = name.lowercase().replace(IN_BRACKETS, " ").substringBefore(',')
+        return bare.replace(MARKS, "_").trim('_')
+    }
 
     /** Columns that may hold the time, of [names]: the first group that has any; empty where none is known. */
     fun times(names: List<String>): List<List<Int>> {

@@ -64,84 +64,7 @@ internal data class CsvColumns(
             sample: List<String>,
             choice: LogChoice,
             problem: (String?, String, String) -> LogProblem,
-        ): CsvColumns {
-            fun named(name: String): Int {
-                val index = names.indexOf(name)
-                if (index >= 0) return index
-                val twins = names.filter { it.startsWith("$name#") }
-                if (twins.size > 1) throw problem(name, "one of ${twins.joinToString(", ")}", "several such columns")
-                throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
-            }
-
-            fun recognised(name: String, others: List<Int> = emptyList()): Int = when {
-                name in names || names.any { it.startsWith("$name#") } -> named(name)
-                else -> others.singleOrNull() ?: NONE
-            }
-
-            val inMetres = choice.x != null || choice.y != null
-            if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
-            val time = choice.time?.let(::named)
-                ?: TIMES.map { recognised(it) }.firstOrNull { it != NONE }
-                ?: knownTime(names, sample, problem)
-            val date = when {
-                choice.date != null -> named(choice.date)
-                DateText.ofDay(sample.getOrNull(time).orEmpty()).isNaN() -> NONE
-                else -> ColumnNames.dates(names).firstOrNull { it != time } ?: NONE
-            }
-            val latitude = if (inMetres) {
-                NONE
-            } else {
-                choice.latitude?.let(::named) ?: recognised(LATITUDE, ColumnNames.latitudes(names))
-            }
-            val longitude = if (inMetres) {
-                NONE
-            } else {
-                choice.longitude?.let(::named) ?: recognised(LONGITUDE, ColumnNames.longitudes(names))
-            }
-            val place = if (latitude != NONE && longitude != NONE) {
-                Place(latitude, longitude, NONE, NONE)
-            } else {
-                choice.halfAPlace()?.let { throw problem(null, it, "neither") }
-                val x = choice.x?.let(::named) ?: recognised(X, ColumnNames.easts(names))
-                val y = choice.y?.let(::named)
-                    ?: if (choice.x == null) recognised(Y, ColumnNames.norths(names)) else NONE
-                Place(NONE, NONE, x, y)
-            }
-            if (!place.suffices(choice)) {
-                throw problem(
-                    null,
-                    "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x",
-                    "columns ${names.joinToString(", ")}",
-                )
-            }
-            val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
-            val used = place.columns.toSet() + time + date + conditions.values
-            val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
-            usedTwice(place.columns + time + date + value)?.let { (column, uses) ->
-                throw problem(names[column], "one use of it as time, position or readings", "$uses")
-            }
-            return CsvColumns(names, time, date, place.latitude, place.longitude, place.x, place.y, value, conditions)
-        }
-
-        /** The column with the time by the names that loggers use. */
-        private fun knownTime(
-            names: List<String>,
-            sample: List<String>,
-            problem: (String?, String, String) -> LogProblem,
-        ): Int {
-            val known = ColumnNames.times(names)
-            for (columns in known) {
-                // Of several, those with a time and not a number.
-                val texts = columns.filter { CellText.isTime(sample.getOrNull(it).orEmpty()) }
-                (columns.singleOrNull() ?: texts.singleOrNull())?.let { return it }
-            }
-            if (known.isEmpty()) {
-                val found = "columns ${names.joinToString(", ")}"
-                throw problem(null, "a column time_s or unix_time_s, or --time COLUMN", found)
-            }
-            val several = known.first().joinToString(", ") { names[it] }
-            throw problem(null, "--time with one of $several", "${known.first().size} columns that could hold the time")
-        }
+        ): CsvColumns = Finder(names, sample, choice, problem).columns()
 
         /** Columns of the positions, [NONE] where they have no such column. */
         private class Place(val latitude: Int, val longitude: Int, val x: Int, val y: Int) {
@@ -167,27 +90,97 @@ internal data class CsvColumns(
         /** A column that serves more than one purpose, and how many; null where there is none. */
         private fun usedTwice(columns: List<Int>): Pair<Int, Int>? =
             columns.filter { it != NONE }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }?.toPair()
+    }
 
-        private fun onlyCandidate(
-            names: List<String>,
-            sample: List<String>,
-            used: Set<Int>,
-            problem: (String?, String, String) -> LogProblem,
-        ): Int {
-            val candidates = names.indices.filter { index ->
-                val field = sample.getOrNull(index).orEmpty()
-                val numeric = CellText.isMissing(field) || CellText.isNumber(field, comma = true)
-                index !in used && names[index] !in RECOGNISED && !ColumnNames.isKnown(names[index]) && numeric
+    /** Finds the columns that [choice] means; see [of]. */
+    private class Finder(
+        private val names: List<String>,
+        private val sample: List<String>,
+        private val choice: LogChoice,
+        private val problem: (String?, String, String) -> LogProblem,
+    ) {
+        fun columns(): CsvColumns {
+            val time = choice.time?.let(::named)
+                ?: TIMES.map { recognised(it) }.firstOrNull { it != NONE }
+                ?: knownTime()
+            val date = date(time)
+            val place = place()
+            val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
+            val used = place.columns.toSet() + time + date + conditions.values
+            val value = choice.value?.let(::named) ?: onlyCandidate(used)
+            usedTwice(place.columns + time + date + value)?.let { (column, uses) ->
+                throw problem(names[column], "one use of it as time, position or readings", "$uses")
             }
+            return CsvColumns(names, time, date, place.latitude, place.longitude, place.x, place.y, value, conditions)
+        }
+
+        private val all: String get() = "columns ${names.joinToString(", ")}"
+
+        private fun named(name: String): Int {
+            val index = names.indexOf(name)
+            if (index >= 0) return index
+            val twins = names.filter { it.startsWith("$name#") }
+            if (twins.size > 1) throw problem(name, "one of ${twins.joinToString(", ")}", "several such columns")
+            throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
+        }
+
+        private fun recognised(name: String, others: List<Int> = emptyList()): Int = when {
+            name in names || names.any { it.startsWith("$name#") } -> named(name)
+            else -> others.singleOrNull() ?: NONE
+        }
+
+        /** The column with the time by the names that loggers use. */
+        private fun knownTime(): Int {
+            val known = ColumnNames.times(names)
+            for (columns in known) {
+                // Of several, those with a time and not a number.
+                val texts = columns.filter { CellText.isTime(sample.getOrNull(it).orEmpty()) }
+                (columns.singleOrNull() ?: texts.singleOrNull())?.let { return it }
+            }
+            if (known.isEmpty()) throw problem(null, "a column time_s or unix_time_s, or --time COLUMN", all)
+            val several = known.first().joinToString(", ") { names[it] }
+            throw problem(null, "--time with one of $several", "${known.first().size} columns that could hold the time")
+        }
+
+        private fun date(time: Int): Int = when {
+            choice.date != null -> named(choice.date)
+            DateText.ofDay(sample.getOrNull(time).orEmpty()).isNaN() -> NONE
+            else -> ColumnNames.dates(names).firstOrNull { it != time } ?: NONE
+        }
+
+        private fun place(): Place {
+            val inMetres = choice.x != null || choice.y != null
+            if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
+            val place = (if (inMetres) null else degrees()) ?: metres()
+            if (place.suffices(choice)) return place
+            throw problem(null, "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x", all)
+        }
+
+        private fun degrees(): Place? {
+            val latitude = choice.latitude?.let(::named) ?: recognised(LATITUDE, ColumnNames.latitudes(names))
+            val longitude = choice.longitude?.let(::named) ?: recognised(LONGITUDE, ColumnNames.longitudes(names))
+            return if (latitude == NONE || longitude == NONE) null else Place(latitude, longitude, NONE, NONE)
+        }
+
+        private fun metres(): Place {
+            choice.halfAPlace()?.let { throw problem(null, it, "neither") }
+            val x = choice.x?.let(::named) ?: recognised(X, ColumnNames.easts(names))
+            val y = choice.y?.let(::named) ?: if (choice.x == null) recognised(Y, ColumnNames.norths(names)) else NONE
+            return Place(NONE, NONE, x, y)
+        }
+
+        private fun onlyCandidate(used: Set<Int>): Int {
+            val candidates = names.indices.filter { it !in used && isCandidate(it) }
             candidates.singleOrNull()?.let { return it }
-            throw when {
-                candidates.isEmpty() -> problem(null, "a column with readings", "columns ${names.joinToString(", ")}")
-                else -> problem(
-                    null,
-                    "--value with one of ${candidates.joinToString(", ") { names[it] }}",
-                    "${candidates.size} columns that could hold the readings",
-                )
-            }
+            if (candidates.isEmpty()) throw problem(null, "a column with readings", all)
+            val which = "--value with one of ${candidates.joinToString(", ") { names[it] }}"
+            throw problem(null, which, "${candidates.size} columns that could hold the readings")
+        }
+
+        private fun isCandidate(index: Int): Boolean {
+            val field = sample.getOrNull(index).orEmpty()
+            val isNumeric = CellText.isMissing(field) || CellText.isNumber(field, comma = true)
+            return isNumeric && names[index] !in RECOGNISED && !ColumnNames.isKnown(names[index])
         }
     }
 }

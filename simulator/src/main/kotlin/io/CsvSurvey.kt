@@ -31,7 +31,8 @@ internal class CsvSurvey private constructor(
     override val format = listOf("survey CSV" + SEPARATORS.getValue(layout.separator))
         .plus(layout.notes())
         .plus(listOfNotNull("text in Windows-1252".takeIf { content.isOneByte }))
-        .plus(times.notes).plus(columns.notes())
+        .plus(times.notes)
+        .plus(columns.notes())
         .joinToString()
     override val quantity: String = columns.names[columns.value]
     override val oneDimensional = columns.latitude == CsvColumns.NONE && columns.y == CsvColumns.NONE
