@@ -43,6 +43,46 @@ public class ReferenceLearner(
         return fit()
     }
 
+    /**
+     * Time constants of a first-order lag that the readings do not speak against, s: 0 where no lag is among them, and
+     * infinite where none is too long. By six units of twice the log-likelihood, as [isHeld], which for 30 readings is
+     * still rarer than one in twenty.
+     */
+    public fun lagRange(): ClosedFloatingPointRange<Double> {
+        val times = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
+        val none = total(ResponseKind.NONE, doubleArrayOf())
+        val each = times.map { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+        val least = maxOf(none, each.max()) - CLEARLY / 2
+        val likely = times.indices.filter { each[it] >= least }
+        val longest = likely.lastOrNull()?.let { if (it == times.lastIndex) Double.POSITIVE_INFINITY else times[it] }
+        return (if (none >= least) 0.0 else times[likely.first()])..(longest ?: 0.0)
+    }
+
+    /**
+     * How far the reference bends between its rows, as a share of what the best first-order lag leaves of the readings:
+     * a quarter of the root mean square of what a row differs by from the line through the rows beside it.
+     * Dimensionless.
+     */
+    public fun roughness(): Double {
+        var bend = 0.0
+        var count = 0
+        for (i in 1 until series.size - 1) {
+            val span = series.times[i + 1] - series.times[i - 1]
+            if (span > 2 * series.gapLimit) continue
+            val share = (series.times[i] - series.times[i - 1]) / span
+            val line = reference[i - 1] + share * (reference[i + 1] - reference[i - 1])
+            bend += (reference[i] - line) * (reference[i] - line)
+            count++
+        }
+        val delays = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
+        val best = delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+        val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(best))
+        for (i in residuals.indices) residuals[i] = series.values[i] - offset - gain * shown[i]
+        val left = sqrt(residuals.sumOf { it * it } / residuals.size)
+        val bent = kotlin.math.abs(gain) * sqrt(bend / maxOf(1, count)) / FROM_DOUBLE
+        return if (left > 0) bent / left else Double.POSITIVE_INFINITY
+    }
+
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (series.size < FEWEST) return null
         val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
@@ -190,6 +230,10 @@ public class ReferenceLearner(
         private const val TOP = 0.99
         private const val DELAYS = 14
         private const val DELAY_FROM = 0.125
+        private const val RANGE_TIMES = 28
+
+        /** A line through rows twice as far apart misses four times as much. */
+        private const val FROM_DOUBLE = 4.0
         private const val MOST_LOG = 25.0
         private const val MOST_CORRELATION = 0.999
         private const val LEAST = 1e-300

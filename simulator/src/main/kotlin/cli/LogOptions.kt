@@ -1,23 +1,39 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
+import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.io.DateOrder
 import stillwater.io.LogChoice
 
 /** The options that say what to take from a log; the same for every command that reads one. */
 class LogOptions : OptionGroup(
     name = "What to read",
-    help = "A CSV survey needs a header line. Columns time_s or unix_time_s, lat_deg and lon_deg, or x_m and y_m " +
-        "are recognised; all others are taken by name. Platypus logs (4.0.0, 4.1.0, 4.2.0) are recognised by content.",
+    help = "A CSV survey needs a header line; what a logger writes before it is passed over. Columns time_s or " +
+        "unix_time_s, lat_deg and lon_deg, or x_m and y_m, and the names that loggers use (Date Time, Latitude) are " +
+        "recognised; all others are taken by name. docs/logs.md has the whole list. Platypus logs (4.0.0, 4.1.0, " +
+        "4.2.0) are recognised by content.",
 ) {
     private val time by option(
         "--time",
         metavar = "COLUMN",
-        help = "column with the time, in seconds or as 2025-06-01T12:00:00Z",
+        help = "column with the time: seconds, 2025-06-01T12:00:00Z, a date with the time of day, or a time of day",
     )
+    private val date by option(
+        "--date",
+        metavar = "COLUMN",
+        help = "column with the date, where the time is a time of day; found by its name without it",
+    )
+    private val dateOrder by option(
+        "--date-order",
+        metavar = DateOrder.entries.joinToString("|") { it.flag },
+        help = "order of day, month and year in dates such as 05/06/2025; needed where no date in the log shows it",
+    ).convert { text ->
+        DateOrder.entries.firstOrNull { it.flag == text } ?: throw BadFlag(name, "dmy, mdy or ymd", "'$text'")
+    }
     private val latitude by option("--lat", metavar = "COLUMN", help = "column with the latitude in degrees")
     private val longitude by option("--lon", metavar = "COLUMN", help = "column with the longitude in degrees")
     private val x by option(
@@ -45,6 +61,8 @@ class LogOptions : OptionGroup(
     /** The flags given, with their values, for writing the command down. */
     fun flags(): List<Pair<String, Any?>> = listOf(
         "--time" to time,
+        "--date" to date,
+        "--date-order" to dateOrder?.flag,
         "--lat" to latitude,
         "--lon" to longitude,
         "--x" to x,
@@ -77,5 +95,7 @@ class LogOptions : OptionGroup(
         value = value,
         skipBadRows = skipBadRows,
         maxPoseAge = maxPoseAge,
+        date = date,
+        dateOrder = dateOrder,
     )
 }

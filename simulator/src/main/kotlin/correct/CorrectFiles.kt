@@ -115,6 +115,14 @@ class CorrectFiles(
             putJsonArray("held_out") { scores.forEach { add(split(it)) } }
         }
         put("mean_half_width", finite(summary.halfWidth))
+        putJsonObject("agreement") {
+            put("crossings", result.agreement.crossings)
+            put("ratio", finite(result.agreement.ratio))
+            put("ratio_error", finite(result.agreement.error))
+            put("lateness_s", finite(result.agreement.lateness))
+            put("spread", finite(result.agreement.spread))
+            put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
+        }
         put("learned_on", result.learnedOn)
         put("blocks", result.blocks)
     }
@@ -164,7 +172,7 @@ class CorrectFiles(
             Provenance(
                 Program.VERSION,
                 command,
-                CorrectedLog.SEED.takeIf { result.choice != null },
+                SensorLearning.SEED.takeIf { result.choice != null },
                 "Bootstrap seed",
             ),
         )
@@ -215,7 +223,7 @@ class CorrectFiles(
         private fun columns(log: SurveyLog, isAlone: Boolean) =
             if (isAlone) COLUMNS else COLUMNS.map { "${log.quantity}_$it" }
 
-        private const val TERMINAL_LINES = 5
+        private const val TERMINAL_LINES = 6
         private val COLUMNS = listOf("corrected", "corrected_low", "corrected_high")
         private val FIGURES = CorrectFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") }
         private val FORMAT = Json { prettyPrint = true }

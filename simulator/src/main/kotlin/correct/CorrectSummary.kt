@@ -27,6 +27,8 @@ internal class CorrectSummary(
     /** The unit after a number, with a blank before it; empty without one. */
     val unitAfter: String = unit?.let { " $it" }.orEmpty()
 
+    private val trust = CorrectTrust(result, unitAfter)
+
     /** The quantity with its unit. */
     val quantity: String = unit?.let { "${result.log.quantity} ($it)" } ?: result.log.quantity
 
@@ -38,11 +40,16 @@ internal class CorrectSummary(
                 result.origin == SensorOrigin.NOTHING ->
                     "not learned: nothing in the log shows it; taken as without lag"
                 choice == null -> stages().ifEmpty { "without lag" }
-                choice.isAmbiguous ->
-                    "cannot be told apart on this log: " + choice.open.joinToString("; ", transform = ::words)
-                else -> words(choice.first)
+                different.size > 1 ->
+                    "cannot be told apart on this log: " + different.joinToString("; ", transform = ::words)
+                else -> words(different.single())
             }
         }
+
+    /** What is open, but for responses whose further part is none, so that they are others over again. */
+    private val different: List<CandidateResponse> = result.choice?.open.orEmpty().let { open ->
+        open.filterNot { one -> one.kind.parameters.indices.any { isNone(one, it) } }.ifEmpty { open.take(1) }
+    }
 
     /** The stages as in sensor.json, with their numbers. */
     private fun stages(): String {
@@ -61,6 +68,12 @@ internal class CorrectSummary(
         if (candidate.kind == ResponseKind.NONE) return "no lag"
         val parameters = candidate.kind.parameters.indices.joinToString(", ") { i ->
             val interval = candidate.interval(i)
+            if (isNone(candidate, i)) {
+                // Its own interval is of a logarithm, which goes on and on towards none.
+                val least = digits(maxOf(interval.endInclusive, result.series.medianStep / STEP_PARTS), 2)
+                val name = parameterName(candidate.kind.parameters[i]).removeSuffix(" in s")
+                return@joinToString "$name none found, under $least s"
+            }
             val value = digits(candidate.parameter(i), 3)
             "${parameterName(candidate.kind.parameters[i])} $value" +
                 " (${digits(interval.start, 3)} to ${digits(interval.endInclusive, 3)})"
@@ -68,8 +81,13 @@ internal class CorrectSummary(
         return "${candidate.kind.label}: $parameters"
     }
 
+    /** Whether the time that parameter [i] is is too short to be seen in rows so far apart. */
+    private fun isNone(candidate: CandidateResponse, i: Int) = candidate.kind.parameters[i].endsWith("_s") &&
+        candidate.kind.parameters[i] != RATE &&
+        candidate.interval(i).endInclusive < result.series.medianStep / 2
+
     private fun parameterName(name: String) = when (name) {
-        "rate_per_s" -> "rate per s"
+        RATE -> "rate per s"
         else -> name.removeSuffix("_s").replace('_', ' ') + if (name.endsWith("_s")) " in s" else ""
     }
 
@@ -78,17 +96,17 @@ internal class CorrectSummary(
         get() = result.track.lower.indices.sumOf { result.track.upper[it] - result.track.lower[it] } /
             (2 * maxOf(1, result.track.lower.size))
 
-    /** Names and values, in order; the first five go to the terminal. */
+    /** Names and values, in order; the first six go to the terminal. */
     val facts: List<Pair<String, String>>
         get() = buildList {
+            add("log" to "${result.log.file.fileName} (${result.log.format})")
             add("sensor" to sensor)
             add("evidence" to evidence())
             add("opposite legs" to legs())
             add("rows" to rows())
-            add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average")
+            add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average; ${trust.words}")
             heldOut?.let { add("held out" to heldOut(it)) }
             heldOut?.let(::passes)?.let { add("passes not learned on" to it) }
-            add("format" to result.log.format)
             add("duration" to duration(result.statistics.duration))
             val resolution = result.statistics.resolution
             add("resolution" to if (resolution.isFinite()) digits(resolution) + unitAfter else "none found")
@@ -207,11 +225,19 @@ internal class CorrectSummary(
                 )
                 result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->
                     add("a lag is not told from none: the intervals cover both")
-                result.choice?.isAmbiguous == true -> add(
-                    "the log leaves ${result.choice.open.size} responses open " +
-                        result.choice.open.joinToString(prefix = "(", postfix = "): ") { it.kind.label } +
+                different.size > 1 -> add(
+                    "the log leaves ${different.size} responses open " +
+                        different.joinToString(prefix = "(", postfix = "): ") { it.kind.label } +
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
+            }
+            result.referenceFault?.let { fault ->
+                val instead = if (result.origin == SensorOrigin.NOTHING) {
+                    "nothing was learned"
+                } else {
+                    "the sensor is ${result.origin.label} instead"
+                }
+                add("the reference does not show how the sensor responds: $fault; $instead")
             }
             result.choice?.hinted?.let { add(hint(it)) }
             if (result.series.values.all { it == result.series.values[0] }) {
@@ -219,6 +245,7 @@ internal class CorrectSummary(
             }
             slowest()?.let(::add)
             worse()?.let(::add)
+            addAll(trust.warnings)
             val silent = result.track.silent.count { it }
             if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
@@ -243,6 +270,11 @@ internal class CorrectSummary(
         }
 
     private companion object {
+        const val RATE = "rate_per_s"
+
+        /** Times below such a part of the distance of rows are none, however narrow their interval. */
+        const val STEP_PARTS = 10
+
         /** Legs that differ by a few percent more may do so by chance. */
         const val WORSE = 1.1
     }

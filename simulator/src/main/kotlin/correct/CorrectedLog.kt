@@ -1,23 +1,14 @@
 package stillwater.correct
 
-import kotlinx.coroutines.Dispatchers
-import kotlinx.coroutines.async
-import kotlinx.coroutines.awaitAll
-import kotlinx.coroutines.runBlocking
 import stillwater.diagnose.MeasuredSeries
-import stillwater.estimate.CandidateResponse
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.LikelyResponse
-import stillwater.estimate.ReferenceLearner
 import stillwater.estimate.Response
 import stillwater.estimate.ResponseChoice
-import stillwater.estimate.ResponseKind
-import stillwater.estimate.ResponseLearner
-import stillwater.estimate.RevisitLearner
+import stillwater.estimate.TrackAgreement
 import stillwater.estimate.TrackCorrector
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UndoableSensor
-import stillwater.estimate.rateLimit
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
 import stillwater.io.SquareReach
@@ -33,7 +24,6 @@ import stillwater.survey.SurveyStatistics
 import stillwater.survey.Track
 import stillwater.survey.ValueResolution
 import kotlin.math.abs
-import kotlin.random.Random
 
 /** Where a [CorrectedLog]'s sensor comes from. */
 enum class SensorOrigin(val label: String) {
@@ -55,6 +45,9 @@ enum class SensorOrigin(val label: String) {
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
  * @property withoutReference readings left out because the reference is missing there.
+ * @property referenceFault why the reference was not learned from, for people; null where it was, or there is none.
+ * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
+ * for it.
  * @property held whether the reference looks held over each step, as in a simulation: the sensor is that of such steps.
  */
 class CorrectedLog internal constructor(
@@ -72,6 +65,8 @@ class CorrectedLog internal constructor(
     val blocks: Int,
     val withoutReference: Int,
     val held: Boolean,
+    val referenceFault: String?,
+    val agreement: TrackAgreement,
     private val conditions: Map<String, DoubleArray> = emptyMap(),
 ) {
     private val resolution: Double = resolution(statistics, series)
@@ -98,43 +93,23 @@ class CorrectedLog internal constructor(
      */
     fun heldOut(between: ClosedFloatingPointRange<Double>? = null): List<HeldOutScore> {
         // A thinned track's points are not the rows.
-        if (origin != SensorOrigin.REVISITS || before == null || series.size > MOST_LEARNED) return emptyList()
+        if (origin != SensorOrigin.REVISITS || before == null) return emptyList()
+        if (series.size > SensorLearning.MOST_LEARNED) return emptyList()
         val range = between ?: series.xs.min()..series.xs.max()
         val passes = PassDifference(series.xs, before.legs.legs, range.start, range.endInclusive)
             .takeIf { log.oneDimensional }
         val plain = smoothed?.let { CorrectedLegs(it, checkNotNull(smoothedValues)) }
         return HeldOutLegs(CorrectedLegs(before, series.values), passes, plain) { rows ->
-            val learned = byRevisits(series.at(rows))
+            val learned = SensorLearning.byRevisits(series.at(rows))
             if (learned.choice == null) return@HeldOutLegs null
             val values = corrected(series, learned, learned.stages, resolution).values
             legs(series, values)?.let { CorrectedLegs(it, values) }
         }.scores()
     }
 
-    /** What a log says about its sensor. */
-    private class Learned(
-        val origin: SensorOrigin,
-        val choice: ResponseChoice?,
-        val likely: List<LikelyResponse>,
-        val stages: List<SensorStage>,
-        val readings: Int,
-        val blocks: Int,
-        val withoutReference: Int = 0,
-        val held: Boolean = false,
-    )
-
     companion object {
         /** Name of the condition that holds the reference. */
         const val REFERENCE = "reference"
-
-        /** More readings than this are learned on in the middle of a log only. */
-        const val MOST_LEARNED = 20_000
-
-        /** A part of which nothing can be learned is not cut in half below this. */
-        private const val FEWEST_LEARNED = 2_500
-
-        /** Seed of the bootstrap. */
-        const val SEED = 1L
 
         private const val FEWEST = 30
         private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
@@ -189,12 +164,15 @@ class CorrectedLog internal constructor(
                     0,
                     0,
                 )
-                hasReference -> byReference(log, series, rows.references())
-                else -> byRevisits(series)
+                hasReference -> SensorLearning.byReference(log, series, rows.references())
+                else -> SensorLearning.byRevisits(series)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
             val others = withSpeed(series, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
-            val track = corrected(series, learned, spec.stages, resolution, others)
+            val narrow = corrected(series, learned, spec.stages, resolution, others)
+            val agreement = TrackAgreement.of(series, narrow)
+            // What a given sensor's intervals are is the giver's: they are told of, not changed.
+            val track = if (learned.origin == SensorOrigin.GIVEN) narrow else agreement.widened(narrow)
             return CorrectedLog(
                 log,
                 pass,
@@ -210,6 +188,8 @@ class CorrectedLog internal constructor(
                 learned.blocks,
                 learned.withoutReference,
                 learned.held,
+                learned.fault,
+                agreement,
                 others,
             )
         }
@@ -239,90 +219,6 @@ class CorrectedLog internal constructor(
 
         private fun quantum(resolution: Double) =
             if (resolution > 0) listOf(SensorStage.Quantum(resolution)) else emptyList()
-
-        private fun byRevisits(series: TrackSeries): Learned {
-            if (series.values.all { it == series.values[0] }) return nothing(series.size)
-            val rate = series.rateLimit()
-            if (rate.isFinite()) {
-                val response = ResponseKind.SLEW.response(rate)
-                val likely = listOf(LikelyResponse(listOf(response), 1.0))
-                return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
-            }
-            var part = series.middle(MOST_LEARNED)
-            var learner = RevisitLearner.of(part)
-            // The longer the part, the longer the runs that are held against others: legs may be too short for them.
-            while (learner.blocks == 0 && part.size > FEWEST_LEARNED) {
-                part = series.middle(part.size / 2)
-                learner = RevisitLearner.of(part)
-            }
-            val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
-                ?: return nothing(part.size)
-            val stages = choice.first.response.stages()
-            return Learned(SensorOrigin.REVISITS, choice, choice.likely(), stages, part.size, learner.blocks)
-        }
-
-        private fun nothing(readings: Int) = Learned(
-            SensorOrigin.NOTHING,
-            null,
-            NO_LAG,
-            emptyList(),
-            readings,
-            0,
-        )
-
-        private fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
-            val known = (0 until series.size).filter { references[it].isFinite() }
-            if (known.size < FEWEST) {
-                val expected = "at least $FEWEST readings with a reference"
-                throw LogProblem(log.file, null, null, expected, "${known.size}")
-            }
-            if (known.all { references[it] == references[known[0]] }) {
-                val found = "${references[known[0]]} in every row"
-                throw LogProblem(log.file, null, null, "a reference that changes", found)
-            }
-            val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
-            val part = series.at(usable)
-            val reference = DoubleArray(usable.size) { references[usable[it]] }
-            val held = ReferenceLearner.isHeld(part, reference)
-            val learner = ReferenceLearner(part, reference, held)
-            val choice =
-                requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
-            // What is undone is a response to water that changes all the time.
-            val likely = choice.likely().map { open ->
-                if (!held) return@map open
-                LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight)
-            }
-            val response = choice.first.response
-            val (gain, offset) = learner.calibration(response)
-            val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
-            return Learned(
-                SensorOrigin.REFERENCE,
-                choice,
-                likely,
-                stages,
-                part.size,
-                learner.groups,
-                series.size - known.size,
-                held,
-            )
-        }
-
-        /** All [kinds] on all cores; each task has a learner of its own, the first one [learner]. */
-        private fun choice(
-            learner: ResponseLearner,
-            kinds: List<ResponseKind>,
-            another: () -> ResponseLearner,
-        ): ResponseChoice? {
-            if (learner.groups == 0) return null
-            val half = kinds.size / 2
-            val found: List<CandidateResponse> = runBlocking(Dispatchers.Default) {
-                listOf(
-                    async { kinds.take(half).mapNotNull(another()::candidate) },
-                    async { kinds.drop(half).mapNotNull(learner::candidate) },
-                ).awaitAll().flatten()
-            }
-            return if (found.isEmpty()) null else ResponseChoice.of(found, Random(SEED))
-        }
 
         private fun legs(series: TrackSeries, values: DoubleArray): LegMismatch? {
             val scan = SurveyScan()
@@ -365,15 +261,4 @@ private class Rows(others: Int) {
         const val COLUMNS = 5
         const val FIRST = 1024
     }
-}
-
-private fun TrackSeries.at(rows: List<Int>): TrackSeries {
-    fun of(values: DoubleArray) = DoubleArray(rows.size) { values[rows[it]] }
-    return TrackSeries(of(times), of(xs), of(ys), of(values))
-}
-
-private fun TrackSeries.middle(most: Int): TrackSeries {
-    if (size <= most) return this
-    val from = (size - most) / 2
-    return at((from until from + most).toList())
 }

@@ -48,6 +48,8 @@ class Diagnosed(
         addAll(result.warnings)
         channels?.let { add(ChannelWording.of(it)) }
         log.heading?.let { add(it.sentence) }
+        // What was taken for what in a log that is not written plainly is not to be found in the report alone.
+        if (',' in log.format) add("The log was read as ${log.format}.")
         for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
         for (warning in log.pass.warnings) add("${warning.replaceFirstChar { it.uppercase() }}.")
         if (log.missing > 0) {

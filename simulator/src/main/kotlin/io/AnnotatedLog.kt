@@ -38,6 +38,7 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
     private class Place(val part: AddedColumns) {
         val survey = part.log as CsvSurvey
         val empty = List<String?>(part.names.size) { null }
+        val reader = survey.fieldReader()
         var next = 0
         var other = 0L
     }
@@ -67,24 +68,30 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
     private fun csv(out: OutputStream): List<Long> {
         val places = parts.map { Place(it) }
         val survey = places[0].survey
+        val layout = survey.layout
         out.use {
             survey.content.raw { mark, text ->
                 out.write(mark)
-                val records = RawRecords(text, survey.content.charset, survey.separator)
+                val records = RawRecords(text, survey.content.charset, layout.separator)
+                repeat(layout.headerLine - 1) {
+                    records.nextLine()
+                    out.write(records.bytes(records.text))
+                    out.write(records.bytes(records.lineEnd))
+                }
                 var width = NO_HEADER
                 while (records.next()) {
                     val fields = records.fields
-                    val isHeader = width == NO_HEADER && fields.any { it.isNotBlank() }
+                    val isHeader = width == NO_HEADER
                     val added = when {
                         isHeader -> emptyList<String?>().also { width = fields.size }
-                        fields.all { it.isBlank() } -> emptyList()
+                        fields.size < width && fields.all { it.isBlank() } -> emptyList()
                         fields.size == width -> places.flatMap { added(it, fields) }
                         // A row of another width or a remark is not made wider: nothing in it would stand in place.
                         else -> emptyList<String?>().also { places.forEach { it.other++ } }
                     }
                     out.write(records.bytes(records.text))
                     if (isHeader) out.write(header(survey).toByteArray(survey.content.charset))
-                    for (cell in added) out.write(records.bytes(survey.separator + cell.orEmpty()))
+                    for (cell in added) out.write(records.bytes(layout.separator + written(cell, layout)))
                     out.write(records.bytes(records.lineEnd))
                 }
             }
@@ -96,36 +103,45 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
         return places.map { it.other }
     }
 
+    /** [cell] as this log writes numbers. */
+    private fun written(cell: String?, layout: CsvLayout) =
+        if (layout.decimalComma) cell.orEmpty().replace('.', ',') else cell.orEmpty()
+
     /** The new names, each behind a separator: quoted where they hold what ends a field, as the log's own may. */
     private fun header(survey: CsvSurvey) = parts.flatMap { it.names }.joinToString("") { name ->
-        val isPlain = name.none { it == survey.separator || it == '"' || it == '\n' || it == '\r' }
-        survey.separator + if (isPlain) name else "\"${name.replace("\"", "\"\"")}\""
+        val isPlain = name.none { it == survey.layout.separator || it == '"' || it == '\n' || it == '\r' }
+        survey.layout.separator + if (isPlain) name else "\"${name.replace("\"", "\"\"")}\""
     }
 
     private fun added(place: Place, fields: List<String>): List<String?> {
-        val isNext = place.next < place.part.times.size && isRow(place.survey, place.part, fields, place.next)
+        val isNext = place.next < place.part.times.size && isRow(place, fields)
         if (isNext) return place.part.cells(place.next++)
         place.other++
         return place.empty
     }
 
-    private fun isRow(survey: CsvSurvey, part: AddedColumns, fields: List<String>, k: Int): Boolean {
-        val time =
-            fields.getOrNull(survey.columns.time)?.let { IsoTime.ofField(it.toCharArray(), 0, it.length) }
-                ?: return false
-        val value = fields.getOrNull(survey.columns.value)?.let { DecimalText.parse(it) } ?: return false
-        return time == part.times[k] && value == part.values[k] && isPlace(survey.columns, part, fields, k)
+    private fun isRow(place: Place, fields: List<String>): Boolean {
+        val columns = place.survey.columns
+        val part = place.part
+        fun text(column: Int) = fields.getOrNull(column).orEmpty()
+        val day = if (columns.date == CsvColumns.NONE) 0.0 else place.reader.day(text(columns.date))
+        val time = place.reader.time(text(columns.time)) + day
+        val value = place.reader.number(text(columns.value))
+        return time == part.times[place.next] && value == part.values[place.next] && isPlace(place, fields)
     }
 
     /** Degrees are compared by being there only: a row left out for its place may be the next one's twin. */
-    private fun isPlace(columns: CsvColumns, part: AddedColumns, fields: List<String>, k: Int): Boolean {
-        fun number(column: Int) = fields.getOrNull(column)?.let { DecimalText.parse(it) } ?: Double.NaN
+    private fun isPlace(place: Place, fields: List<String>): Boolean {
+        val columns = place.survey.columns
+        fun number(column: Int) = fields.getOrNull(column)?.let { place.reader.number(it) } ?: Double.NaN
         if (columns.latitude != CsvColumns.NONE) {
             val latitude = number(columns.latitude)
             val longitude = number(columns.longitude)
             return latitude.isFinite() && longitude.isFinite() && (latitude != 0.0 || longitude != 0.0)
         }
-        return number(columns.x) == part.xs[k] && (columns.y == CsvColumns.NONE || number(columns.y) == part.ys[k])
+        val part = place.part
+        return (columns.x == CsvColumns.NONE || number(columns.x) == part.xs[place.next]) &&
+            (columns.y == CsvColumns.NONE || number(columns.y) == part.ys[place.next])
     }
 
     private fun writer(out: OutputStream) =
@@ -144,7 +160,7 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
             val taken = names.firstOrNull { it in survey.columns.names } ?: return
             throw LogProblem(
                 log.file,
-                survey.headerLine,
+                survey.layout.headerLine.toLong(),
                 taken,
                 "a log without this column, which is added",
                 "one with it",

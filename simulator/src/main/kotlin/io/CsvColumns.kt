@@ -5,6 +5,7 @@ package stillwater.io
  *
  * @property names the header.
  * @property time column with the time.
+ * @property date column with the date where [time] is a time of day, or [NONE].
  * @property latitude column with the latitude, or [NONE] where positions are in metres.
  * @property longitude column with the longitude, or [NONE].
  * @property x column with metres east, or [NONE] where positions are in degrees or there are none.
@@ -15,6 +16,7 @@ package stillwater.io
 internal data class CsvColumns(
     val names: List<String>,
     val time: Int,
+    val date: Int,
     val latitude: Int,
     val longitude: Int,
     val x: Int,
@@ -22,6 +24,13 @@ internal data class CsvColumns(
     val value: Int,
     val conditions: Map<String, Int>,
 ) {
+    /** Columns that were recognised by names other than Stillwater's own, for people. */
+    fun notes(): List<String> = buildList {
+        val place = listOf(latitude, longitude, x, y).filter { it != NONE }.map { names[it] }
+        if (place.any { it !in RECOGNISED }) add("places from ${place.joinToString(" and ")}")
+        if (names[time] !in RECOGNISED && date == NONE) add("times from ${names[time]}")
+    }
+
     companion object {
         const val NONE = -1
         private val TIMES = listOf("time_s", "unix_time_s")
@@ -35,10 +44,19 @@ internal data class CsvColumns(
         private const val Y = "y_m"
         private val RECOGNISED = TIMES + listOf(LATITUDE, LONGITUDE, X, Y)
 
+        /** [header] with a number behind names that come several times, `temp#1` and `temp#2`. */
+        fun distinct(header: List<String>): List<String> {
+            val counts = header.groupingBy { it }.eachCount()
+            val seen = HashMap<String, Int>()
+            return header.map { name ->
+                if (name.isEmpty() || counts.getValue(name) == 1) name else "$name#${seen.merge(name, 1, Int::plus)}"
+            }
+        }
+
         /**
-         * The columns that [choice] means in a log with the header [names].
+         * The columns that [choice] means in a log with the header [names], which differ.
          *
-         * @param sample the first row, by which columns of numbers are told from others; may be empty.
+         * @param sample the first row of readings, by which columns of numbers are told from others; may be empty.
          * @param problem makes the error for column (or null), expected, found.
          */
         fun of(
@@ -46,50 +64,7 @@ internal data class CsvColumns(
             sample: List<String>,
             choice: LogChoice,
             problem: (String?, String, String) -> LogProblem,
-        ): CsvColumns {
-            fun named(name: String): Int {
-                val index = names.indexOf(name)
-                if (index < 0) throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
-                if (names.lastIndexOf(name) != index) throw problem(name, "one such column", "several")
-                return index
-            }
-
-            fun recognised(name: String) = if (name in names) named(name) else NONE
-
-            val inMetres = choice.x != null || choice.y != null
-            if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
-            val time = choice.time?.let(::named)
-                ?: TIMES.map(::recognised).firstOrNull { it != NONE }
-                ?: throw problem(
-                    null,
-                    "a column time_s or unix_time_s, or --time COLUMN",
-                    "columns ${names.joinToString(", ")}",
-                )
-            val latitude = if (inMetres) NONE else choice.latitude?.let(::named) ?: recognised(LATITUDE)
-            val longitude = if (inMetres) NONE else choice.longitude?.let(::named) ?: recognised(LONGITUDE)
-            val place = if (latitude != NONE && longitude != NONE) {
-                Place(latitude, longitude, NONE, NONE)
-            } else {
-                choice.halfAPlace()?.let { throw problem(null, it, "neither") }
-                val x = choice.x?.let(::named) ?: recognised(X)
-                val y = choice.y?.let(::named) ?: if (choice.x == null) recognised(Y) else NONE
-                Place(NONE, NONE, x, y)
-            }
-            if (!place.suffices(choice)) {
-                throw problem(
-                    null,
-                    "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x",
-                    "columns ${names.joinToString(", ")}",
-                )
-            }
-            val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
-            val used = place.columns.toSet() + time + conditions.values
-            val value = choice.value?.let(::named) ?: onlyCandidate(names, sample, used, problem)
-            usedTwice(place.columns + time + value)?.let { (column, uses) ->
-                throw problem(names[column], "one use of it as time, position or readings", "$uses")
-            }
-            return CsvColumns(names, time, place.latitude, place.longitude, place.x, place.y, value, conditions)
-        }
+        ): CsvColumns = Finder(names, sample, choice, problem).columns()
 
         /** Columns of the positions, [NONE] where they have no such column. */
         private class Place(val latitude: Int, val longitude: Int, val x: Int, val y: Int) {
@@ -115,27 +90,97 @@ internal data class CsvColumns(
         /** A column that serves more than one purpose, and how many; null where there is none. */
         private fun usedTwice(columns: List<Int>): Pair<Int, Int>? =
             columns.filter { it != NONE }.groupingBy { it }.eachCount().entries.firstOrNull { it.value > 1 }?.toPair()
+    }
 
-        private fun onlyCandidate(
-            names: List<String>,
-            sample: List<String>,
-            used: Set<Int>,
-            problem: (String?, String, String) -> LogProblem,
-        ): Int {
-            val candidates = names.indices.filter { index ->
-                val field = sample.getOrNull(index)
-                val numeric = field.isNullOrBlank() || !DecimalText.parse(field).isNaN()
-                index !in used && names[index] !in RECOGNISED && numeric
+    /** Finds the columns that [choice] means; see [of]. */
+    private class Finder(
+        private val names: List<String>,
+        private val sample: List<String>,
+        private val choice: LogChoice,
+        private val problem: (String?, String, String) -> LogProblem,
+    ) {
+        fun columns(): CsvColumns {
+            val time = choice.time?.let(::named)
+                ?: TIMES.map { recognised(it) }.firstOrNull { it != NONE }
+                ?: knownTime()
+            val date = date(time)
+            val place = place()
+            val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
+            val used = place.columns.toSet() + time + date + conditions.values
+            val value = choice.value?.let(::named) ?: onlyCandidate(used)
+            usedTwice(place.columns + time + date + value)?.let { (column, uses) ->
+                throw problem(names[column], "one use of it as time, position or readings", "$uses")
             }
+            return CsvColumns(names, time, date, place.latitude, place.longitude, place.x, place.y, value, conditions)
+        }
+
+        private val all: String get() = "columns ${names.joinToString(", ")}"
+
+        private fun named(name: String): Int {
+            val index = names.indexOf(name)
+            if (index >= 0) return index
+            val twins = names.filter { it.startsWith("$name#") }
+            if (twins.size > 1) throw problem(name, "one of ${twins.joinToString(", ")}", "several such columns")
+            throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
+        }
+
+        private fun recognised(name: String, others: List<Int> = emptyList()): Int = when {
+            name in names || names.any { it.startsWith("$name#") } -> named(name)
+            else -> others.singleOrNull() ?: NONE
+        }
+
+        /** The column with the time by the names that loggers use. */
+        private fun knownTime(): Int {
+            val known = ColumnNames.times(names)
+            for (columns in known) {
+                // Of several, those with a time and not a number.
+                val texts = columns.filter { CellText.isTime(sample.getOrNull(it).orEmpty()) }
+                (columns.singleOrNull() ?: texts.singleOrNull())?.let { return it }
+            }
+            if (known.isEmpty()) throw problem(null, "a column time_s or unix_time_s, or --time COLUMN", all)
+            val several = known.first().joinToString(", ") { names[it] }
+            throw problem(null, "--time with one of $several", "${known.first().size} columns that could hold the time")
+        }
+
+        private fun date(time: Int): Int = when {
+            choice.date != null -> named(choice.date)
+            DateText.ofDay(sample.getOrNull(time).orEmpty()).isNaN() -> NONE
+            else -> ColumnNames.dates(names).firstOrNull { it != time } ?: NONE
+        }
+
+        private fun place(): Place {
+            val inMetres = choice.x != null || choice.y != null
+            if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
+            val place = (if (inMetres) null else degrees()) ?: metres()
+            if (place.suffices(choice)) return place
+            throw problem(null, "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x", all)
+        }
+
+        private fun degrees(): Place? {
+            val latitude = choice.latitude?.let(::named) ?: recognised(LATITUDE, ColumnNames.latitudes(names))
+            val longitude = choice.longitude?.let(::named) ?: recognised(LONGITUDE, ColumnNames.longitudes(names))
+            return if (latitude == NONE || longitude == NONE) null else Place(latitude, longitude, NONE, NONE)
+        }
+
+        private fun metres(): Place {
+            choice.halfAPlace()?.let { throw problem(null, it, "neither") }
+            val x = choice.x?.let(::named) ?: recognised(X, ColumnNames.easts(names))
+            val y = choice.y?.let(::named) ?: if (choice.x == null) recognised(Y, ColumnNames.norths(names)) else NONE
+            return Place(NONE, NONE, x, y)
+        }
+
+        private fun onlyCandidate(used: Set<Int>): Int {
+            val candidates = names.indices.filter { it !in used && isCandidate(it) }
             candidates.singleOrNull()?.let { return it }
-            throw when {
-                candidates.isEmpty() -> problem(null, "a column with readings", "columns ${names.joinToString(", ")}")
-                else -> problem(
-                    null,
-                    "--value with one of ${candidates.joinToString(", ") { names[it] }}",
-                    "${candidates.size} columns that could hold the readings",
-                )
-            }
+            if (candidates.isEmpty()) throw problem(null, "a column with readings", all)
+            val which = "--value with one of ${candidates.joinToString(", ") { names[it] }}"
+            throw problem(null, which, "${candidates.size} columns that could hold the readings")
+        }
+
+        private fun isCandidate(index: Int): Boolean {
+            val field = sample.getOrNull(index).orEmpty()
+            val isNumeric = CellText.isMissing(field) || CellText.isNumber(field, comma = true)
+            return isNumeric && names[index] !in RECOGNISED && !ColumnNames.isKnown(names[index])
         }
     }
 }

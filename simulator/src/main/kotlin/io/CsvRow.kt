@@ -9,9 +9,19 @@ import de.siegmar.fastcsv.reader.AbstractBaseCsvCallbackHandler
  * @param size number of slots.
  * @param separator what stands between fields.
  * @param timeSlot slot of the time, which may also be a date and time of day.
+ * @param dateSlot slot of the date, added to the time where [reader] is given and a column has it.
+ * @param reader reads the fields of a log that is not written plainly; null for others.
+ * @param linesBefore lines of the file that the reader was not given.
  */
-internal class CsvRow(private val slots: IntArray, size: Int, private val separator: Char, private val timeSlot: Int) :
-    AbstractBaseCsvCallbackHandler<CsvRow>() {
+internal class CsvRow(
+    private val slots: IntArray,
+    size: Int,
+    private val separator: Char,
+    private val timeSlot: Int,
+    private val dateSlot: Int,
+    private val reader: FieldReader?,
+    private val linesBefore: Int,
+) : AbstractBaseCsvCallbackHandler<CsvRow>() {
     /** Numbers of the row by slot; NaN where the field is missing or no number. */
     val numbers = DoubleArray(size)
 
@@ -38,13 +48,25 @@ internal class CsvRow(private val slots: IntArray, size: Int, private val separa
     var isOpen = false
         private set
 
+    /** Whether every field in use holds a number. */
+    val isWhole: Boolean get() = unreadable.isEmpty()
+
+    /** The first character of the row, a blank where the first field is empty. */
+    var first = ' '
+        private set
+
+    private val hasDate = reader != null && dateSlot in slots
     private val unreadable = HashMap<Int, String>()
 
     /** The text of the field of [column], which turned out not to be a finite number. */
     fun textOf(column: Int): String = unreadable[column].orEmpty()
 
+    /** Whether the field of [column] is there and turned out not to be a finite number. */
+    fun isUnreadable(column: Int): Boolean = column in unreadable
+
     override fun handleBegin(startingLineNumber: Long) {
-        line = startingLineNumber
+        line = startingLineNumber + linesBefore
+        first = ' '
         blank = false
         widestBreak = -1
         isEnd = false
@@ -56,15 +78,25 @@ internal class CsvRow(private val slots: IntArray, size: Int, private val separa
     override fun handleField(fieldIdx: Int, buf: CharArray, offset: Int, len: Int, quoted: Boolean) {
         if (quoted) {
             lookInside(buf, offset, len)
-        } else if (fieldIdx == 0 && len == EndMark.TEXT.length && buf[offset] == EndMark.TEXT[0]) {
-            isEnd = true
+        } else if (fieldIdx == 0 && len > 0) {
+            first = buf[offset]
+            if (len == EndMark.TEXT.length && first == EndMark.TEXT[0]) isEnd = true
         }
         val slot = if (fieldIdx < slots.size) slots[fieldIdx] else CsvColumns.NONE
         if (slot == CsvColumns.NONE) return
-        val number =
-            if (slot == timeSlot) IsoTime.ofField(buf, offset, len) else DecimalText.parse(buf, offset, len)
+        val number = when {
+            reader != null -> read(reader, slot, buf, offset, len)
+            slot == timeSlot -> IsoTime.ofField(buf, offset, len)
+            else -> DecimalText.parse(buf, offset, len)
+        }
         numbers[slot] = number
         if (!number.isFinite()) unreadable[fieldIdx] = String(buf, offset, len)
+    }
+
+    private fun read(reader: FieldReader, slot: Int, buf: CharArray, offset: Int, len: Int) = when (slot) {
+        timeSlot -> reader.time(buf, offset, len)
+        dateSlot -> reader.day(buf, offset, len)
+        else -> reader.number(buf, offset, len)
     }
 
     private fun lookInside(buf: CharArray, offset: Int, len: Int) {
@@ -83,5 +115,8 @@ internal class CsvRow(private val slots: IntArray, size: Int, private val separa
         blank = true
     }
 
-    override fun buildRecord(): CsvRow = this
+    override fun buildRecord(): CsvRow {
+        if (hasDate) numbers[timeSlot] += numbers[dateSlot]
+        return this
+    }
 }

@@ -15,19 +15,25 @@ import kotlin.math.abs
 /**
  * A survey log as comma, semicolon or tab separated values with a header line.
  *
- * Rows need the columns in use to hold finite numbers (conditions may be empty), times that grow, and latitudes and
- * longitudes that exist and lie within 1000 km of the first. Positions of exactly 0, 0 degrees are a receiver's way of
- * saying that it has no fix: such rows are left out and counted.
+ * Rows need a time, times that grow, and latitudes and longitudes that exist and lie within 1000 km of the first. A
+ * reading or position that is missing, and says so, is no error: such rows are left out and counted. Positions of
+ * exactly 0, 0 degrees are a receiver's way of saying that it has no fix. What stands before the table, and how it is
+ * written, is found by [CsvLayout] and [CsvTimes].
  */
 internal class CsvSurvey private constructor(
     internal val content: LogContent,
-    internal val separator: Char,
-    internal val headerLine: Long,
+    internal val layout: CsvLayout,
     internal val columns: CsvColumns,
+    private val times: CsvTimes,
     private val skipBadRows: Boolean,
 ) : SurveyLog {
     override val file: Path get() = content.file
-    override val format = "survey CSV" + SEPARATORS.getValue(separator)
+    override val format = listOf("survey CSV" + SEPARATORS.getValue(layout.separator))
+        .plus(layout.notes())
+        .plus(listOfNotNull("text in Windows-1252".takeIf { content.isOneByte }))
+        .plus(times.notes)
+        .plus(columns.notes())
+        .joinToString()
     override val quantity: String = columns.names[columns.value]
     override val oneDimensional = columns.latitude == CsvColumns.NONE && columns.y == CsvColumns.NONE
     override val xName: String = if (columns.x == CsvColumns.NONE) "x_m" else columns.names[columns.x]
@@ -42,15 +48,23 @@ internal class CsvSurvey private constructor(
         slots[columns.conditions.getValue(conditionNames[i])]
     }
 
+    /** Reads the fields of one pass; a log that is written plainly needs none, and is read faster without. */
+    internal fun fieldReader() = FieldReader(layout.decimalComma, times.form)
+
+    private val isPlain = !layout.decimalComma && times.form.kind == TimeForm.Kind.PLAIN
+
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
         val pass = Pass(sink)
+        val before = layout.headerLine - 1
+        val fields = if (isPlain) null else fieldReader()
+        val row = CsvRow(slots, SLOTS + conditionNames.size, layout.separator, TIME, DATE, fields, before)
         val reader = CsvReader.builder()
-            .fieldSeparator(separator)
+            .fieldSeparator(layout.separator)
             .skipEmptyLines(false)
             .allowExtraFields(true)
             .allowMissingFields(true)
             .maxBufferSize(LONGEST_FIELD)
-            .build(CsvRow(slots, SLOTS + conditionNames.size, separator, TIME), EndMark(content.reader(progress)))
+            .build(row, EndMark(content.reader(before, progress)))
         reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
         return pass.end()
     }
@@ -69,7 +83,8 @@ internal class CsvSurvey private constructor(
     /** What the parser says, in the words of the log. */
     private fun parseProblem(failure: CsvParseException): LogProblem {
         val texts = generateSequence<Throwable>(failure) { it.cause }.map { it.message.orEmpty() }.toList()
-        val line = texts.firstNotNullOfOrNull { LINE.find(it) }?.groupValues?.get(1)?.toLongOrNull()
+        val read = texts.firstNotNullOfOrNull { LINE.find(it) }?.groupValues?.get(1)?.toLongOrNull()
+        val line = read?.plus(layout.headerLine - 1)
         return when {
             texts.any { "closing quote" in it } ->
                 problem(line, null, "a separator after a closing quote", "something else", null)
@@ -95,6 +110,7 @@ internal class CsvSurvey private constructor(
         val east = if (inDegrees) columns.longitude else columns.x
         if (east != CsvColumns.NONE) slots[east] = EAST
         if (inDegrees) slots[columns.latitude] = NORTH
+        if (columns.date != CsvColumns.NONE) slots[columns.date] = DATE
         slots[columns.time] = TIME
     }
 
@@ -115,8 +131,7 @@ internal class CsvSurvey private constructor(
 
         fun take(row: CsvRow) {
             if (row.isEnd) return
-            // Lines of blanks before the header are rows to the parser.
-            if (row.blank || row.line < headerLine) {
+            if (row.blank) {
                 skips.count("blank lines")
             } else if (!headerSeen) {
                 headerSeen = true
@@ -124,12 +139,45 @@ internal class CsvSurvey private constructor(
                 if (row.fields != columns.names.size || row.widestBreak >= 0) {
                     throw problem(row.line, null, "a header in one line", "a line break inside quotes", null)
                 }
-            } else {
+            } else if (row.line >= layout.bodyLine) {
                 rows++
-                val problem = problemOf(row)
-                if (problem == null) order.take(placed(row)) else refuse(problem)
+                val reason = withoutReading(row)
+                val problem = if (reason == null) problemOf(row) else null
+                when {
+                    reason != null -> skips.count(reason)
+                    problem == null -> order.take(placed(row))
+                    else -> refuse(problem)
+                }
             }
         }
+
+        /** Why [row] is right and yet holds no reading; null where it holds one, or is wrong. */
+        private fun withoutReading(row: CsvRow): String? = when {
+            isMissing(row.numbers[VALUE]) && row.isWhole -> "codes for a missing reading"
+            row.isWhole && row.fields == columns.names.size -> null
+            row.isOpen || row.widestBreak >= 0 -> null
+            else -> withoutReading(row, row.textOf(columns.time))
+        }
+
+        private fun withoutReading(row: CsvRow, time: String): String? = when {
+            CellText.isRemark(row.first) -> "remarks"
+            row.numbers[TIME].isNaN() && CellText.isSummary(time) -> "lines that sum up"
+            row.fields != columns.names.size -> null
+            isEmpty(row, columns.time) && isEmpty(row, northColumn, eastColumn, columns.value) -> "empty rows"
+            !row.numbers[TIME].isFinite() -> null
+            isMissing(row, northColumn, NORTH) || isMissing(row, eastColumn, EAST) -> "rows without a position"
+            !isGiven(northColumn, row.numbers[NORTH]) || !isGiven(eastColumn, row.numbers[EAST]) -> null
+            isMissing(row, columns.value, VALUE) -> "missing readings"
+            else -> null
+        }
+
+        private fun isEmpty(row: CsvRow, vararg used: Int) =
+            used.all { it == CsvColumns.NONE || row.isUnreadable(it) && row.textOf(it).isBlank() }
+
+        private fun isMissing(row: CsvRow, column: Int, slot: Int) = column != CsvColumns.NONE &&
+            row.numbers[slot].isNaN() && CellText.isMissing(row.textOf(column))
+
+        private fun isGiven(column: Int, number: Double) = column == CsvColumns.NONE || number.isFinite()
 
         private fun refuse(problem: LogProblem) {
             if (!skipBadRows || problem.skippable == null) throw problem
@@ -156,7 +204,6 @@ internal class CsvSurvey private constructor(
                 ?: numberProblem(row, NORTH, northColumn)
                 ?: numberProblem(row, EAST, eastColumn)
                 ?: numberProblem(row, VALUE, columns.value)
-                ?: codeProblem(row)
                 ?: conditionProblem(row)
                 ?: rangeProblem(row)
                 ?: reachProblem(row)
@@ -164,22 +211,21 @@ internal class CsvSurvey private constructor(
 
         private fun numberProblem(row: CsvRow, slot: Int, column: Int): LogProblem? {
             if (column == CsvColumns.NONE || row.numbers[slot].isFinite()) return null
+            if (slot == TIME && columns.date != CsvColumns.NONE && !row.isUnreadable(column)) {
+                val found = quoted(row.textOf(columns.date))
+                return problem(row.line, columns.date, times.expectedDate, found, "rows without a date")
+            }
             val text = row.textOf(column)
             val reason = if (text.isBlank()) "rows with an empty field" else "rows with text where a number belongs"
             val hint = if (row.numbers[slot].isInfinite()) " (too large)" else commaHint(text)
-            val expected = if (slot == TIME) "seconds or a time as 2025-06-01T12:00:00Z" else "a finite number"
+            val expected = if (slot == TIME) times.expected else "a finite number"
             return problem(row.line, column, expected, quoted(text) + hint, reason)
         }
 
-        private fun commaHint(text: String) =
-            if (!DecimalText.parse(text.replace(',', '.')).isNaN()) " (decimals need a point)" else ""
-
-        /** What many loggers write where they have no reading is a number, and no reading. */
-        private fun codeProblem(row: CsvRow): LogProblem? {
-            val value = row.numbers[VALUE]
-            if (!isMissing(value)) return null
-            val found = "$value, which stands for a missing one"
-            return problem(row.line, columns.value, "a reading", found, "rows with a code for a missing value")
+        private fun commaHint(text: String) = when {
+            DecimalText.parse(text.replace(',', '.')).isNaN() -> ""
+            layout.decimalComma -> " (decimals have a comma in this log)"
+            else -> " (decimals need a point)"
         }
 
         private fun conditionProblem(row: CsvRow): LogProblem? {
@@ -187,7 +233,7 @@ internal class CsvSurvey private constructor(
                 if (conditionSlots[i] < SLOTS || row.numbers[conditionSlots[i]].isFinite()) continue
                 val column = columns.conditions.getValue(conditionNames[i])
                 val text = row.textOf(column)
-                if (text.isBlank() || text.trim().equals("nan", ignoreCase = true)) continue
+                if (CellText.isMissing(text)) continue
                 val reason = "rows with text where a number belongs"
                 return problem(row.line, column, "a number or nothing", quoted(text), reason)
             }
@@ -302,30 +348,31 @@ internal class CsvSurvey private constructor(
         private const val NORTH = 1
         private const val EAST = 2
         private const val VALUE = 3
-        private const val SLOTS = 4
+        private const val DATE = 4
+        private const val SLOTS = 5
 
         private fun isMissing(value: Double) = value == -9999.0 || value == -99999.0 || value == -999999.0
 
         fun open(content: LogContent, choice: LogChoice): CsvSurvey {
-            val headerLine = content.head.indexOfFirst { it.isNotBlank() }
-            val separator = SEPARATORS.keys.maxBy { mark -> content.head[headerLine].count { it == mark } }
+            val layout = CsvLayout.of(content.head, choice.named)
+            val line = content.head[layout.headerLine - 1]
             fun problem(column: String?, expected: String, found: String) =
-                LogProblem(content.file, headerLine + 1L, column, expected, found)
+                LogProblem(content.file, layout.headerLine.toLong(), column, expected, found)
 
-            val header = fields(content.head[headerLine], separator)
-                ?: throw problem(null, "a header line with column names", quoted(content.head[headerLine]))
-            val sample = content.head.drop(headerLine + 1).firstOrNull { it.isNotBlank() }
-            if ('\uFFFD' in content.head[headerLine]) throw problem(null, "text in UTF-8", "another encoding")
+            val header = fields(layout.header, layout.separator)
+                ?: throw problem(null, "a header line with column names", quoted(line))
+            if ('\uFFFD' in line) throw problem(null, "text in UTF-8 or Windows-1252", "another encoding")
             if (2 * header.count { !DecimalText.parse(it).isNaN() } > header.size) {
-                throw problem(null, "a header line with column names", quoted(content.head[headerLine]))
+                throw problem(null, "a header line with column names", quoted(line))
             }
             header.indexOfFirst { name -> name.any { it.isISOControl() } }.takeIf { it >= 0 }?.let { index ->
                 val code = header[index].first { it.isISOControl() }.code
                 val found = "U+%04X in the name of column %d".format(Locale.ROOT, code, index + 1)
                 throw problem(null, "a header without control characters", found)
             }
-            val columns = CsvColumns.of(header, sample?.let { fields(it, separator) }.orEmpty(), choice, ::problem)
-            return CsvSurvey(content, separator, headerLine + 1L, columns, choice.skipBadRows)
+            val columns = CsvColumns.of(CsvColumns.distinct(header), layout.sample, choice, ::problem)
+            val times = CsvTimes.of(content, layout, columns, choice)
+            return CsvSurvey(content, layout, columns, times, choice.skipBadRows)
         }
 
         private fun fields(line: String, separator: Char): List<String>? = try {

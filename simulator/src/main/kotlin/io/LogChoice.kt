@@ -4,9 +4,11 @@ package stillwater.io
  * What to take from a log, and how strict to be.
  *
  * Names of columns are the log's own; null stands for the recognised ones (`time_s`, `unix_time_s`, `lat_deg`,
- * `lon_deg`, `x_m`, `y_m`).
+ * `lon_deg`, `x_m`, `y_m` and those of [ColumnNames]).
  *
  * @property time column with the time, s or ISO 8601.
+ * @property date column with the date, where [time] is a time of day.
+ * @property dateOrder order of day, month and year in dates of numbers; null where the log must show it.
  * @property latitude column with the latitude, degrees north.
  * @property longitude column with the longitude, degrees east.
  * @property x column with the distance east or along a transect, m.
@@ -29,8 +31,13 @@ data class LogChoice(
     val skipBadRows: Boolean = false,
     val needsPlace: Boolean = true,
     val maxPoseAge: Double = 2.0,
+    val date: String? = null,
+    val dateOrder: DateOrder? = null,
 ) {
     init {
         require(maxPoseAge > 0 && maxPoseAge.isFinite()) { "maxPoseAge ($maxPoseAge s) must be above 0 and finite" }
     }
+    /** Names of all columns that it names. */
+    internal val named: Set<String>
+        get() = listOfNotNull(time, date, latitude, longitude, x, y, value).toSet() + conditions.values
 }

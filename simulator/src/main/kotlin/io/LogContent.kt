@@ -1,9 +1,12 @@
 package stillwater.io
 
+import java.io.BufferedReader
 import java.io.IOException
 import java.io.InputStream
 import java.io.InputStreamReader
 import java.io.Reader
+import java.nio.ByteBuffer
+import java.nio.CharBuffer
 import java.nio.charset.Charset
 import java.nio.file.Files
 import java.nio.file.Path
@@ -12,7 +15,8 @@ import java.nio.file.Path
  * A file known to be text, with what its beginning says about it.
  *
  * @property file the file.
- * @property charset encoding, from the byte order mark; UTF-8 without one.
+ * @property charset encoding, from the byte order mark; without one UTF-8, or Windows-1252, which holds Latin-1, where
+ * the first bytes are none.
  * @property platypus version of the Platypus log it is, or null where it is none.
  * @property head the first lines, without a byte order mark.
  */
@@ -22,13 +26,21 @@ internal class LogContent private constructor(
     private val markLength: Int,
     val head: List<String>,
 ) {
+    /** Whether the file is in an encoding of one byte for each character. */
+    val isOneByte: Boolean get() = charset == WINDOWS_1252
+
     val platypus: PlatypusVersion? = PlatypusVersion.of(head)
 
-    /** The text from its beginning; [progress] hears the number of bytes read. Bytes that are no text become U+FFFD. */
-    fun reader(progress: (Long) -> Unit): Reader {
+    /**
+     * The text after its first [skippedLines]; [progress] hears the number of bytes read. Bytes that are no text become
+     * U+FFFD.
+     */
+    fun reader(skippedLines: Int = 0, progress: (Long) -> Unit): Reader {
         val stream = CountingStream(Files.newInputStream(file), progress)
         stream.skipNBytes(markLength.toLong())
-        return InputStreamReader(stream, charset)
+        val text = InputStreamReader(stream, charset)
+        if (skippedLines == 0) return text
+        return BufferedReader(text).apply { repeat(skippedLines) { readLine() } }
     }
 
     /** Hands on the byte order mark, empty without one, and the bytes after it; the stream is closed in the end. */
@@ -37,6 +49,7 @@ internal class LogContent private constructor(
 
     companion object {
         private const val HEAD_BYTES = 1 shl 16
+        private val WINDOWS_1252 = Charset.forName("windows-1252")
         private val GZIP = byteArrayOf(0x1f, 0x8b.toByte())
 
         fun of(file: Path): LogContent {
@@ -48,7 +61,7 @@ internal class LogContent private constructor(
                 bytes.startsWith(byteArrayOf(0xEF.toByte(), 0xBB.toByte(), 0xBF.toByte())) -> Charsets.UTF_8 to 3
                 bytes.startsWith(byteArrayOf(0xFF.toByte(), 0xFE.toByte())) -> Charsets.UTF_16LE to 2
                 bytes.startsWith(byteArrayOf(0xFE.toByte(), 0xFF.toByte())) -> Charsets.UTF_16BE to 2
-                else -> Charsets.UTF_8 to 0
+                else -> (if (bytes.isUtf8()) Charsets.UTF_8 else WINDOWS_1252) to 0
             }
             if (mark != 2 && 0.toByte() in bytes) throw problem("a text log", "binary data")
             val text = String(bytes, mark, bytes.size - mark, charset)
@@ -76,6 +89,12 @@ internal class LogContent private constructor(
             } catch (_: IOException) {
                 throw problem("a file that cannot be read")
             }
+        }
+
+        /** Whether that is UTF-8, as far as it goes: its last character may be cut. */
+        private fun ByteArray.isUtf8(): Boolean {
+            val decoder = Charsets.UTF_8.newDecoder()
+            return !decoder.decode(ByteBuffer.wrap(this), CharBuffer.allocate(size), false).isError
         }
 
         private fun ByteArray.startsWith(mark: ByteArray) =

@@ -30,7 +30,7 @@ internal class PlatypusLog private constructor(
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
         val pass = Pass(sink)
-        BoundedLines(content.reader(progress)).use { lines ->
+        BoundedLines(content.reader(progress = progress)).use { lines ->
             for (line in lines) pass.take(line, lines.peek())
         }
         return pass.end()
@@ -193,8 +193,7 @@ internal class PlatypusLog private constructor(
 
         fun open(content: LogContent, version: PlatypusVersion, choice: LogChoice): PlatypusLog {
             fun problem(expected: String, found: String) = LogProblem(content.file, null, null, expected, found)
-            val columns = listOfNotNull(choice.time, choice.latitude, choice.longitude, choice.x, choice.y) +
-                choice.conditions.values
+            val columns = choice.copy(value = null).named
             if (columns.isNotEmpty()) {
                 throw problem("a survey CSV for column ${columns.first()}", "a Platypus log, which has no columns")
             }

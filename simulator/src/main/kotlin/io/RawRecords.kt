@@ -60,6 +60,20 @@ internal class RawRecords(private val bytes: InputStream, charset: Charset, priv
         return true
     }
 
+    /** Goes to the end of the line, whatever quotes are in it; its text is [text], and it has no [fields]. */
+    fun nextLine() {
+        text.clear()
+        fields.clear()
+        lineEnd = ""
+        var unit = take()
+        while (unit >= 0) {
+            val c = unit.toChar()
+            if (c == '\n' || c == '\r') return endLine(c)
+            text.append(c)
+            unit = take()
+        }
+    }
+
     /** Whether a quote inside quotes is followed by another, which is then taken: one that is meant. */
     private fun isDoubled(): Boolean {
         if (peek() != '"'.code) return false

@@ -1,0 +1,130 @@
+package stillwater.estimate
+
+import kotlin.math.abs
+import kotlin.math.floor
+import kotlin.math.hypot
+
+/**
+ * Where a track comes to a place again that it has been to before: crossings of two of its segments or, on a transect,
+ * places that a later pass goes through.
+ *
+ * Crossing k is [shareOne] of the way from reading [one] to the next, and [shareOther] of the way from reading [other]
+ * to the next; reading [other] is at least [LEAST_STEPS] median steps later. Segments over gaps, and those of a boat
+ * that lies still, count for nothing.
+ *
+ * @param series the readings, with positions that grow from fix to fix. Retained.
+ */
+internal class TrackCrossings(private val series: TrackSeries) {
+    private val ones = ArrayList<Int>()
+    private val others = ArrayList<Int>()
+    private val sharesOfOne = ArrayList<Double>()
+    private val sharesOfOther = ArrayList<Double>()
+
+    private val longEnough: Double
+
+    init {
+        val lengths = DoubleArray(maxOf(0, series.size - 1)) { length(it) }.apply { sort() }
+        val typical = if (lengths.isEmpty()) 0.0 else lengths[lengths.size / 2]
+        longEnough = STILL * typical
+        when {
+            !(typical > 0) -> Unit
+            series.ys.all { it == series.ys[0] } -> onALine()
+            else -> inThePlane(CELL_STEPS * typical)
+        }
+    }
+
+    /** Number of crossings. */
+    val size: Int get() = ones.size
+
+    /** See the class. */
+    fun one(k: Int): Int = ones[k]
+
+    /** See the class. */
+    fun other(k: Int): Int = others[k]
+
+    /** See the class. */
+    fun shareOne(k: Int): Double = sharesOfOne[k]
+
+    /** See the class. */
+    fun shareOther(k: Int): Double = sharesOfOther[k]
+
+    private fun length(i: Int) = hypot(series.xs[i + 1] - series.xs[i], series.ys[i + 1] - series.ys[i])
+
+    private fun isSailed(i: Int) =
+        series.times[i + 1] - series.times[i] <= series.gapLimit && length(i) > longEnough
+
+    private fun isLater(one: Int, other: Int) =
+        series.times[other] - series.times[one] > LEAST_STEPS * series.medianStep
+
+    private fun add(one: Int, shareOne: Double, other: Int, shareOther: Double) {
+        ones += one
+        others += other
+        sharesOfOne += shareOne
+        sharesOfOther += shareOther
+    }
+
+    /** Each of some readings against the first pass that comes by its place later. */
+    private fun onALine() {
+        val every = maxOf(1, series.size / MOST_ON_A_LINE)
+        for (i in 0 until series.size - 1 step every) {
+            val x = series.xs[i]
+            for (j in i + 1 until minOf(series.size - 1, i + FARTHEST)) {
+                if (!isLater(i, j) || !isSailed(j) || (series.xs[j] - x) * (series.xs[j + 1] - x) > 0) continue
+                add(i, 0.0, j, (x - series.xs[j]) / (series.xs[j + 1] - series.xs[j]))
+                break
+            }
+        }
+    }
+
+    private fun inThePlane(cell: Double) {
+        val segments = HashMap<Long, ArrayList<Int>>()
+        for (i in 0 until series.size - 1) {
+            if (!isSailed(i)) continue
+            val from = key(series.xs[i], series.ys[i], cell)
+            val to = key(series.xs[i + 1], series.ys[i + 1], cell)
+            segments.getOrPut(from) { ArrayList() } += i
+            if (to != from) segments.getOrPut(to) { ArrayList() } += i
+        }
+        val seen = HashSet<Long>()
+        for (key in segments.keys.sorted()) {
+            val here = segments.getValue(key)
+            // A boat that goes round and round in one place crosses its track more often than is of use.
+            val every = 1 + here.size / MOST_IN_A_CELL
+            for (a in here.indices step every) {
+                for (b in a + 1 until here.size step every) cross(here[a], here[b], seen)
+            }
+        }
+    }
+
+    private fun key(x: Double, y: Double, cell: Double): Long =
+        (floor(x / cell).toLong() shl HALF_A_LONG) xor (floor(y / cell).toLong() and LOW_HALF)
+
+    private fun cross(i: Int, j: Int, seen: HashSet<Long>) {
+        if (!isLater(i + 1, j)) return
+        val x1 = series.xs[i + 1] - series.xs[i]
+        val y1 = series.ys[i + 1] - series.ys[i]
+        val x2 = series.xs[j + 1] - series.xs[j]
+        val y2 = series.ys[j + 1] - series.ys[j]
+        val cross = x1 * y2 - y1 * x2
+        if (abs(cross) < PARALLEL * length(i) * length(j)) return
+        val x = series.xs[j] - series.xs[i]
+        val y = series.ys[j] - series.ys[i]
+        val shareOne = (x * y2 - y * x2) / cross
+        val shareOther = (x * y1 - y * x1) / cross
+        if (shareOne !in 0.0..1.0 || shareOther !in 0.0..1.0) return
+        if (seen.add((i.toLong() shl HALF_A_LONG) or j.toLong())) add(i, shareOne, j, shareOther)
+    }
+
+    companion object {
+        /** Median steps that lie between two readings of one place at least: fewer are the same pass. */
+        const val LEAST_STEPS = 20.0
+        private const val CELL_STEPS = 2.0
+        private const val STILL = 0.1
+        private const val PARALLEL = 0.05
+        private const val MOST_IN_A_CELL = 200
+        private const val MOST_ON_A_LINE = 2000
+        private const val FARTHEST = 20_000
+        private const val HALF_A_LONG = 32
+        private const val LOW_HALF = 0xffffffffL
+    }
+}

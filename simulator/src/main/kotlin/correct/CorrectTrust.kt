@@ -1,0 +1,67 @@
+package stillwater.correct
+
+import stillwater.survey.Wording.Companion.digits
+import kotlin.math.sqrt
+
+/**
+ * How far the intervals of a [CorrectedLog] were checked, and held, in words.
+ *
+ * @param result what it is about. @param unitAfter the readings' unit with a blank before it, or nothing.
+ */
+internal class CorrectTrust(private val result: CorrectedLog, private val unitAfter: String) {
+    private val agreement = result.agreement
+    private val isWidened = agreement.isContradicted && result.origin != SensorOrigin.GIVEN
+
+    /** What the track says of the intervals, for the facts. */
+    val words: String
+        get() = when {
+            result.origin == SensorOrigin.NOTHING -> "if the sensor has no lag"
+            agreement.ratio.isNaN() -> "not checked, for the track comes to ${places()} a second time"
+            isWidened -> "widened by what passes disagree in ${places()}"
+            agreement.isContradicted -> "passes disagree by more in ${places()}"
+            else -> "passes agree as far as that in ${places()}"
+        }
+
+    private fun places() = when (agreement.crossings) {
+        0 -> "no place"
+        1 -> "1 place"
+        else -> "${agreement.crossings} places"
+    }
+
+    /** What the user should know, one line each. */
+    val warnings: List<String>
+        get() = listOfNotNull(contradicted(), unchecked(), limited())
+
+    private fun contradicted(): String? {
+        if (!agreement.isContradicted) return null
+        val times = digits(sqrt(agreement.ratio), 2)
+        val excess = "passes through the same ${places()} differ by $times times what the intervals allow"
+        val parts = listOfNotNull(
+            "as if times were wrong by ${digits(agreement.lateness, 2)} s".takeIf { agreement.lateness > 0 },
+            "as if values were wrong by ${digits(agreement.spread, 2)}$unitAfter".takeIf { agreement.spread > 0 },
+        ).joinToString(" and ")
+        val causes = "another response, water that changed in between, or fixes that are off"
+        return if (isWidened) {
+            "$excess ($parts): $causes. The intervals were widened by it; errors that all passes share are not in them"
+        } else {
+            "$excess ($parts): $causes. They were left as the given sensor has them"
+        }
+    }
+
+    private fun unchecked(): String? {
+        if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
+        return "the track comes to ${places()} a second time, too few to check the intervals by: they hold if the " +
+            "sensor is one of those named"
+    }
+
+    /** A rate that is reached often hides what else the sensor does. */
+    private fun limited(): String? {
+        if (result.origin != SensorOrigin.RATE) return null
+        return "a lag beside the rate limit was not looked for and is not in the intervals, which then hold far less " +
+            "than 95 % of the rows: diagnose looks for both, and --sensor takes what it finds"
+    }
+
+    private companion object {
+        val LEARNED = setOf(SensorOrigin.REVISITS, SensorOrigin.RATE)
+    }
+}

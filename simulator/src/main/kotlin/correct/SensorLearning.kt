@@ -1,0 +1,198 @@
+package stillwater.correct
+
+import kotlinx.coroutines.Dispatchers
+import kotlinx.coroutines.async
+import kotlinx.coroutines.awaitAll
+import kotlinx.coroutines.runBlocking
+import stillwater.estimate.CandidateResponse
+import stillwater.estimate.LikelyResponse
+import stillwater.estimate.ReferenceLearner
+import stillwater.estimate.Response
+import stillwater.estimate.ResponseChoice
+import stillwater.estimate.ResponseKind
+import stillwater.estimate.ResponseLearner
+import stillwater.estimate.RevisitLearner
+import stillwater.estimate.TrackSeries
+import stillwater.estimate.rateLimit
+import stillwater.io.LogProblem
+import stillwater.io.SurveyLog
+import stillwater.sensor.SensorStage
+import stillwater.survey.Wording.Companion.duration
+import kotlin.random.Random
+
+/**
+ * What a log says about its sensor.
+ *
+ * @property origin where it comes from. @property choice the candidates, or null where nothing was chosen.
+ * @property likely the responses to undo. @property stages the most likely, with its calibration.
+ * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
+ * readings without one. @property held whether the reference looks held over each step. @property fault why the
+ * reference was not learned from, or null.
+ */
+internal class Learned(
+    val origin: SensorOrigin,
+    val choice: ResponseChoice?,
+    val likely: List<LikelyResponse>,
+    val stages: List<SensorStage>,
+    val readings: Int,
+    val blocks: Int,
+    val withoutReference: Int = 0,
+    val held: Boolean = false,
+    val fault: String? = null,
+)
+
+/** Learns a log's sensor, from passes through the same water or from a reference. */
+internal object SensorLearning {
+    /** More readings than this are learned on in the middle of a log only. */
+    const val MOST_LEARNED = 20_000
+
+    /** A part of which nothing can be learned is not cut in half below this. */
+    private const val FEWEST_LEARNED = 2_500
+
+    /** Seed of the bootstrap. */
+    const val SEED = 1L
+
+    private const val FEWEST = 30
+
+    /** A log that is not many times as long as a lag that it does not tell from none tells nothing of lags. */
+    private const val FEW_LAGS = 10
+
+    /** A lag known to such a factor only is not known. */
+    private const val MOST_FACTOR = 10
+
+    /** Rows with a reference are this much rarer than rows before what lies between them counts. */
+    private const val SPARSE = 1.5
+
+    /** The water between rows with a reference is not known where it bends by half of what is left of the readings. */
+    private const val MOST_ROUGHNESS = 0.5
+    private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
+
+    /** What passes of [series] through the same water say. */
+    fun byRevisits(series: TrackSeries): Learned {
+        if (series.values.all { it == series.values[0] }) return nothing(series.size)
+        val rate = series.rateLimit()
+        if (rate.isFinite()) {
+            val response = ResponseKind.SLEW.response(rate)
+            val likely = listOf(LikelyResponse(listOf(response), 1.0))
+            return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
+        }
+        var part = series.middle(MOST_LEARNED)
+        var learner = RevisitLearner.of(part)
+        // The longer the part, the longer the runs that are held against others: legs may be too short for them.
+        while (learner.blocks == 0 && part.size > FEWEST_LEARNED) {
+            part = series.middle(part.size / 2)
+            learner = RevisitLearner.of(part)
+        }
+        val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
+            ?: return nothing(part.size)
+        val stages = choice.first.response.stages()
+        return Learned(SensorOrigin.REVISITS, choice, choice.likely(), stages, part.size, learner.blocks)
+    }
+
+    private fun nothing(readings: Int) = Learned(
+        SensorOrigin.NOTHING,
+        null,
+        NO_LAG,
+        emptyList(),
+        readings,
+        0,
+    )
+
+    /** What [references], NaN where there is none, say of the readings of [series]. */
+    fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
+        val known = (0 until series.size).filter { references[it].isFinite() }
+        if (known.size < FEWEST) {
+            val expected = "at least $FEWEST readings with a reference"
+            throw LogProblem(log.file, null, null, expected, "${known.size}")
+        }
+        if (known.all { references[it] == references[known[0]] }) {
+            val found = "${references[known[0]]} in every row"
+            throw LogProblem(log.file, null, null, "a reference that changes", found)
+        }
+        val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
+        val part = series.at(usable)
+        val reference = DoubleArray(usable.size) { references[usable[it]] }
+        val held = ReferenceLearner.isHeld(part, reference)
+        val learner = ReferenceLearner(part, reference, held)
+        fault(series, part, learner)?.let { return withoutReference(series, it) }
+        val choice =
+            requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
+        // What is undone is a response to water that changes all the time.
+        val likely = choice.likely().map { open ->
+            if (!held) return@map open
+            LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight)
+        }
+        val response = choice.first.response
+        val (gain, offset) = learner.calibration(response)
+        val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
+        return Learned(
+            SensorOrigin.REFERENCE,
+            choice,
+            likely,
+            stages,
+            part.size,
+            learner.groups,
+            series.size - known.size,
+            held,
+        )
+    }
+
+    /** Why [learner], of the [part] of [series] with a reference, has nothing to learn from; null where it has. */
+    private fun fault(series: TrackSeries, part: TrackSeries, learner: ReferenceLearner): String? {
+        val range = learner.lagRange()
+        val length = part.times.last() - part.times.first()
+        val least = if (range.start == 0.0) length / FEW_LAGS else MOST_FACTOR * range.start
+        if (range.endInclusive > least) {
+            val begin = if (range.start == 0.0) "none" else duration(range.start)
+            val end = if (range.endInclusive.isInfinite()) "more than it is long" else duration(range.endInclusive)
+            return "its ${part.size} rows, ${duration(length)} long, fit any lag from $begin to $end"
+        }
+        val isSparse = part.medianStep > SPARSE * series.medianStep
+        if (isSparse && learner.roughness() > MOST_ROUGHNESS) {
+            val rows = "it has a row every ${duration(part.medianStep)} only"
+            return "$rows, and the water between them is not known well enough"
+        }
+        return null
+    }
+
+    private fun withoutReference(series: TrackSeries, fault: String): Learned {
+        val learned = byRevisits(series)
+        return Learned(
+            learned.origin,
+            learned.choice,
+            learned.likely,
+            learned.stages,
+            learned.readings,
+            learned.blocks,
+            fault = fault,
+        )
+    }
+
+    /** All [kinds] on all cores; each task has a learner of its own, the first one [learner]. */
+    private fun choice(
+        learner: ResponseLearner,
+        kinds: List<ResponseKind>,
+        another: () -> ResponseLearner,
+    ): ResponseChoice? {
+        if (learner.groups == 0) return null
+        val half = kinds.size / 2
+        val found: List<CandidateResponse> = runBlocking(Dispatchers.Default) {
+            listOf(
+                async { kinds.take(half).mapNotNull(another()::candidate) },
+                async { kinds.drop(half).mapNotNull(learner::candidate) },
+            ).awaitAll().flatten()
+        }
+        return if (found.isEmpty()) null else ResponseChoice.of(found, Random(SEED))
+    }
+}
+
+internal fun TrackSeries.at(rows: List<Int>): TrackSeries {
+    fun of(values: DoubleArray) = DoubleArray(rows.size) { values[rows[it]] }
+    return TrackSeries(of(times), of(xs), of(ys), of(values))
+}
+
+private fun TrackSeries.middle(most: Int): TrackSeries {
+    if (size <= most) return this
+    val from = (size - most) / 2
+    return at((from until from + most).toList())
+}

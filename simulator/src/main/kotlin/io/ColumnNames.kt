@@ -1,0 +1,76 @@
+package stillwater.io
+
+/** Names that loggers and people give to the columns of time and place, without their units and marks. */
+internal object ColumnNames {
+    private val IN_BRACKETS = Regex("""\(.*?\)|\[.*?]|<.*?>""")
+    private val MARKS = Regex("""[^a-z0-9#]+""")
+
+    /** Names of times, those that say most first. */
+    private val TIMES = listOf(
+        "unix_time", "unix_timestamp", "epoch", "epoch_time", "timestamp", "time_stamp", "datetime", "date_time",
+        "date_and_time", "utc_date_time", "utc_datetime", "datetime_utc", "date_time_utc", "time_utc", "utc_time",
+        "time", "elapsed_time", "time_sec", "time_seconds", "elapsed_s", "date",
+    )
+    private val DATES = setOf("date", "utc_date", "date_utc", "local_date", "gps_date")
+    private val LATITUDES = setOf(
+        "latitude", "lat", "gps_latitude", "gps_lat", "latitude_deg", "latitude_degrees", "lat_degrees", "lat_dd",
+    )
+    private val LONGITUDES = setOf(
+        "longitude", "lon", "long", "lng", "gps_longitude", "gps_lon", "gps_long", "gps_lng", "longitude_deg",
+        "longitude_degrees", "lon_degrees", "lon_dd", "long_dd",
+    )
+    private val EASTS = setOf("x", "easting", "easting_m", "x_metres", "x_meters")
+    private val NORTHS = setOf("y", "northing", "northing_m", "y_metres", "y_meters")
+    private val COUNTERS = setOf("#", "record", "record_number", "row")
+
+    /** Seconds in the unit at the end of a name, as in `unix_ms` and `Time (min)`. */
+    private val UNITS = listOf(
+        Regex("""(?i)(_ms|[(\[]\s*(ms|msec|milliseconds?)\s*[)\]])$""") to 1e-3,
+        Regex("""(?i)(_min|[(\[]\s*(min|mins|minutes?)\s*[)\]])$""") to 60.0,
+        Regex("""(?i)(_h|_hours?|[(\[]\s*(h|hr|hrs|hours?)\s*[)\]])$""") to 3600.0,
+        Regex("""(?i)(_days?|[(\[]\s*(d|days?)\s*[)\]])$""") to 86_400.0,
+    )
+    private val SECONDS = Regex("""(?i)(_s|_sec|_seconds|[(\[]\s*(s|sec|secs|seconds?)\s*[)\]]|unix.*|epoch.*)$""")
+
+    /** [name] in small letters, without units in brackets and what follows a comma, parts joined by `_`. */
+    fun plain(name: String): String {
+        val bare = name.lowercase().replace(IN_BRACKETS, " ").substringBefore(',')
+        return bare.replace(MARKS, "_").trim('_')
+    }
+
+    /** Columns that may hold the time, of [names]: the first group that has any; empty where none is known. */
+    fun times(names: List<String>): List<List<Int>> {
+        val plain = names.map { if ("fract" in it.lowercase()) "" else plain(it) }
+        return TIMES.map { known -> plain.indices.filter { plain[it] == known } }.filter { it.isNotEmpty() }
+    }
+
+    /** Columns that may hold the date, of [names]. */
+    fun dates(names: List<String>): List<Int> = indices(names, DATES)
+
+    /** Columns that may hold the latitude. */
+    fun latitudes(names: List<String>): List<Int> = indices(names, LATITUDES)
+
+    /** Columns that may hold the longitude. */
+    fun longitudes(names: List<String>): List<Int> = indices(names, LONGITUDES)
+
+    /** Columns that may hold metres east. */
+    fun easts(names: List<String>): List<Int> = indices(names, EASTS)
+
+    /** Columns that may hold metres north. */
+    fun norths(names: List<String>): List<Int> = indices(names, NORTHS)
+
+    /** Whether [name] is one of time, place or row number, so that no readings are looked for there. */
+    fun isKnown(name: String): Boolean {
+        val plain = plain(name)
+        return plain in TIMES || plain in DATES || plain in LATITUDES || plain in LONGITUDES || plain in EASTS ||
+            plain in NORTHS || plain in COUNTERS || "fract" in name.lowercase()
+    }
+
+    /** Seconds in the unit that the [name] of a time states; null where it states seconds or none. */
+    fun unit(name: String): Double? = UNITS.firstOrNull { it.first.containsMatchIn(name.trim()) }?.second
+
+    /** Whether the [name] of a time states that its numbers are seconds. */
+    fun statesSeconds(name: String): Boolean = SECONDS.containsMatchIn(name.trim())
+
+    private fun indices(names: List<String>, known: Set<String>) = names.indices.filter { plain(names[it]) in known }
+}

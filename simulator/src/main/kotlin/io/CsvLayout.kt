@@ -1,0 +1,201 @@
+package stillwater.io
+
+/**
+ * Where the table of a CSV log is and how it is written, as the first lines of the file show it.
+ *
+ * Before the header there may be what loggers say about themselves; below it lines with units.
+ *
+ * @property separator what stands between fields. @property headerLine physical line of the header, from 1.
+ * @property header the header as it stands. @property bodyLine physical line of the first row that may hold readings.
+ * @property sample the first such row, or empty. @property decimalComma whether numbers have commas for points.
+ */
+internal class CsvLayout(
+    val separator: Char,
+    val headerLine: Int,
+    val header: String,
+    val bodyLine: Int,
+    val sample: List<String>,
+    val decimalComma: Boolean,
+) {
+    /** What is not plain about it, for people. */
+    fun notes(): List<String> = buildList {
+        if (headerLine > 1) add("header in line $headerLine")
+        if (bodyLine == headerLine + 2) add("units in line ${headerLine + 1}")
+        if (bodyLine > headerLine + 2) add("units in lines ${headerLine + 1} to ${bodyLine - 1}")
+        if (decimalComma) add("decimal commas")
+    }
+
+    companion object {
+        /** Separators that are looked for, in the order in which they are preferred. */
+        val SEPARATORS = listOf(',', ';', '\t')
+        private const val MOST_UNITS = 3
+        private val STATED = Regex("""(?i)\s*"?sep=(.)"?\s*""")
+        private val DECIMAL_COMMA = Regex("""[+-]?\d*,\d+([eE][+-]?\d+)?""")
+        private val DECIMAL_POINT = Regex("""[+-]?\d*\.\d+([eE][+-]?\d+)?""")
+
+        /**
+         * The layout of the log that begins with the lines [head], not all of them blank.
+         *
+         * @param wanted names of columns that the user gave.
+         */
+        fun of(head: List<String>, wanted: Set<String>): CsvLayout {
+            val first = head.indexOfFirst { it.isNotBlank() }
+            val stated = STATED.matchEntire(head[first])?.groupValues?.get(1)?.get(0)?.takeIf { it in SEPARATORS }
+            val from = if (stated == null) first else first + 1
+            val begin = (from until head.size).firstOrNull { head[it].isNotBlank() } ?: first
+            val separator = stated ?: SEPARATORS.maxBy { mark -> head[begin].count { it == mark } }
+            val header = if (isPlain(head, begin, separator, wanted)) {
+                Header(begin, separator)
+            } else {
+                search(head, begin, stated?.let(::listOf) ?: SEPARATORS, wanted) ?: Header(begin, separator)
+            }
+            return layout(head, header)
+        }
+
+        private class Header(val index: Int, val separator: Char)
+
+        /** Whether the line [begin] is a header of a table that goes on to the end of [head]. */
+        private fun isPlain(head: List<String>, begin: Int, separator: Char, wanted: Set<String>): Boolean {
+            if (CellText.isRemark(head[begin])) return false
+            val names = fields(head[begin], separator) ?: return false
+            if (names.none { it in wanted || ColumnNames.isKnown(it) }) return false
+            val last = head.indexOfLast { it.isNotBlank() }
+            return names.size > 1 && (last == begin || fields(head[last], separator)?.size == names.size)
+        }
+
+        /** The header of the table that reaches farthest: what stands before it is smaller or has other columns. */
+        private fun search(head: List<String>, begin: Int, separators: List<Char>, wanted: Set<String>): Header? =
+            separators.flatMap { Table(head, begin, it, wanted).headers() }
+                .maxWithOrNull(compareBy({ it.end }, { it.known }, { if (it.isRemark) 0 else 1 }, { -it.index }))
+                ?.let { Header(it.index, it.separator) }
+
+        private fun layout(head: List<String>, header: Header): CsvLayout {
+            val table = Table(head, header.index, header.separator, emptySet())
+            val units = table.units(header.index)
+            val body = header.index + 1 + units
+            val sample = (body until head.size).firstOrNull { !table.isPassed(it) }
+            return CsvLayout(
+                header.separator,
+                header.index + 1,
+                head[header.index].let { if (CellText.isRemark(it)) it.trimStart('#', '%', '/', ' ') else it },
+                body + 1,
+                sample?.let { fields(head[it], header.separator) }.orEmpty(),
+                header.separator != ',' && table.hasDecimalCommas(body),
+            )
+        }
+
+        /** Fields of one [line], trimmed and without quotes; null where a quote is left open. */
+        private fun fields(line: String, separator: Char): List<String>? {
+            val fields = ArrayList<String>()
+            val field = StringBuilder()
+            var isQuoted = false
+            var i = 0
+            while (i < line.length) {
+                val c = line[i]
+                when {
+                    isQuoted && c == '"' && line.getOrNull(i + 1) == '"' -> field.append(line[i++])
+                    c == '"' && (isQuoted || field.isBlank()) -> isQuoted = !isQuoted
+                    c == separator && !isQuoted -> {
+                        fields += field.trim().toString()
+                        field.setLength(0)
+                    }
+                    else -> field.append(c)
+                }
+                i++
+            }
+            return if (isQuoted) null else fields.apply { add(field.trim().toString()) }
+        }
+    }
+
+    /** A line that may be a header. */
+    private class Candidate(
+        val index: Int,
+        val separator: Char,
+        val isRemark: Boolean,
+        val known: Int,
+        val end: Int,
+    )
+
+    /** The lines [head] from [begin] as a table with one [separator]. */
+    private class Table(
+        private val head: List<String>,
+        private val begin: Int,
+        private val separator: Char,
+        private val wanted: Set<String>,
+    ) {
+        private val rows = HashMap<Int, List<String>>()
+
+        private fun row(i: Int): List<String> = rows.getOrPut(i) {
+            fields(head[i].trimStart('#', '%', '/', ' ').ifEmpty { " " }, separator).orEmpty()
+        }
+
+        /** Lines that may be a header, and how far the table below each reaches. */
+        fun headers(): List<Candidate> {
+            val found = ArrayList<Candidate>()
+            for (i in begin until head.size) {
+                if (!isText(row(i)) || row(i)[0] == CAMPBELL) continue
+                val end = end(i)
+                if (end > i) found += Candidate(i, separator, CellText.isRemark(head[i]), known(row(i)), end)
+            }
+            return found
+        }
+
+        /** The last row of the table below the header [i]; [i] where there is none. */
+        private fun end(i: Int): Int {
+            var end = i
+            for (j in i + 1 + units(i) until head.size) {
+                if (isPassed(j)) continue
+                if (row(j).size != row(i).size || !isData(row(j))) break
+                end = j
+            }
+            return end
+        }
+
+        /** Lines with units right below the header [i]. */
+        fun units(i: Int): Int {
+            var units = 0
+            while (units < MOST_UNITS && i + 1 + units < head.size && isUnits(i + 1 + units, row(i).size)) units++
+            // A table of words alone has no units, but rows in which no number is.
+            return if (i + 1 + units == head.size) 0 else units
+        }
+
+        private fun isUnits(j: Int, width: Int) = !isPassed(j) && row(j).size == width && isWords(row(j))
+
+        fun hasDecimalCommas(from: Int): Boolean {
+            var commas = 0
+            for (j in from until head.size) {
+                for (field in row(j)) {
+                    if (DECIMAL_POINT.matches(field)) return false
+                    if (DECIMAL_COMMA.matches(field)) commas++
+                }
+            }
+            return commas > 0
+        }
+
+        /** Whether the line [j] is blank or a remark. */
+        fun isPassed(j: Int) = head[j].isBlank() || CellText.isRemark(head[j])
+
+        private fun isNumber(text: String) = CellText.isNumber(text, separator != ',')
+
+        /** Words in more than half of the fields and no number or time in any. */
+        private fun isText(row: List<String>) =
+            row.size > 1 && 2 * row.count { !CellText.isMissing(it) } > row.size && isWords(row)
+
+        /** Words and no number or time. */
+        private fun isWords(row: List<String>) =
+            row.any { !CellText.isMissing(it) } && row.none { isNumber(it) || CellText.isTime(it) }
+
+        /** Numbers or times, and little else but what is missing. */
+        private fun isData(row: List<String>): Boolean {
+            val numbers = row.count { isNumber(it) || CellText.isTime(it) }
+            return numbers > 1 || numbers > 0 && 2 * (numbers + row.count { CellText.isMissing(it) }) >= row.size
+        }
+
+        private fun known(row: List<String>) = row.count { it in wanted || ColumnNames.isKnown(it) }
+
+        private companion object {
+            /** Begins the first line of a Campbell logger's table, which has as many fields as the table may have. */
+            const val CAMPBELL = "TOA5"
+        }
+    }
+}

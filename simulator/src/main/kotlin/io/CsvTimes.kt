@@ -1,0 +1,75 @@
+package stillwater.io
+
+/**
+ * How the times of a CSV log are read.
+ *
+ * @property form how they are written. @property notes what was taken for what, for people.
+ * @property expected what a time must be, for messages. @property expectedDate what a date must be, likewise.
+ */
+internal class CsvTimes private constructor(
+    val form: TimeForm,
+    val notes: List<String>,
+    val expected: String,
+    val expectedDate: String = "",
+) {
+    companion object {
+        private const val PLAIN = "seconds or a time as 2025-06-01T12:00:00Z"
+
+        /**
+         * Looks at the column's name, the first row and, where dates are written in numbers, as many rows as it takes.
+         *
+         * @throws LogProblem if the log leaves the order of its dates open.
+         */
+        fun of(content: LogContent, layout: CsvLayout, columns: CsvColumns, choice: LogChoice): CsvTimes {
+            val name = columns.names[columns.time]
+            val text = layout.sample.getOrNull(columns.time).orEmpty()
+            val number = FieldReader(layout.decimalComma, TimeForm(TimeForm.Kind.PLAIN)).number(text)
+            return when {
+                !number.isNaN() -> numbers(name, number)
+                !IsoTime.seconds(text).isNaN() -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
+                columns.date != CsvColumns.NONE -> {
+                    val date = columns.names[columns.date]
+                    val found = DateDecision.of(content, layout, columns.date, date, choice.dateOrder)
+                    CsvTimes(
+                        TimeForm(TimeForm.Kind.OF_DAY, order = found.order),
+                        listOf("times from $date and $name") + listOf(found.why).filter { it.isNotEmpty() },
+                        "a time of day as 12:00:00 or 12:00:00 PM",
+                        dates(found.order),
+                    )
+                }
+                !DateText.ofDay(text).isNaN() -> CsvTimes(
+                    TimeForm(TimeForm.Kind.OF_ANY_DAY),
+                    listOf("times of day without a date"),
+                    "a time of day as 12:00:00 or 12:00:00 PM",
+                )
+                DateText.parts(text) != null -> {
+                    val found = DateDecision.of(content, layout, columns.time, name, choice.dateOrder)
+                    val form = TimeForm(TimeForm.Kind.DATE, order = found.order)
+                    CsvTimes(form, listOf(found.why).filter { it.isNotEmpty() }, dates(found.order) + " with the time")
+                }
+                else -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
+            }
+        }
+
+        private fun dates(order: DateOrder?) = "a date as " + (order ?: DateOrder.YEAR_FIRST).words
+
+        private fun numbers(name: String, first: Double): CsvTimes {
+            val unit = ColumnNames.unit(name)
+            val isDays = "date" in name.lowercase() && first in ExcelDays.RANGE
+            return when {
+                unit != null -> CsvTimes(
+                    TimeForm(TimeForm.Kind.NUMBER, unit),
+                    listOf("times in units of $unit s, by the column's name"),
+                    "a number",
+                )
+                isDays -> CsvTimes(
+                    TimeForm(TimeForm.Kind.NUMBER, ExcelDays.FACTOR, ExcelDays.ZERO),
+                    listOf("times as a spreadsheet's days"),
+                    "a number of days",
+                )
+                ColumnNames.statesSeconds(name) -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
+                else -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), listOf("times taken for seconds"), PLAIN)
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+package stillwater.io
+
+/**
+ * How a log writes its times, where they are neither seconds nor ISO 8601 alone.
+ *
+ * @property kind what the column with the time holds. @property factor seconds in one of its units, of
+ * [Kind.NUMBER]. @property zero seconds since 1970 where its numbers are 0, likewise. @property order of dates in
+ * numbers, or null where there are none.
+ */
+internal class TimeForm(
+    val kind: Kind,
+    val factor: Double = 1.0,
+    val zero: Double = 0.0,
+    val order: DateOrder? = null,
+) {
+    /** What a column with the time may hold. */
+    enum class Kind {
+        /** Seconds or ISO 8601. */
+        PLAIN,
+
+        /** Numbers in another unit than seconds, or from another zero. */
+        NUMBER,
+
+        /** Dates with times of day. */
+        DATE,
+
+        /** Times of day, with the date in another column. */
+        OF_DAY,
+
+        /** Times of day without a date; one that lies more than half a day back is of the next day. */
+        OF_ANY_DAY,
+    }
+
+    /** Reads the times of one pass through a log, in its order: times of day alone need those before them. */
+    inner class Clock {
+        private var days = 0.0
+        private var last = Double.NaN
+
+        /** Seconds of [text], of which [number] is the number or NaN; NaN where it is no time. */
+        fun seconds(text: String, number: Double): Double = when (kind) {
+            Kind.PLAIN -> if (number.isNaN()) IsoTime.seconds(text) else number
+            Kind.NUMBER -> number * factor + zero
+            Kind.DATE -> DateText.seconds(text, order)
+            Kind.OF_DAY -> DateText.ofDay(text)
+            Kind.OF_ANY_DAY -> ofAnyDay(DateText.ofDay(text))
+        }
+
+        /** Seconds since 1970 at the beginning of the day [text], of which [number] is the number or NaN. */
+        fun day(text: String, number: Double): Double {
+            if (number in ExcelDays.RANGE) return ExcelDays.seconds(kotlin.math.floor(number))
+            val parts = DateText.parts(text) ?: return Double.NaN
+            // Some programs write midnight after every date.
+            return if (parts.rest.isBlank() || DateText.ofDay(parts.rest) == 0.0) parts.day(order) else Double.NaN
+        }
+
+        private fun ofAnyDay(seconds: Double): Double {
+            if (seconds.isNaN()) return seconds
+            if (seconds < last - HALF_A_DAY) days += 2 * HALF_A_DAY
+            last = seconds
+            return days + seconds
+        }
+    }
+
+    private companion object {
+        const val HALF_A_DAY = 43_200.0
+    }
+}
+
+/** Days as spreadsheets count them, from 30 December 1899. */
+internal object ExcelDays {
+    private const val DAY_SECONDS = 86_400.0
+    private const val UNIX_ZERO = 25_569.0
+
+    /** Days from 1954 to 2118: what a number must be in to be taken for one. */
+    val RANGE = 20_000.0..80_000.0
+
+    /** Seconds in a day. */
+    const val FACTOR = DAY_SECONDS
+
+    /** Seconds since 1970 of day 0. */
+    const val ZERO = -UNIX_ZERO * DAY_SECONDS
+
+    /** Seconds since 1970 of [days]. */
+    fun seconds(days: Double): Double = days * FACTOR + ZERO
+}

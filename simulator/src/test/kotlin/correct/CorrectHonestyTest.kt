@@ -1,0 +1,75 @@
+package stillwater.correct
+
+import com.github.ajalt.clikt.core.subcommands
+import com.github.ajalt.clikt.testing.CliktCommandTestResult
+import com.github.ajalt.clikt.testing.test
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.io.TempDir
+import stillwater.cli.CorrectCommand
+import stillwater.cli.Stillwater
+import java.nio.file.Path
+import kotlin.io.path.writeText
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+
+/** What `correct` does not know, it says. */
+class CorrectHonestyTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private fun correct(text: String, vararg flags: String): CliktCommandTestResult {
+        val log = directory.resolve("log.csv").also { it.writeText(text) }
+        val out = directory.resolve("results").toString()
+        val arguments = listOf("correct", log.toString(), "--value", "slow", "--out", out) + flags
+        return Stillwater().subcommands(CorrectCommand()).test(arguments)
+    }
+
+    private fun water(x: Double, y: Double) = sin(x / 6) + 0.7 * sin(y / 7 + x / 15)
+
+    /** A boat that mows a pond of 60 m by 60 m at 1 m/s; a lag of 6 s; a reference in some rows. */
+    private fun pond(rows: Int, referenceEvery: Int) = buildString {
+        appendLine("time_s,x_m,y_m,slow,fast")
+        var shown = water(0.0, 0.0)
+        for (i in 0 until rows) {
+            val along = Math.floorMod(i, 120).let { if (it < 60) it.toDouble() else 120.0 - it }
+            val across = (i / 60 * 6 % 66).toDouble()
+            val (x, y) = along to across
+            shown += (1 - exp(-1.0 / 6)) * (water(x, y) - shown)
+            val fast = if (i % referenceEvery == 0) "%.4f".format(java.util.Locale.ROOT, water(x, y)) else ""
+            appendLine("$i,$x,$y,${"%.4f".format(java.util.Locale.ROOT, shown)},$fast")
+        }
+    }
+
+    @Test
+    fun thirtyRowsTeachNothing() {
+        val rows = (0 until 30).joinToString("") {
+            "$it,$it,0,${8 + 0.002 * it + 0.004 * (it * 7 % 5)},${8.05 + 0.002 * it + 0.004 * (it * 3 % 7)}\n"
+        }
+        val result = correct("time_s,x_m,y_m,slow,fast\n$rows", "--reference", "fast")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "sensor: not learned")
+        assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
+    }
+
+    @Test
+    fun aReferenceNowAndThenIsNotTakenForTheWaterBetween() {
+        val result = correct(pond(600, referenceEvery = 15), "--reference", "fast")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "it has a row every 15 s only")
+        assertContains(result.stderr, "learned from passes through the same water instead")
+        // Legs beside each other never cross.
+        assertContains(result.stdout, "not checked, for the track comes to no place a second time")
+    }
+
+    @Test
+    fun timesShorterThanRowsCanShowAreNone() {
+        val result = correct(pond(500, referenceEvery = 1), "--reference", "fast")
+        assertEquals(0, result.statusCode, result.output)
+        val sensor = result.stdout.lines().first { it.startsWith("sensor:") }
+        assertFalse(Regex("dead time in s 0\\.0").containsMatchIn(sensor), sensor)
+        assertContains(result.stdout, "log: log.csv (survey CSV)")
+    }
+}
