@@ -137,7 +137,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
                 it[at] += by * spread
                 it[at + 1] -= by * spread
             }
-            val begun = search.settled(model.terms, closer, without.fit.design.noise, without.variances, before = without)
+            val noise = without.fit.design.noise
+            val begun = search.settled(model.terms, closer, noise, without.variances, before = without)
             search.improved(search.improved(begun))
         }.maxBy { it.score }
     }

@@ -113,7 +113,8 @@ internal class HiddenSensor(
             slowState += -expm1(-h / slow) * (u - slowState)
             val both = (1 - strength(HiddenEffect.TWO_PATH)) * s + strength(HiddenEffect.TWO_PATH) * slowState +
                 resonance * ringing
-            // Exact for what comes in going evenly: held over half a step, it would be late by that however short the lag.
+            // Exact for what comes in going evenly: held over half a step it would be late by that, however short the
+            // lag is.
             val late = (both - lastBoth) / h * second
             s2 = both - late + if (second > 0) (s2 - lastBoth + late) * exp(-h / second) else 0.0
             lastBoth = both
