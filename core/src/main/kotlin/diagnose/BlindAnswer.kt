@@ -19,6 +19,7 @@ internal class BlindAnswer(
     private val n = series.size
     private val bounds = ArrayList<String>()
     private val rounding = CoarseRounding(series, search.used, search.scales.resolution)
+    private val isCoarse = rounding.isCoarse(rmse(last.residuals))
 
     /** The result. */
     fun of(
@@ -32,7 +33,7 @@ internal class BlindAnswer(
             Dependence(look.name, look.ratio, look.degrees, look.pValue, adjustedLooks[i])
         }.sortedBy { it.pValue }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
-        val isRounded = rounding.isCoarse && sets.none { Cause.QUANTISATION in it }
+        val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
         val all = sets + listOfNotNull(
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
@@ -137,11 +138,11 @@ internal class BlindAnswer(
         }
         last.model.terms.filter { it.cause == Cause.CROSS_SENSITIVITY && BlindDiagnosis.mayBeWaters(it) }.forEach {
             add(
-                "The ${it.condition} may go with the value in the water itself: water that changed between two passes " +
-                    "looks like a sensor that also shows it.",
+                "The ${it.condition} may go with the value in the water itself: water that changed between two " +
+                    "passes looks like a sensor that also shows it.",
             )
         }
-        if (rounding.isCoarse) {
+        if (isCoarse) {
             add("Rounding to steps of ${three(rounding.step)} is most of what the readings scatter from row to row.")
         }
         val off = outliers.rows.size

@@ -201,9 +201,7 @@ internal class BlindDiagnosis(
             val look = round.looks.indices.filter { round.adjustedLooks[it] < STRICTER * settings.structureLevel }
                 .map { round.looks[it] }.maxByOrNull { it.worth }
             // What no cause explains comes first where it is the stronger: a cause would be named for its shadow.
-            val isStronger = look != null && look.worth > best.worth + settings.separation &&
-                look.likelier > best.likelier + settings.separation
-            if (isStronger) break
+            if (look != null && look.worth > best.worth + settings.separation) break
             val state = added(round.state, best)
             chosen += BlindStep(best, round, state)
             if (chosen.size < settings.mostCauses) round = Round(state).also { ended = it }

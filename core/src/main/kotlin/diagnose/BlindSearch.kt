@@ -290,7 +290,8 @@ internal class BlindSearch(
         val last = designLast
         val isSame = designOf === columns && designHidden.contentEquals(hidden)
         if (last != null && isSame && last.noise === noise) return last
-        fun seen(column: DoubleArray) = if (hidden == null) column else DoubleArray(n) { if (hidden[it]) 0.0 else column[it] }
+        fun seen(column: DoubleArray) =
+            if (hidden == null) column else DoubleArray(n) { if (hidden[it]) 0.0 else column[it] }
         return BlindDesign(Array(columns.size) { seen(columns[it]) }, noise, loops).also {
             designLast = it
             designOf = columns

@@ -28,10 +28,14 @@ internal class CoarseRounding(series: MeasuredSeries, used: BooleanArray, val st
         }
     }
 
-    /** Whether rounding makes more of the scatter than all else together: then it shapes the residuals. */
-    val isCoarse: Boolean get() = share > HALF
+    /**
+     * Whether rounding shapes residuals of standard deviation [spread], sensor units: it makes more of the scatter than
+     * all else together, and is no small part of what slower errors add to that.
+     */
+    fun isCoarse(spread: Double): Boolean = share > HALF && step * step / 12 > LEAST * spread * spread
 
     private companion object {
         const val HALF = 0.5
+        const val LEAST = 0.1
     }
 }
