@@ -45,6 +45,7 @@ internal object RangeEnd {
         val term = model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return null
         val at = model.slot(term)
         val foretold = open(model, term, numbers)
-        return BooleanArray(foretold.size) { foretold[it] !in numbers[at]..numbers[at + 1] }
+        val shown = minOf(numbers[at], numbers[at + 1])..numbers[at + 1]
+        return BooleanArray(foretold.size) { foretold[it] !in shown }
     }
 }
