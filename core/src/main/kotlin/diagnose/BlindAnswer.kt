@@ -18,6 +18,8 @@ internal class BlindAnswer(
 ) {
     private val n = series.size
     private val bounds = ArrayList<String>()
+    private val rounding = CoarseRounding(series, search.used, search.scales.resolution)
+    private val isCoarse = rounding.isCoarse(rmse(last.residuals))
 
     /** The result. */
     fun of(
@@ -31,11 +33,16 @@ internal class BlindAnswer(
             Dependence(look.name, look.ratio, look.degrees, look.pValue, adjustedLooks[i])
         }.sortedBy { it.pValue }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
-        val all = sets + listOfNotNull(listOf(Cause.OUTLIERS).takeIf { isLoose })
+        val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
+        val all = sets + listOfNotNull(
+            listOf(Cause.OUTLIERS).takeIf { isLoose },
+            listOf(Cause.QUANTISATION).takeIf { isRounded },
+        )
         val verdict = verdict(all, left.first(), chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named, which the base stands for.
-        val sensor = ExtendedSensor(asFit(if (chosen.isEmpty()) base else last), outliers.size()?.takeIf { isLoose })
+        val shown = asFit(if (chosen.isEmpty()) base else last)
+        val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded)
         val extended = sensor.spec("extended").takeIf { isNamed }
         val tried = candidates(first)
         // Of what was only tried nobody need know that it ended at a bound.
@@ -128,6 +135,15 @@ internal class BlindAnswer(
         }
         if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${left.description}.")
+        }
+        last.model.terms.filter { it.cause == Cause.CROSS_SENSITIVITY && BlindDiagnosis.mayBeWaters(it) }.forEach {
+            add(
+                "The ${it.condition} may go with the value in the water itself: water that changed between two " +
+                    "passes looks like a sensor that also shows it.",
+            )
+        }
+        if (isCoarse) {
+            add("Rounding to steps of ${three(rounding.step)} is most of what the readings scatter from row to row.")
         }
         val off = outliers.rows.size
         if (off > 0) add("$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits.")

@@ -2,6 +2,7 @@ package stillwater.diagnose
 
 import stillwater.model.Conditions
 import kotlin.math.abs
+import kotlin.math.exp
 import kotlin.math.sqrt
 
 /**
@@ -62,7 +63,7 @@ internal class BlindDiagnosis(
         private val isBlurred = !state.isResolved
 
         /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
-        private val changing = state.score - still.score
+        val changing = state.score - still.score
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> =
@@ -110,7 +111,11 @@ internal class BlindDiagnosis(
         private fun settled(trial: BlindTrial): BlindTrial {
             val term = checkNotNull(trial.term)
             val without = if (term.cause in SLOW) still else state
-            val begun = if (isBlurred) begun(without, term, trial) else with(without, trial)
+            val begun = when {
+                term.cause == Cause.SATURATION -> tries.ended(term, trial, without)
+                isBlurred -> begun(without, term, trial)
+                else -> with(without, trial)
+            }
             val found = search.improved(search.requieted(if (isBlurred) search.improved(begun) else begun))
             val searched = if (term.times.isEmpty()) 0.0 else tries.searched(term.times.size)
             val first = tries.settled(trial, found, without.score, searched)
@@ -190,8 +195,9 @@ internal class BlindDiagnosis(
         val chosen = ArrayList<BlindStep>()
         var round = first
         while (chosen.size < settings.mostCauses) {
-            val significant = round.causes.indices.filter { round.adjustedCauses[it] < STRICTER * settings.level }
-            val best = significant.map { round.causes[it] }.maxByOrNull { it.likelier } ?: break
+            if (round.adjustedCauses.none { it < STRICTER * settings.level }) break
+            // That something is there is told by the surest cause, which it is by the likeliest.
+            val best = round.causes.filter { it.pValue < settings.level }.maxBy { it.likelier }
             val look = round.looks.indices.filter { round.adjustedLooks[it] < STRICTER * settings.structureLevel }
                 .map { round.looks[it] }.maxByOrNull { it.worth }
             // What no cause explains comes first where it is the stronger: a cause would be named for its shadow.
@@ -239,14 +245,30 @@ internal class BlindDiagnosis(
         val round = if (i == chosen.size - 1) step.round else Round(without(base, chosen, i))
         val taken = chosen.filter { it !== step }.map { it.trial.name }
         val own = round.causes.firstOrNull { it.name == step.trial.name } ?: step.trial
-        val others = round.causes.filter {
-            it.name != own.name && it.name !in taken && it.pValue < settings.level &&
-                own.likelier - it.likelier < settings.separation * own.inflation
-        }.sortedByDescending { it.likelier }.mapNotNull { it.term?.cause }
+        val rivals = round.causes.filter { it.name !in taken && it.pValue < settings.level }
+        // Others have water that changes beside them, where there is such water, and so are no answer in place of it.
+        val isBesideChange = own.term?.cause in SLOW && round.changing > settings.separation
+        val others = alike(own, rivals.filter { !isBesideChange || it.term?.cause in SLOW })
         val cause = checkNotNull(step.trial.term).cause
-        // Where nobody knows the water nothing tells a change of the sensor's offset from one of all the water.
-        val twin = if (cause in SLOW) listOf(Cause.TIME_VARYING_FIELD) else emptyList()
+        val twin = listOfNotNull(Cause.TIME_VARYING_FIELD.takeIf { mayBeWaters(checkNotNull(step.trial.term)) })
         (listOf(cause) + twin + others).distinct()
+    }
+
+    /**
+     * The causes among [rivals] that with [own] make the smallest set that holds the right one with the probability
+     * asked for, each as likely before, as where there is a reference: core/docs/Diagnosis.md, (6).
+     */
+    private fun alike(own: BlindTrial, rivals: List<BlindTrial>): List<Cause> {
+        val others = rivals.filter { it.name != own.name }.sortedByDescending { it.likelier }
+        val odds = others.map { exp(minOf((it.likelier - own.likelier) / (2 * own.inflation), 0.0)) }
+        val total = 1 + odds.sum()
+        var covered = 1.0
+        val set = ArrayList<Cause>()
+        others.forEachIndexed { i, rival ->
+            if (covered < settings.setProbability * total) set += checkNotNull(rival.term).cause
+            covered += odds[i]
+        }
+        return set
     }
 
     /** The model with all that was chosen but the [left]-th. */
@@ -266,6 +288,14 @@ internal class BlindDiagnosis(
     }
 
     companion object {
+        /**
+         * Whether what [term] shows may as well be the water's own where nobody knows the water: a change of the sensor's
+         * offset is like one of all the water, and what else is measured in the water may go with the value there, so
+         * that where the water changed between two passes both changed. Speed and heading are the boat's.
+         */
+        fun mayBeWaters(term: Term): Boolean = term.cause in SLOW ||
+            term.cause == Cause.CROSS_SENSITIVITY && term.condition !in setOf(Conditions.SPEED, Conditions.HEADING)
+
         /**
          * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:
          * levels are lower by as much.

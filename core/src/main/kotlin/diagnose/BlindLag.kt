@@ -49,24 +49,33 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
 
     /** The model with a dead time beside the lag, or with the lag alone where that is not worth it. */
     val both: BlindState by lazy {
-        val half = timeConstant.timeConstant / 2
-        var best = search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half))
+        // Of what both share the likelier kind alone has most of it; a lag alone may be far too long.
+        val half = (if (deadTime.score > timeConstant.score) delay else timeConstant.timeConstant) / 2
+        val best = climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
+        if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
+    }
+
+    private fun climbed(state: BlindState): BlindState {
+        var best = state
         repeat(MORE) {
             val next = search.improved(best)
-            if (next.score > best.score) best = next
+            val gain = next.score - best.score
+            if (gain > 0) best = next
+            if (!(gain > BlindSearch.ENOUGH)) return best
         }
-        if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
+        return best
     }
 
     /**
      * Whether neither a time constant nor a dead time alone will do: then what is at work beside a lag can be told.
-     * All have noise of their own.
+     * All have noise of their own. Either alone is within the model with both, where the t of gains is half that of the
+     * added number's own size.
      */
     val isNeitherAlone: Boolean by lazy {
         if (both === timeConstant) return@lazy false
         val better = search.improved(search.requieted(both))
         val worse = if (timeConstant.score > deadTime.score) timeConstant else deadTime
-        (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE
+        (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE / 2
     }
 
     /** The dead time, s. */
@@ -127,7 +136,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         const val SURE = 2.8
         const val STEPS = 6
         const val REFINEMENTS = 8
-        const val MORE = 2
+        const val MORE = 5
         val STARTS = listOf(0.5, 1.0)
     }
 }

@@ -27,18 +27,11 @@ internal class BlindOutliers(state: BlindState) {
     private fun sharp(): List<Int> {
         val values = series.values
         val inside = REACH until values.size - REACH
-        val off = DoubleArray(values.size) { if (it in inside) values[it] - parabola(values, it) else 0.0 }
+        val off = DoubleArray(values.size) { if (it in inside) values[it] - Neighbours.foretold(values, it) else 0.0 }
         return inside.filter { i ->
             val about = (maxOf(REACH, i - NEAR)..minOf(values.size - 1 - REACH, i + NEAR)).filter { it != i }
             abs(off[i]) > FAR * NORMAL * median(DoubleArray(about.size) { abs(off[about[it]]) })
         }
-    }
-
-    /** What a parabola through the three rows on either side says of row [i], even steps. */
-    private fun parabola(values: DoubleArray, i: Int): Double {
-        var sum = 0.0
-        for (k in 1..REACH) sum += WEIGHTS[k - 1] * (values[i - k] + values[i + k])
-        return sum
     }
 
     /** After a jump the next reading stays; after an outlier it comes back. */
@@ -65,13 +58,10 @@ internal class BlindOutliers(state: BlindState) {
         /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
         const val BEYOND = 1.5e-4
         const val WINDOW = 12
-        const val REACH = 3
+        const val REACH = Neighbours.REACH
         const val NEAR = 30
         const val FAR = 5.0
         const val NORMAL = 1.4826
-
-        /** Of the rows 1, 2 and 3 away in the intercept of a least-squares parabola without the middle row. */
-        val WEIGHTS = doubleArrayOf(3.0 / 7, 3.0 / 14, -1.0 / 7).toList()
 
         /** Seven median bends are 4.7 normal standard deviations. */
         const val ALONE = 7.0

@@ -236,13 +236,15 @@ internal class BlindSearch(
         modes: WaterModes,
         before: BlindFit?,
     ): BlindState {
-        val design = designed(terms, numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }, modes, noise)
-        var heights = before?.heights?.takeIf { it.size == design.size } ?: DoubleArray(design.size)
+        val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
+        val columns = shown(terms, own, modes)
+        var heights = before?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
-            variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / design.size }
+            variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / columns.size }
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
-        var fit = BlindFit(design, precisions(bands, modes), heights)
+        var hidden = RangeEnd.beyond(model, at)
+        var fit = BlindFit(designed(columns, hidden, noise), precisions(bands, modes), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
@@ -251,7 +253,8 @@ internal class BlindSearch(
             fit = fit.at(heights)
             if (round < rounds) {
                 bands = variances(fit, residuals(model, at), modes)
-                fit = BlindFit(design, precisions(bands, modes), heights)
+                hidden = RangeEnd.beyond(model, at)
+                fit = BlindFit(designed(columns, hidden, noise), precisions(bands, modes), heights)
             }
         }
         val residuals = residuals(model, at)
@@ -279,24 +282,26 @@ internal class BlindSearch(
     private var shownLast: Array<DoubleArray>? = null
     private var shownAs: Triple<List<Term>, List<Double>, WaterModes>? = null
 
-    /** The design of these, which is kept for the next that asks for the same. */
-    private fun designed(
-        terms: List<Term>,
-        numbers: DoubleArray,
-        modes: WaterModes,
-        noise: BlindNoise,
-    ): BlindDesign {
+    /**
+     * The design of [columns], which is kept for the next that asks for the same; rows that are [hidden] say nothing of
+     * the water.
+     */
+    private fun designed(columns: Array<DoubleArray>, hidden: BooleanArray?, noise: BlindNoise): BlindDesign {
         val last = designLast
-        val columns = shown(terms, numbers, modes)
-        if (last != null && designOf === columns && last.noise === noise) return last
-        return BlindDesign(columns, noise, loops).also {
+        val isSame = designOf === columns && designHidden.contentEquals(hidden)
+        if (last != null && isSame && last.noise === noise) return last
+        fun seen(column: DoubleArray) =
+            if (hidden == null) column else DoubleArray(n) { if (hidden[it]) 0.0 else column[it] }
+        return BlindDesign(Array(columns.size) { seen(columns[it]) }, noise, loops).also {
             designLast = it
             designOf = columns
+            designHidden = hidden
         }
     }
 
     private var designLast: BlindDesign? = null
     private var designOf: Array<DoubleArray>? = null
+    private var designHidden: BooleanArray? = null
 
     private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
         val whole = ResponseModel(series.withReference(modes.columns[0]), terms, held, scales)

@@ -124,6 +124,26 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     }
 
     /**
+     * The likeliest of what begins on top of [without] from the ends of [trial] and from ends closer by some of the
+     * noise: rows at an end say nothing of the water, which is to find its own way there.
+     */
+    fun ended(term: Term, trial: BlindTrial, without: BlindState): BlindState {
+        val model = checkNotNull(trial.model)
+        val numbers = checkNotNull(trial.point).numbers
+        val spread = sqrt(without.variance)
+        val at = model.slot(term)
+        return CLOSER.map { by ->
+            val closer = numbers.copyOf().also {
+                it[at] += by * spread
+                it[at + 1] -= by * spread
+            }
+            val noise = without.fit.design.noise
+            val begun = search.settled(model.terms, closer, noise, without.variances, before = without)
+            search.improved(search.improved(begun))
+        }.maxBy { it.score }
+    }
+
+    /**
      * [trial] with water and noise of its own, as [found] has them: what a cause does would otherwise be taken for
      * noise that wanders. The base's twice log-likelihood is then [score].
      */
@@ -140,7 +160,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(unlike, without), searched, unlike)
+        val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), searched, unlike)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance * inflation)
         val degrees = trial.degrees
@@ -195,7 +215,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, between(unlike, z), searched, unlike)
+        val p = pValue(what.term, ratio, degrees, between(what.term, unlike, z), searched, unlike)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
@@ -203,24 +223,40 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
      * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
      * Student's t, whatever the noise.
      */
-    private fun between(unlike: DoubleArray, z: DoubleArray): Double {
+    private fun between(term: Term?, unlike: DoubleArray, z: DoubleArray): Double {
         val scores = DoubleArray(STRETCHES)
         val weights = DoubleArray(STRETCHES)
+        val stretches = stretches(term, unlike)
         for (i in 0 until n) {
-            val stretch = (i.toLong() * STRETCHES / n).toInt()
-            scores[stretch] += unlike[i] * z[i]
-            weights[stretch] += unlike[i] * unlike[i]
+            scores[stretches[i]] += unlike[i] * z[i]
+            weights[stretches[i]] += unlike[i] * unlike[i]
         }
         val size = scores.sum() / maxOf(weights.sum(), 1e-300)
         val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
         return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
     }
 
+    /**
+     * To which stretch each row belongs: of as many rows each, or where [term] is an end of the range, which may be
+     * reached once in a log, of as much of the change [unlike] each.
+     */
+    private fun stretches(term: Term?, unlike: DoubleArray): IntArray {
+        if (term?.cause != Cause.SATURATION) return IntArray(n) { (it.toLong() * STRETCHES / n).toInt() }
+        val whole = maxOf(squares(unlike), 1e-300)
+        var before = 0.0
+        return IntArray(n) { i ->
+            val stretch = (STRETCHES * before / whole).toInt().coerceAtMost(STRETCHES - 1)
+            before += unlike[i] * unlike[i]
+            stretch
+        }
+    }
+
     /** Over how many stretches [unlike] is spread, where a single wrong reading could be taken for [term]. */
     private fun agreeing(term: Term?, unlike: DoubleArray): Int {
         if (term?.cause != Cause.SATURATION) return STRETCHES
         val weights = DoubleArray(STRETCHES)
-        for (i in 0 until n) weights[(i.toLong() * STRETCHES / n).toInt()] += unlike[i] * unlike[i]
+        val stretches = stretches(term, unlike)
+        for (i in 0 until n) weights[stretches[i]] += unlike[i] * unlike[i]
         return (weights.sum() * weights.sum() / maxOf(squares(weights), 1e-300)).toInt().coerceIn(2, STRETCHES)
     }
 
@@ -321,6 +357,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         /** Twice the gain in log-likelihood below which a cause is not fitted to the end: far below any level. */
         const val LEAST_GAIN = 2.0
         val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
+
+        /** Standard deviations of the noise. */
+        val CLOSER = doubleArrayOf(0.0, 2.0).toList()
         const val PLACES = 48
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 20.0

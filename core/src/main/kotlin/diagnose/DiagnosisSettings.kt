@@ -12,7 +12,7 @@ import stillwater.sensor.SensorSpec
  * @property structureLevel the same of calling structure unexplained.
  * @property separation causes whose likelihood ratios differ by less than this cannot be told apart, dimensionless.
  *   Without a reference.
- * @property setProbability with which an ambiguous set holds the cause, each as likely before; with a reference.
+ * @property setProbability with which an ambiguous set holds the cause, each as likely before.
  * @property mostCauses causes in a combination, at least 1.
  * @property noiseShare wandering slower than this part of the log is structure, not noise: 1 / part, above 1.
  * @property heldOutBelow p-value above which held-out blocks are not looked at.

@@ -6,8 +6,17 @@ import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sqrt
 
-/** A fitted model as a sensor that the simulator runs. */
-internal class ExtendedSensor(private val fit: ModelFit, private val spikes: SpikeSize?) {
+/**
+ * A fitted model as a sensor that the simulator runs.
+ *
+ * @param spikes single readings that are far off; null for none. @param isRounded whether readings are rounded although
+ *   the model says nothing of it.
+ */
+internal class ExtendedSensor(
+    private val fit: ModelFit,
+    private val spikes: SpikeSize?,
+    private val isRounded: Boolean = false,
+) {
     private val model = fit.model
     private val numbers = fit.numbers
     private val tau = maxOf(numbers[ResponseModel.TIME_CONSTANT], model.series.period / 50)
@@ -99,7 +108,8 @@ internal class ExtendedSensor(private val fit: ModelFit, private val spikes: Spi
         if (spread > 0) add(SensorStage.Noise(spread))
         spikes?.let { add(SensorStage.Outlying(it.probability, it.size)) }
         val resolution = model.scales.resolution
-        if (value(Cause.QUANTISATION) != null && resolution > 0) add(SensorStage.Quantum(resolution))
+        val isCoarse = isRounded || value(Cause.QUANTISATION) != null
+        if (isCoarse && resolution > 0) add(SensorStage.Quantum(resolution))
     }
 }
 

@@ -15,11 +15,7 @@ internal object RangeEnd {
         val model = fit.model
         val term = model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return false
         val at = model.slot(term)
-        val open = fit.numbers.copyOf().also {
-            it[at] = -2 * ResponseModel.NO_END
-            it[at + 1] = 2 * ResponseModel.NO_END
-        }
-        val foretold = DoubleArray(used.size).also { model.predict(open, it) }
+        val foretold = open(model, term, fit.numbers)
         var squares = 0.0
         var products = 0.0
         var scatter = 0.0
@@ -32,5 +28,24 @@ internal object RangeEnd {
             scatter += beyond * beyond * fit.residuals[i] * fit.residuals[i]
         }
         return products > PART * squares && products > DEVIATIONS * sqrt(scatter)
+    }
+
+    /** What [model] shows at [numbers] but for the ends of [term]. */
+    private fun open(model: ResponseModel, term: Term, numbers: DoubleArray): DoubleArray {
+        val at = model.slot(term)
+        val open = numbers.copyOf().also {
+            it[at] = -2 * ResponseModel.NO_END
+            it[at + 1] = 2 * ResponseModel.NO_END
+        }
+        return DoubleArray(model.series.size).also { model.predict(open, it) }
+    }
+
+    /** The rows in which [model] at [numbers] is beyond an end of its range, and shows the end; null where it has none. */
+    fun beyond(model: ResponseModel, numbers: DoubleArray): BooleanArray? {
+        val term = model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return null
+        val at = model.slot(term)
+        val foretold = open(model, term, numbers)
+        val shown = minOf(numbers[at], numbers[at + 1])..numbers[at + 1]
+        return BooleanArray(foretold.size) { foretold[it] !in shown }
     }
 }

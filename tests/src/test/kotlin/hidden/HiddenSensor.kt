@@ -113,7 +113,10 @@ internal class HiddenSensor(
             slowState += -expm1(-h / slow) * (u - slowState)
             val both = (1 - strength(HiddenEffect.TWO_PATH)) * s + strength(HiddenEffect.TWO_PATH) * slowState +
                 resonance * ringing
-            s2 = if (second > 0) s2 - expm1(-h / second) * ((both + lastBoth) / 2 - s2) else both
+            // Exact for what comes in going evenly: held over half a step it would be late by that, however short the
+            // lag is.
+            val late = (both - lastBoth) / h * second
+            s2 = both - late + if (second > 0) (s2 - lastBoth + late) * exp(-h / second) else 0.0
             lastBoth = both
             follower = if (HiddenEffect.SLEW in effects) {
                 val most = slewRate() * h

@@ -12,7 +12,7 @@ import kotlin.math.sqrt
  * What of an effect shows to one who knows how short the water's waves are but not the water, and where the boat was
  * but for the jitter of its fixes.
  *
- * The water is a sum of plane waves of all directions, of the lengths that the field is drawn from, of whose heights
+ * The water is a sum of plane waves of all directions, as short as the field's shortest and longer, of whose heights
  * nothing is known. Jitter of a fix moves the water that is believed to be at the probe; seen through the lag that is
  * noise with the lag's own correlation, of the variance (gradient · jitter)² period / (2 τ). Smoothing the fixes does
  * not help: it leaves what is slower than the lag as it is.
@@ -66,7 +66,11 @@ internal class UnseenWater(
         return sqrt(maxOf(z.sumOf { it * it } - half.sumOf { it * it }, 0.0))
     }
 
-    /** Waves on a lattice, of the lengths between half and twice [length], as the lag shows them. */
+    /**
+     * Waves on a lattice, as the lag shows them, half as long as [length] and longer: that there are no shorter ones
+     * shows in the readings, but that a long wave is not the water's, which a quantity that goes with place may have,
+     * nobody can know.
+     */
     private fun waves(): List<DoubleArray> {
         val at = IntArray(rows) { (it + 1) * world.per }
         val x = DoubleArray(rows) { world.track.x[at[it]] }
@@ -79,7 +83,7 @@ internal class UnseenWater(
             for (k in -(most * north).toInt()..(most * north).toInt()) {
                 val number = hypot(j / east, k / north)
                 val isHalf = j > 0 || k >= 0
-                if (!isHalf || number > most || number < 0.4 / length) continue
+                if (!isHalf || number > most || number == 0.0) continue
                 val phase = DoubleArray(rows) { 2 * PI * (j / east * x[it] + k / north * y[it]) }
                 found += lagged(DoubleArray(rows) { cos(phase[it]) })
                 found += lagged(DoubleArray(rows) { sin(phase[it]) })

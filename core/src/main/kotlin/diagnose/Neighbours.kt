@@ -1,0 +1,20 @@
+package stillwater.diagnose
+
+/** What the rows beside a row say of it: steps from row to row are taken as even. */
+internal object Neighbours {
+    /** Rows on either side that are asked. */
+    const val REACH = 3
+
+    /** Of the rows 1, 2 and 3 away in the intercept of a least-squares parabola without the middle row. */
+    private val WEIGHTS = doubleArrayOf(3.0 / 7, 3.0 / 14, -1.0 / 7)
+
+    /** Variance of a row less what is foretold of it, over that of white noise. */
+    val errorVariance: Double = 1 + 2 * squares(WEIGHTS)
+
+    /** What a parabola through the three rows on either side says of row [i] of [values]. */
+    fun foretold(values: DoubleArray, i: Int): Double {
+        var sum = 0.0
+        for (k in 1..REACH) sum += WEIGHTS[k - 1] * (values[i - k] + values[i + k])
+        return sum
+    }
+}
