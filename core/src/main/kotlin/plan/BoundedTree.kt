@@ -7,11 +7,12 @@ import kotlin.math.abs
 /**
  * The bounded planner's tree of paths and the queue of its open ends, in arrays that are used again for every plan.
  *
- * Most children are never polled, so that a child becomes a node only then. What waits in the queue is a family:
- * children of one node that are worth the same and came one after the other. All children that teach nothing are one;
- * it stays in the queue until its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The
- * queue polls the child with the highest priority, and of equal ones the one that came last, so that a tie is followed in
- * depth. No call allocates once the arrays have grown.
+ * Most children are never polled, so that a child becomes a node only then, and one move before the horizon only where
+ * its neighbours may be wide enough to end the best path. What waits in the queue is a family: children of one node that
+ * are worth the same and came one after the other. All children that teach nothing are one; it stays in the queue until
+ * its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The queue polls the child with
+ * the highest priority, and of equal ones the one that came last, so that a tie is followed in depth. No call allocates
+ * once the arrays have grown.
  *
  * @param settings of the planner.
  * @param order in which neighbours become children. Retained.

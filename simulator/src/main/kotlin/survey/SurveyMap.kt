@@ -120,20 +120,8 @@ class SurveyMap internal constructor(
 
         private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
             val look = FirstLook(settings)
-            val blocks = Channel<ReadingBlock>(BLOCKS_AHEAD)
-            val looking = launch { blocks.consumeEach(look::take) }
-            var block = ReadingBlock()
             var bytes = 0L
-            val first = log.read(settings, { progress(it.also { bytes = it }) }) { time, x, y, value, _ ->
-                block.add(time.seconds, x, y, value)
-                if (block.isFull) {
-                    blocks.trySendBlocking(block).getOrThrow()
-                    block = ReadingBlock()
-                }
-            }
-            blocks.send(block)
-            blocks.close()
-            looking.join()
+            val first = look(log, settings, look) { progress(it.also { bytes = it }) }
             if (first.readings < 2) throw tooFew(log, first)
             val statistics = look.scan.statistics()
             val track = look.scan.track()
@@ -182,6 +170,29 @@ class SurveyMap internal constructor(
                 estimators.values.firstNotNullOfOrNull(::learner),
                 interval.takeIf { FilterKind.INTERVAL in settings.filters },
             )
+        }
+
+        /** Reads [log] on this thread while [look] takes on another what was read before. */
+        private suspend fun look(
+            log: SurveyLog,
+            settings: MapSettings,
+            look: FirstLook,
+            progress: (Long) -> Unit,
+        ): LogPass = coroutineScope {
+            val blocks = Channel<ReadingBlock>(BLOCKS_AHEAD)
+            val looking = launch { blocks.consumeEach(look::take) }
+            var block = ReadingBlock()
+            val pass = log.read(settings, progress) { time, x, y, value, _ ->
+                block.add(time.seconds, x, y, value)
+                if (block.isFull) {
+                    blocks.trySendBlocking(block).getOrThrow()
+                    block = ReadingBlock()
+                }
+            }
+            blocks.send(block)
+            blocks.close()
+            looking.join()
+            pass
         }
 
         /** Hands what is to be mapped to [sink]: the readings, or what is given in their place. */
