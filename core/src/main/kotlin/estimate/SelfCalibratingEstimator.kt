@@ -121,7 +121,8 @@ public class SelfCalibratingEstimator(
             return
         }
         write(slots[cell])
-        if (choice.active.here != LagBank.NONE) write(choice.active.here)
+        val here = choice.active.here
+        if (here != LagBank.NONE && here != slots[cell]) write(here)
         if (choice.active.before != LagBank.NONE) write(choice.active.before)
         repeat(REFRESHED) {
             if (++refreshed >= visitedCount) {

@@ -115,21 +115,16 @@ public class BoundedPlanner(
         if (start == Grid.OUTSIDE) return PlanOutcome.OffMap
         val sensor = if (sensorValue.isFinite()) sensorValue else midpoint(map, start)
         tree.begin(map, start, sensor)
-        var lastPolled = ROOT
         var polls = 0
         var stopped = false
         while (polls < settings.expansions && !tree.exhausted) {
             stopped = stop.stop()
             if (stopped) break
-            val node = tree.poll()
-            if (tree.value(node) > 0) lastPolled = node
-            tree.expand(node)
+            tree.advance()
             polls++
         }
-        val isBest = settings.choice == PathChoice.BEST
-        val found = if (isBest) tree.hasBest else lastPolled != ROOT
-        if (!found) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
-        if (isBest) tree.writeBest(plan) else tree.write(lastPolled, plan)
+        if (!tree.hasChoice) return if (stopped) PlanOutcome.Stopped else PlanOutcome.NothingToGain
+        tree.write(plan)
         if (settings.execution == Execution.SINGLE_STEP) plan.truncate(1)
         return PlanOutcome.Planned
     }
@@ -137,7 +132,6 @@ public class BoundedPlanner(
     private fun midpoint(map: FieldMap, cell: Int) = map.lower(cell) / 2 + map.upper(cell) / 2
 
     private companion object {
-        const val ROOT = 0
         const val EDGES = 4
     }
 }

@@ -7,18 +7,19 @@ import kotlin.math.abs
 /**
  * The bounded planner's tree of paths and the queue of its open ends, in arrays that are used again for every plan.
  *
- * Most children are never polled, so that a child becomes a node only then. What waits in the queue is a family:
- * children of one node that are worth the same and came one after the other. All children that teach nothing are one;
- * it stays in the queue until its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The
- * queue polls the child with the highest priority, and of equal ones the one that came last, so that a tie is followed in
- * depth. No call allocates once the arrays have grown.
+ * Most children are never polled, so that a child becomes a node only then, and one move before the horizon only where
+ * its neighbours may be wide enough to end the best path. What waits in the queue is a family: children of one node that
+ * are worth the same and came one after the other. All children that teach nothing are one; it stays in the queue until
+ * its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The queue polls the child with
+ * the highest priority, and of equal ones the one that came last, so that a tie is followed in depth. No call allocates
+ * once the arrays have grown.
  *
  * @param settings of the planner.
  * @param order in which neighbours become children. Retained.
  */
 internal class BoundedTree(private val settings: BoundedPlannerSettings, private val order: NeighbourOrder) {
     private val perMove = settings.priority == Priority.VALUE_PER_MOVE
-    private val cells = ReachableCells()
+    private val cells = ReachableCells(order.ways)
 
     // Nodes.
     private var places = IntArray(FIRST_NODES)
@@ -49,11 +50,18 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private var bestParent = NONE
     private var bestPlace = 0
 
+    /** The node polled last of those whose path is worth something; the root where none is. */
+    private var lastPolled = ROOT
+
+    /** Depth of nodes whose children cannot be expanded; where the original's choice polls them too, none. */
+    private val lastBranching = if (settings.choice == PathChoice.BEST) settings.horizon - 1 else NONE
+
     /** Whether no child waits to be polled. */
     val exhausted: Boolean get() = queue.isEmpty
 
-    /** Whether any path is worth something. */
-    val hasBest: Boolean get() = bestParent != NONE
+    /** Whether there is a path to choose. */
+    val hasChoice: Boolean
+        get() = if (settings.choice == PathChoice.BEST) bestParent != NONE else lastPolled != ROOT
 
     /** Empties the tree, for a boat in the cell [start] of [map] whose sensor shows [sensor], finite or not. */
     fun begin(map: FieldMap, start: Int, sensor: Double) {
@@ -66,30 +74,42 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         families = 0
         bestValue = 0.0
         bestParent = NONE
-        sensors[0] = sensor
+        lastPolled = ROOT
+        sensors[ROOT] = sensor
         push(NONE, 1, 0.0, 0.0)
     }
 
-    /** Takes the child with the highest priority out of the queue and makes it a node, which it returns. */
-    fun poll(): Int {
+    /** Polls the child with the highest priority and adds its neighbours to its path, unless it is at the horizon. */
+    fun advance() {
         val family = queue.peek()
         val parent = origins[2 * family]
         val children = origins[2 * family + 1]
         val others = children ushr BITS
         if (others == 0) queue.poll() else origins[2 * family + 1] = others
+        val isRoot = parent == NONE
+        val place = if (isRoot) cells.start else places[parent] + cells.steps[(children and MASK) - 1]
+        val depth = if (isRoot) 0 else depths[parent] + 1
+        val value = worths[family]
+        if (depth == lastBranching) {
+            // Drawn in any case: the orders that follow depend on it.
+            val packed = order.drawn()
+            // Neither a visit nor a sensor makes a cell worth more than it is wide.
+            if (value + cells.widestBeside[place] > bestValue) finish(add(parent, place, depth, value), packed)
+            return
+        }
+        val node = add(parent, place, depth, value)
+        if (value > 0) lastPolled = node
+        if (depth < settings.horizon) branch(node, depth + 1)
+    }
+
+    private fun add(parent: Int, place: Int, depth: Int, value: Double): Int {
         val node = size++
         if (node == places.size) growNodes()
+        places[node] = place
         parents[node] = parent
-        values[node] = worths[family]
-        if (parent == NONE) {
-            places[node] = cells.start
-            depths[node] = 0
-        } else {
-            val place = places[parent] + cells.steps[(children and MASK) - 1]
-            places[node] = place
-            depths[node] = depths[parent] + 1
-            sensors[node] = towards(sensors[parent], cells.middles[place])
-        }
+        depths[node] = depth
+        values[node] = value
+        if (parent != NONE) sensors[node] = towards(sensors[parent], cells.middles[place])
         return node
     }
 
@@ -98,21 +118,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         sensor: Double,
         middle: Double,
     ): Double = sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
-
-    /** What the path to [node] is worth. */
-    fun value(node: Int): Double = values[node]
-
-    /** Adds the neighbours of [node] to its path, unless it is at the horizon. */
-    fun expand(node: Int) {
-        val depth = depths[node] + 1
-        if (depth > settings.horizon) return
-        // A child at the horizon can't be expanded; polling it matters only to the original's choice.
-        if (depth < settings.horizon || settings.choice == PathChoice.LAST_POLLED) {
-            branch(node, depth)
-        } else {
-            finish(node)
-        }
-    }
 
     /**
      * Makes the neighbours of [node] its children, of [depth]. The path is walked only where a neighbour that teaches
@@ -158,18 +163,16 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * Looks whether a neighbour of [node] ends the best path; at the horizon that is all it can do. Mostly none does
-     * even if none was visited before, which is looked at first: visits make no cell worth more.
+     * Looks whether a neighbour of [node], in the order [packed], ends the best path; at the horizon that is all it can
+     * do. Mostly none does even if none was visited before, which is looked at first: visits make no cell worth more.
      */
-    private fun finish(node: Int) {
+    private fun finish(node: Int, packed: Int) {
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
         val widths = cells.widths
         val middles = cells.middles
         val steps = cells.steps
-        // Drawn in any case: the orders that follow depend on it.
-        val packed = order.drawn()
         var any = false
         for (direction in 0 until order.ways) {
             val next = place + steps[direction]
@@ -227,11 +230,14 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         pathLength = length
     }
 
-    /** Writes the best path into [plan]. */
-    fun writeBest(plan: Plan) = write(bestParent, bestPlace, plan)
-
-    /** Writes the path that ends with [node], which is not the root, into [plan]. */
-    fun write(node: Int, plan: Plan) = write(parents[node], places[node], plan)
+    /** Writes the chosen path into [plan]. */
+    fun write(plan: Plan) {
+        if (settings.choice == PathChoice.BEST) {
+            write(bestParent, bestPlace, plan)
+        } else {
+            write(parents[lastPolled], places[lastPolled], plan)
+        }
+    }
 
     private fun write(parent: Int, place: Int, plan: Plan) {
         val length = depths[parent] + 1
@@ -265,6 +271,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     private companion object {
         const val NONE = -1
+        const val ROOT = 0
         const val FIRST_NODES = 256
         const val FIRST_FAMILIES = 1024
         const val BITS = NeighbourOrder.BITS

@@ -9,8 +9,10 @@ import stillwater.model.Grid
  *
  * Cells have numbers of their own here, [places]; neighbours lie at fixed distances from each other. The arrays are
  * used again for every plan. No call allocates once they have grown.
+ *
+ * @param ways neighbours of a cell: 4 that share an edge, or 8.
  */
-internal class ReachableCells {
+internal class ReachableCells(private val ways: Int) {
     /** The map's grid. */
     lateinit var grid: Grid
         private set
@@ -30,6 +32,10 @@ internal class ReachableCells {
 
     /** Midpoint of each place's bounds, sensor units. */
     var middles: DoubleArray = DoubleArray(0)
+        private set
+
+    /** The widest bounds beside each place that holds a cell, sensor units; less than 0 where there is no cell. */
+    var widestBeside: DoubleArray = DoubleArray(0)
         private set
 
     /** The place of the boat's own cell. */
@@ -55,6 +61,7 @@ internal class ReachableCells {
         if (widths.size < places) {
             widths = DoubleArray(places)
             middles = DoubleArray(places)
+            widestBeside = DoubleArray(places)
         }
         widths.fill(RIM, 0, places)
         for (r in 0 until rows) {
@@ -66,6 +73,19 @@ internal class ReachableCells {
         for (direction in steps.indices) {
             steps[direction] = NeighbourOrder.ROW_STEPS[direction] * stride + NeighbourOrder.COLUMN_STEPS[direction]
         }
+        for (r in 0 until rows) {
+            val first = (r + 1) * stride + 1
+            for (place in first until first + columns) widestBeside[place] = widestBeside(place)
+        }
+    }
+
+    private fun widestBeside(place: Int): Double {
+        var widest = RIM
+        for (direction in 0 until ways) {
+            val width = widths[place + steps[direction]]
+            if (width > widest) widest = width
+        }
+        return widest
     }
 
     private fun readCell(map: FieldMap, cell: Int, place: Int) {

@@ -1,49 +1,32 @@
 package stillwater.survey
 
 import stillwater.io.ReadingSink
-import stillwater.model.BoatTime
-import stillwater.model.Conditions
 
 /**
  * The readings of a log, without their conditions, to be gone through again: parsing a file takes longer than all the
  * filters do. Holds the first [MOST]; of a longer log it is of no use, see [holds].
  */
-internal class KeptReadings : ReadingSink {
-    private val blocks = ArrayList<DoubleArray>()
-    private var size = 0
+internal class KeptReadings {
+    private val blocks = ArrayList<ReadingBlock>()
+    private var size = 0L
 
-    override fun take(time: BoatTime, x: Double, y: Double, value: Double, conditions: Conditions) {
-        if (size == MOST) {
-            // Too long to be kept: what is here is let go.
-            blocks.clear()
-            return
-        }
-        val place = size % BLOCK * WIDTH
-        if (place == 0) blocks += DoubleArray(BLOCK * WIDTH)
-        val block = blocks.last()
-        block[place] = time.seconds
-        block[place + 1] = x
-        block[place + 2] = y
-        block[place + 3] = value
-        size++
+    /** Keeps [block], which is not added to any more. */
+    fun take(block: ReadingBlock) {
+        size += block.size
+        // Too long to be kept: what is here is let go.
+        if (size > MOST) blocks.clear() else blocks += block
     }
 
     /** Whether all of a log of [readings] is here. */
-    fun holds(readings: Long): Boolean = size.toLong() == readings
+    fun holds(readings: Long): Boolean = size == readings && size <= MOST
 
     /** Hands all readings to [sink]. */
     fun read(sink: ReadingSink) {
-        for (i in 0 until size) {
-            val block = blocks[i / BLOCK]
-            val at = i % BLOCK * WIDTH
-            sink.take(BoatTime(block[at]), block[at + 1], block[at + 2], block[at + 3], Conditions.NONE)
-        }
+        for (block in blocks) block.read(sink)
     }
 
     internal companion object {
         /** 64 MB. */
         const val MOST = 2_000_000
-        private const val WIDTH = 4
-        private const val BLOCK = 1 shl 13
     }
 }

@@ -2,7 +2,11 @@ package stillwater.survey
 
 import kotlinx.coroutines.Dispatchers
 import kotlinx.coroutines.async
+import kotlinx.coroutines.channels.Channel
+import kotlinx.coroutines.channels.consumeEach
+import kotlinx.coroutines.channels.trySendBlocking
 import kotlinx.coroutines.coroutineScope
+import kotlinx.coroutines.launch
 import kotlinx.coroutines.runBlocking
 import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedFilterSettings
@@ -101,9 +105,12 @@ class SurveyMap internal constructor(
     companion object {
         private const val PRIOR_MARGIN = 0.1
 
+        /** So many blocks of readings may wait for the first look. */
+        private const val BLOCKS_AHEAD = 4
+
         /**
          * Goes through [log] twice: once to see what it is, once into the filters. Read again is only what is too long
-         * to be kept; the legs are compared meanwhile, on the other cores.
+         * to be kept. What is read is looked at on another core, and so are the legs compared while the filters run.
          *
          * @param progress told how many bytes of the two readings are done.
          * @throws LogProblem if the log cannot be used.
@@ -112,22 +119,16 @@ class SurveyMap internal constructor(
             runBlocking(Dispatchers.Default) { read(log, settings, progress) }
 
         private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
-            val scan = SurveyScan()
-            val kept = KeptReadings()
-            val epsilon = EpsilonSearch(settings)
+            val look = FirstLook(settings)
             var bytes = 0L
-            val first = log.read(settings, { progress(it.also { bytes = it }) }) { time, x, y, value, conditions ->
-                scan.take(time, x, y, value, conditions)
-                kept.take(time, x, y, value, conditions)
-                epsilon.add(time.seconds, value)
-            }
+            val first = look(log, settings, look) { progress(it.also { bytes = it }) }
             if (first.readings < 2) throw tooFew(log, first)
-            val statistics = scan.statistics()
-            val track = scan.track()
+            val statistics = look.scan.statistics()
+            val track = look.scan.track()
             val legs = LegFinder(statistics).find(track)
             val mismatch = async { LegComparison(statistics, track).compare(legs) }
             val stepSlope = stepSlope(statistics, settings)
-            val calibration = epsilon.calibration(log)?.atLeast(stepSlope)
+            val calibration = look.epsilon.calibration(log)?.atLeast(stepSlope)
             val grid = GridChoice(statistics, track).grid(settings.grid)
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)
@@ -145,6 +146,7 @@ class SurveyMap internal constructor(
                 gaps.add(time.seconds, x, y)
                 if (value !in prior.lower..prior.upper) outsideRange++
             }
+            val kept = look.kept
             if (kept.holds(first.readings)) kept.read(takeIn) else log.read(settings, { progress(bytes + it) }, takeIn)
             progress(2 * bytes)
             passes.finish()
@@ -168,6 +170,29 @@ class SurveyMap internal constructor(
                 estimators.values.firstNotNullOfOrNull(::learner),
                 interval.takeIf { FilterKind.INTERVAL in settings.filters },
             )
+        }
+
+        /** Reads [log] on this thread while [look] takes on another what was read before. */
+        private suspend fun look(
+            log: SurveyLog,
+            settings: MapSettings,
+            look: FirstLook,
+            progress: (Long) -> Unit,
+        ): LogPass = coroutineScope {
+            val blocks = Channel<ReadingBlock>(BLOCKS_AHEAD)
+            val looking = launch { blocks.consumeEach(look::take) }
+            var block = ReadingBlock()
+            val pass = log.read(settings, progress) { time, x, y, value, _ ->
+                block.add(time.seconds, x, y, value)
+                if (block.isFull) {
+                    blocks.trySendBlocking(block).getOrThrow()
+                    block = ReadingBlock()
+                }
+            }
+            blocks.send(block)
+            blocks.close()
+            looking.join()
+            pass
         }
 
         /** Hands what is to be mapped to [sink]: the readings, or what is given in their place. */
@@ -221,36 +246,6 @@ class SurveyMap internal constructor(
 class GivenCorrection(val sensor: String, private val values: DoubleArray) {
     /** The water at reading [row]. */
     internal fun at(row: Int): Double = values[row]
-}
-
-/** Finds epsilon on the first reading of a log where [settings] ask for it. */
-private class EpsilonSearch(private val settings: MapSettings) {
-    private val isNeeded = settings.epsilon == null && FilterKind.BOUNDED in settings.filters
-    private val quietest = QuietestStretch(settings.boundedFilter.medianWindow, settings.boundedFilter.slopeWindow)
-    private val chosen = EpsilonCalibration(settings.boundedFilter.medianWindow, settings.boundedFilter.slopeWindow)
-    private var start = Double.NaN
-
-    fun add(seconds: Double, value: Double) {
-        if (!isNeeded) return
-        if (start.isNaN()) start = seconds
-        val stretch = settings.calibrate
-        if (stretch == null) {
-            quietest.add(seconds, value)
-        } else if (seconds - start in stretch.from..stretch.to) {
-            chosen.add(seconds, value)
-        }
-    }
-
-    fun calibration(log: SurveyLog): Calibration? {
-        val stretch = settings.calibrate
-        if (!isNeeded || stretch == null) return if (isNeeded) quietest.calibration() else null
-        if (chosen.slopes == 0) {
-            val fewest = settings.boundedFilter.medianWindow + settings.boundedFilter.slopeWindow - 1
-            val expected = "--calibrate with at least $fewest readings"
-            throw LogProblem(log.file, null, null, expected, "fewer within ${stretch.from}:${stretch.to} s")
-        }
-        return Calibration(chosen.epsilon(), stretch, chosen.slopes)
-    }
 }
 
 /** The estimator that learns of the sensor, in [estimator] or itself. */
