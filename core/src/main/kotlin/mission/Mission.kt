@@ -88,6 +88,7 @@ public class Mission(
     private var armedAt = Double.NEGATIVE_INFINITY
     private var stopWanted = false
     private var logLost = false
+    private var loggedVersion = 0
 
     /** What the mission is about. */
     public var state: MissionState = MissionState.Idle
@@ -132,8 +133,11 @@ public class Mission(
     /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
     public val probeSilence: Double get() = probe.silence(now)
 
-    /** Waypoints given up because the boat came no nearer for a minute; after three on end the mission is over. */
+    /** Waypoints given up because the boat came no nearer for a minute. */
     public val givenUp: Long get() = navigator.givenUp
+
+    /** Cells that the boat did not get into, and that it went round; those that it came to later are not among them. Allocates. */
+    public val givenUpCells: List<Int> get() = navigator.givenUpCells
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -195,8 +199,15 @@ public class Mission(
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)
         command(before)
-        log.step(StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut))
+        log.step(record(time))
         return state
+    }
+
+    private fun record(time: BoatTime): StepRecord {
+        val isNew = navigator.givenUpVersion != loggedVersion
+        loggedVersion = navigator.givenUpVersion
+        val cells = if (isNew) navigator.givenUpCells else null
+        return StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut, cells)
     }
 
     private fun begin(time: BoatTime): Double {
@@ -204,6 +215,7 @@ public class Mission(
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
+            navigator.resume(it.givenUp, time.seconds)
         }
         return 0.0
     }
@@ -218,6 +230,7 @@ public class Mission(
         situation.logLost = logLost
         situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
+        situation.stranded = navigator.isStranded
         return gate.assess(situation)
     }
 
@@ -225,7 +238,7 @@ public class Mission(
     private fun wanted(ruling: Ruling): Drive {
         when (state) {
             MissionState.Surveying -> navigator.survey(now.seconds, survey.map, survey.lastValue)
-            is MissionState.Returning -> navigator.goHome(now.seconds)
+            is MissionState.Returning -> navigator.goHome(now.seconds, isDriven = drive != Drive.NONE)
             is MissionState.Holding ->
                 if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.HOLD) navigator.hold() else navigator.rest()
             else -> navigator.rest()
