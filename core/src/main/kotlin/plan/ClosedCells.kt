@@ -4,7 +4,6 @@ import stillwater.model.Grid
 import stillwater.model.Position
 import stillwater.model.WaterArea
 import kotlin.math.ceil
-import kotlin.math.floor
 import kotlin.math.hypot
 
 /** What ways lead round. */
@@ -16,9 +15,10 @@ internal fun interface Obstacle {
 /**
  * Where a boat did not get in, as for a reef that no chart has: cells that ways and plans leave out for a while.
  *
- * They are the map's cells and as large ones about it, as far as the water goes: what is in the way may lie off the map. A
- * closed cell opens again [WAIT] s after it was closed, and after twice as long each further time: what kept the boat out
- * may have been a current. Confined to one thread; no call allocates but [mapCells].
+ * They are the map's cells and as large ones about it, as far as the water goes: what is in the way may lie off the map.
+ * So they have numbers of their own, which [at] gives. A
+ * closed cell opens again [WAIT] s after it was closed: what kept the boat out may have been a current. Where it did not get
+ * in again, all wait for twice as long each further time; where it did, all are open. Confined to one thread; no call allocates but [mapCells].
  *
  * @property map the map's cells.
  * @param water which the cells cover, if they are at most [WaterRoutes.MAX_POINTS] and the map is not turned; else they are
@@ -71,15 +71,26 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
         times[cell]++
         until[cell] = now + WAIT * (1L shl minOf(times[cell] - 1, MOST_DOUBLINGS))
         version++
+        if (times[cell] > 1) closeOthers(until[cell])
+    }
+
+    /** A cell was tried again, and in vain: most likely what is in the way of the others has not gone either. */
+    private fun closeOthers(time: Double) {
+        for (cell in until.indices) {
+            if (times[cell] == 0) continue
+            if (!isClosed(cell)) count++
+            until[cell] = maxOf(until[cell], time)
+        }
     }
 
     /** The boat is in the midst of [cell], which may be [Grid.OUTSIDE]. */
     fun reached(cell: Int) {
         if (cell == Grid.OUTSIDE || times[cell] == 0) return
-        open(cell)
         times[cell] = 0
         knowns--
         version++
+        // What was in the way has gone, or others were taken for what was beside them.
+        for (other in until.indices) open(other)
     }
 
     /** Opens what has been closed for long enough, [now] in s. */
@@ -166,8 +177,8 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
             if (map.rotation != 0.0) return null
             val left = maxOf(0.0, ceil((map.origin.x - water.west) / map.cellWidth))
             val down = maxOf(0.0, ceil((map.origin.y - water.south) / map.cellHeight))
-            val right = floor((water.east - map.origin.x) / map.cellWidth) + 1
-            val up = floor((water.north - map.origin.y) / map.cellHeight) + 1
+            val right = ceil((water.east - map.origin.x) / map.cellWidth)
+            val up = ceil((water.north - map.origin.y) / map.cellHeight)
             val columns = left + maxOf(right, map.columns.toDouble())
             val rows = down + maxOf(up, map.rows.toDouble())
             if (!(columns * rows <= WaterRoutes.MAX_POINTS)) return null
