@@ -13,6 +13,7 @@ import stillwater.model.WaterArea
 import stillwater.plan.BudgetedPlanner
 import stillwater.plan.ClosedCells
 import stillwater.plan.DetourPlanner
+import stillwater.plan.Pace
 import stillwater.plan.PlanOutcome
 import stillwater.plan.StopCondition
 import stillwater.plan.TravelCost
@@ -69,6 +70,7 @@ internal class Navigator(
         wayHome = ways,
         home = home,
         reserve = spec.budget.reserve,
+        pace = if (spec.budget.metres != null) Pace.STILL else DriftPace(track, spec.boat.cruise),
     )
     private val plan = Plan()
     private var next = 0

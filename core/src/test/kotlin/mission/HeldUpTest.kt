@@ -75,6 +75,24 @@ class HeldUpTest {
         assertTrue(desk.boat.board.actuation.isAtRest)
     }
 
+    /** Away from home it takes a fifth of the time that it takes back. */
+    @Test
+    fun theBudgetBringsABoatHomeAgainstTheCurrent() {
+        for ((seed, planner) in listOf(495 to PlannerName.LAWNMOWER, 496 to PlannerName.BOUNDED_EXTENDED)) {
+            val desk = Desk(spec().copy(planner = planner, budget = BudgetSpec(seconds = 400.0)), seed)
+            desk.meanwhile = {
+                desk.boat.dynamics.currentX = 0.35
+                desk.boat.dynamics.currentY = 0.5
+            }
+            desk.until(3.0) { false }
+            desk.mission.start()
+            assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "$planner: ${desk.mission.state}")
+            assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state)
+            assertTrue(desk.mission.used < 400, "$planner: used ${desk.mission.used} s of 400")
+            assertTrue(desk.distanceHome() < 7.0, "$planner: ${desk.distanceHome()} m from home")
+        }
+    }
+
     /** Three deviations of the place, some 2 m, are kept from the shore, and home counts as reached within 0.5 m. */
     @Test
     fun aHomeInACornerOfTheShoreIsComeTo() {
