@@ -8,8 +8,8 @@ import kotlin.math.sqrt
 /**
  * How much longer a leg takes in the drift that [track] believes in, for a boat of [cruise] m/s through the water.
  *
- * Over ground v = c∥ + √(u² − c⊥²), c the drift and u the cruise speed. A drift in the boat's favour may have turned by then
- * and is not reckoned with, nor is one below [LEAST].
+ * Over ground v = c∥ + √(u² − c⊥²), c the drift and u the cruise speed. A drift in the boat's favour may have turned by
+ * then and is not reckoned with, nor is one below [LEAST].
  */
 internal class DriftPace(private val track: TrackEstimator, private val cruise: Double) : Pace {
     override fun of(east: Double, north: Double): Double {

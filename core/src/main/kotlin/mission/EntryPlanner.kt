@@ -15,9 +15,9 @@ import kotlin.math.hypot
 /**
  * Leads a boat that is off the map, or off the water, to the map; else another planner plans.
  *
- * From the water to the nearest cell's centre that a clear line leads to, else round the land and round [closed] cells by
- * [ways]; where they do not lead there either, nowhere. Off the water any nearest cell will do, because the safety gate
- * leads the boat to the water first.
+ * From the water to the nearest cell's centre that a clear line leads to, else round the land and round [closed] cells
+ * by [ways]; where they do not lead there either, nowhere. Off the water any nearest cell will do, because the safety
+ * gate leads the boat to the water first.
  */
 internal class EntryPlanner(
     private val planner: Planner,

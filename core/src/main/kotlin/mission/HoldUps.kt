@@ -5,9 +5,9 @@ import stillwater.model.Position
 import stillwater.plan.ClosedCells
 
 /**
- * What becomes of waypoints that a boat does not come to: the cell ahead of it is closed, so that plans and ways lead round
- * it. After [MOST_ON_END] of them on end it has to show whether the boat, too, is held: it goes back to where it was, and
- * where it does not come there either, or was nowhere else, it [isHeld]. Confined to one thread.
+ * What becomes of waypoints that a boat does not come to: the cell ahead of it is closed, so that plans and ways lead
+ * round it. After [MOST_ON_END] of them on end it has to show whether the boat, too, is held: it goes back to where it
+ * was, and where it does not come there either, or was nowhere else, it [isHeld]. Confined to one thread.
  *
  * @param closed cells. Retained.
  * @param apart places farther apart than this are not the same, m.
@@ -45,7 +45,9 @@ internal class HoldUps(private val closed: ClosedCells, private val apart: Doubl
         }
     }
 
-    /** The boat at [here] does not come to [goal], [now] in s. Answers where to go now; null for what the planner says. */
+    /**
+     * The boat at [here] does not come to [goal], [now] in s. Answers where to go now; null for what the planner says.
+     */
     fun giveUp(now: Double, here: Position, goal: Position): Position? {
         count++
         if (heldAt == null) heldAt = here

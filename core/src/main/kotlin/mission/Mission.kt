@@ -23,8 +23,8 @@ import stillwater.wire.Message
  * A boat's whole way of working, one [step] after the other: it calls, and computes nothing itself.
  *
  * Link, framer, codec ([BoardPort]); where the boat was when a sample was taken ([PoseHistory]); is it plausible
- * ([PlausibilityGate]); estimator, map; planner, when the last waypoint was reached; follower; safety gate, which has the
- * last word in every state; encoder, link; and one [MissionLog] record a step.
+ * ([PlausibilityGate]); estimator, map; planner, when the last waypoint was reached; follower; safety gate, which has
+ * the last word in every state; encoder, link; and one [MissionLog] record a step.
  *
  * The phone hands in its fixes and compass as they come and calls [step] at about 10 Hz, all on one thread: a step
  * farther than half a second from the one before makes the board's watchdog rest the motors. No step throws on data.
@@ -112,8 +112,8 @@ public class Mission(
     public val sensor: SensorBelief? get() = sensorBelief(survey.estimator)
 
     /**
-     * Of the readings that the map took, those so near to a cell's border, or right behind one, that they told of the probe
-     * but of no cell; 0 where the estimator takes all places at their word.
+     * Of the readings that the map took, those so near to a cell's border, or right behind one, that they told of the
+     * probe but of no cell; 0 where the estimator takes all places at their word.
      */
     public val unplaced: Long get() = unplacedReadings(survey.estimator)
 
@@ -136,7 +136,10 @@ public class Mission(
     /** Waypoints given up because the boat came no nearer for a minute. */
     public val givenUp: Long get() = navigator.givenUp
 
-    /** Cells that the boat did not get into, and that it went round; those that it came to later are not among them. Allocates. */
+    /**
+     * Cells that the boat did not get into, and that it went round; those that it came to later are not among them.
+     * Allocates.
+     */
     public val givenUpCells: List<Int> get() = navigator.givenUpCells
 
     /** Fixes refused. */
@@ -275,7 +278,8 @@ public class Mission(
 
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
-     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every question.
+     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every
+     * question.
      */
     private fun leaveDisarmed() {
         if (port.state != BoardState.STANDBY || port.askState(now)) port.order(Command.Disarm)
@@ -303,8 +307,8 @@ public class Mission(
     }
 
     /**
-     * Rest was said, or the board is only being armed; what is said on to a board that is not heard can only be spoilt on
-     * the way and become a drive.
+     * Rest was said, or the board is only being armed; what is said on to a board that is not heard can only be spoilt
+     * on the way and become a drive.
      */
     private fun isDeaf(): Boolean {
         val isAtRest = state == MissionState.Arming || state == MissionState.Holding(Danger.LINK_LOST)

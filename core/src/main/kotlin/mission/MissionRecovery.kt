@@ -176,7 +176,9 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         val spent = (json["used"] as? JsonPrimitive)?.doubleOrNull ?: return false
         lastTime = maxOf(lastTime, time)
         used = spent
-        (json["given_up"] as? JsonArray)?.let { givenUp = it.mapNotNull { cell -> (cell as? JsonPrimitive)?.intOrNull } }
+        (json["given_up"] as? JsonArray)?.let { cells ->
+            givenUp = cells.mapNotNull { (it as? JsonPrimitive)?.intOrNull }
+        }
         lastState = (json["state"] as? JsonPrimitive)?.contentOrNull ?: return false
         return pose == null || listener == null || at(pose, listener)
     }

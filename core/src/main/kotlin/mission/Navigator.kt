@@ -38,10 +38,10 @@ internal class BudgetUse(private val budget: BudgetSpec) {
 }
 
 /**
- * Where to steer: along the plan, home, or back to where the boat holds. Plans when the last waypoint was reached or was
- * given up, which it is where the boat has come no nearer for [PATIENCE] s: on weeds, against a current, or where the
- * safety gate lets it come no nearer; [HoldUps] says what then. A way home on which the boat is held up [MOST_WAYS_HOME]
- * times is none. Confined to one thread.
+ * Where to steer: along the plan, home, or back to where the boat holds. Plans when the last waypoint was reached or
+ * was given up, which it is where the boat has come no nearer for [PATIENCE] s: on weeds, against a current, or where
+ * the safety gate lets it come no nearer; [HoldUps] says what then. A way home on which the boat is held up
+ * [MOST_WAYS_HOME] times is none. Confined to one thread.
  */
 internal class Navigator(
     private val spec: MissionSpec,
@@ -116,7 +116,9 @@ internal class Navigator(
     /** Whether the boat came home on purpose. */
     val isHome: Boolean get() = aim == Aim.HOME && knowsWay && next >= plan.size && (follower.arrived || isNearHome)
 
-    /** Whether the boat is about home and comes no nearer, as where home lies nearer to the shore than the gate lets it. */
+    /**
+     * Whether the boat is about home and comes no nearer, as where home lies nearer to the shore than the gate lets it.
+     */
     private var isNearHome = false
 
     /** The waypoints ahead, the one steered for first. */
@@ -125,7 +127,9 @@ internal class Navigator(
     /** Goes on [now], s, after a restart before which the boat did not get into [cells]. */
     fun resume(cells: List<Int>, now: Double) {
         val map = closed.map
-        for (cell in cells) if (cell in 0 until map.size) closed.close(closed.at(map.centerX(cell), map.centerY(cell)), now)
+        for (cell in cells) {
+            if (cell in 0 until map.size) closed.close(closed.at(map.centerX(cell), map.centerY(cell)), now)
+        }
     }
 
     /** Forgets the way: the boat does not steer. */
@@ -295,7 +299,10 @@ internal class Navigator(
         next++
     }
 
-    /** A link that is cut again and again, or a fence that the boat is turned back from, makes no new waypoint of an old. */
+    /**
+     * A link that is cut again and again, or a fence that the boat is turned back from, makes no new waypoint of an
+     * old.
+     */
     private fun watch(goal: Position) {
         if (aim == Aim.SURVEY && goal == this.goal) {
             progress.resume(hypot(track.x - goal.x, track.y - goal.y))
@@ -311,7 +318,10 @@ internal class Navigator(
         /** Time a waypoint costs beyond its distance, s: slowing down and turning. */
         const val TURN_TIME = 5.0
 
-        /** The follower lets a waypoint count as passed within three arrival radii; deviations of the place that may lack. */
+        /**
+         * The follower lets a waypoint count as passed within three arrival radii; deviations of the place that may
+         * lack.
+         */
         const val HOLDING = 3.0
 
         /** A waypoint to which the boat has come no nearer for so long is given up, s. */

@@ -15,14 +15,14 @@ internal fun interface Obstacle {
 /**
  * Where a boat did not get in, as for a reef that no chart has: cells that ways and plans leave out for a while.
  *
- * They are the map's cells and as large ones about it, as far as the water goes: what is in the way may lie off the map.
- * So they have numbers of their own, which [at] gives. A
- * closed cell opens again [WAIT] s after it was closed: what kept the boat out may have been a current. Where it did not get
- * in again, all wait for twice as long each further time; where it did, all are open. Confined to one thread; no call allocates but [mapCells].
+ * They are the map's cells and as large ones about it, as far as the water goes: what is in the way may lie off the
+ * map. So they have numbers of their own, which [at] gives. A closed cell opens again [WAIT] s after it was closed:
+ * what kept the boat out may have been a current. Where it did not get in again, all wait for twice as long each
+ * further time; where it did, all are open. Confined to one thread; no call allocates but [mapCells].
  *
  * @property map the map's cells.
- * @param water which the cells cover, if they are at most [WaterRoutes.MAX_POINTS] and the map is not turned; else they are
- *   the map's.
+ * @param water which the cells cover, if they are at most [WaterRoutes.MAX_POINTS] and the map is not turned; else they
+ *   are the map's.
  * @param berth that ways give closed cells, m; a fifth of a cell at most.
  */
 internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Double = 0.0) : Obstacle {
@@ -141,7 +141,9 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
         return false
     }
 
-    /** The first cell on the straight leg, m, but the one that it begins in; that one where the leg does not leave it. */
+    /**
+     * The first cell on the straight leg, m, but the one that it begins in; that one where the leg does not leave it.
+     */
     fun ahead(fromX: Double, fromY: Double, toX: Double, toY: Double): Int {
         val own = at(fromX, fromY)
         val samples = samples(fromX, fromY, toX, toY)

@@ -9,11 +9,12 @@ import kotlin.math.hypot
 /**
  * Lets any planner go round cells that the boat did not get into.
  *
- * As long as none is closed the planner plans alone. Else it sees a map in which closed cells, and those that they cut off,
- * have nothing to be learned; its waypoints in them are left out, and where the straight leg to another would lead through
- * a closed cell, the shortest way through the water takes its place. Where nothing of a plan is left the planner is asked
- * again from where that ended, as if the boat had gone there, [MOST_ASKED] times; then the nearest of the cells that were
- * visited least is gone to. Where nothing is left to be gained, cells that were closed only once are tried once more.
+ * As long as none is closed the planner plans alone. Else it sees a map in which closed cells, and those that they cut
+ * off, have nothing to be learned; its waypoints in them are left out, and where the straight leg to another would lead
+ * through a closed cell, the shortest way through the water takes its place. Where nothing of a plan is left the
+ * planner is asked again from where that ended, as if the boat had gone there, [MOST_ASKED] times; then the nearest of
+ * the cells that were visited least is gone to. Where nothing is left to be gained, cells that were closed only once
+ * are tried once more.
  *
  * Confined to one thread.
  *
@@ -122,8 +123,10 @@ internal class DetourPlanner(
         var best = NONE
         var least = Double.POSITIVE_INFINITY
         for (point in 0 until routes.points) {
-            val off = hypot(routes.x(point) - x, routes.y(point) - y)
-            if (off < least && routes.distance(point).isFinite() && ways.isFree(routes.x(point), routes.y(point), x, y)) {
+            val atX = routes.x(point)
+            val atY = routes.y(point)
+            val off = hypot(atX - x, atY - y)
+            if (off < least && routes.distance(point).isFinite() && ways.isFree(atX, atY, x, y)) {
                 least = off
                 best = point
             }

@@ -112,7 +112,7 @@ class ReefTest {
         val first = desk(spec(PlannerName.LAWNMOWER, 1800.0), 714) { reef }
         assertTrue(
             first.until(1500.0) { first.mission.givenUpCells.size >= 3 },
-            "${first.mission.givenUpCells} of ${first.mission.givenUp} at ${first.boat.time.seconds}, ${first.mission.state}",
+            "${first.mission.givenUpCells} of ${first.mission.givenUp}, ${first.mission.state}",
         )
         val found = first.replayed()
         assertEquals(first.mission.givenUpCells, found.givenUp)

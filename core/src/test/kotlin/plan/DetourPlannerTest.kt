@@ -22,7 +22,8 @@ class DetourPlannerTest {
     )
     private val home = grid.center(0)
 
-    private fun closed(cells: Collection<Int>) = ClosedCells(grid, water, 0.5).apply { cells.forEach { close(number(it), 0.0) } }
+    private fun closed(cells: Collection<Int>) =
+        ClosedCells(grid, water, 0.5).apply { cells.forEach { close(number(it), 0.0) } }
 
     private fun ClosedCells.number(cell: Int) = at(grid.centerX(cell), grid.centerY(cell))
 

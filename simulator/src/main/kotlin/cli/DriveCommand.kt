@@ -164,8 +164,8 @@ class DriveCommand : WorkCommand("drive") {
         val then = if (mixing == Mixing.VECTORED) {
             "add --vectored"
         } else {
-            "leave --vectored and boat.mixing out if the boat has two fixed thrusters; if it has one that swivels, the " +
-                "log is of an older version, which did not note it, and cannot be gone on with: take another --out"
+            "leave --vectored and boat.mixing out if the boat has two fixed thrusters; if it has one that swivels, " +
+                "the log is of an older version, which did not note it, and cannot be gone on with: take another --out"
         }
         return "it with boat.mixing ${mixing.name.lowercase()}; $then"
     }

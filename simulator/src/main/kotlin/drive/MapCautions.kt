@@ -51,7 +51,9 @@ internal object MapCautions {
         val cells = mission.givenUpCells
         if (cells.isEmpty()) return null
         val grid = mission.map.grid
-        val places = cells.take(MOST_NAMED).joinToString { "(${THREE.format(grid.centerX(it))}, ${THREE.format(grid.centerY(it))})" }
+        val places = cells.take(MOST_NAMED).joinToString {
+            "(${THREE.format(grid.centerX(it))}, ${THREE.format(grid.centerY(it))})"
+        }
         val more = if (cells.size > MOST_NAMED) " and ${cells.size - MOST_NAMED} more" else ""
         return "${counted(cells.size, "cell")} given up, because the boat came no nearer: $places m$more"
     }

@@ -11,7 +11,8 @@ internal object Waiting {
     /** One phrase each, of [mission] at [time]; none once it is armed. */
     fun of(mission: Mission, time: BoatTime): List<String> = when (val state = mission.state) {
         MissionState.Idle -> listOfNotNull(link(mission, time), "no fix yet".takeIf { mission.position == null })
-        is MissionState.Preflight -> listOfNotNull(link(mission, time), place(mission, state.missing), rest(state.missing))
+        is MissionState.Preflight ->
+            listOfNotNull(link(mission, time), place(mission, state.missing), other(state.missing))
         MissionState.Arming -> listOfNotNull(link(mission, time), board(mission.board.state))
         else -> emptyList()
     }
@@ -35,7 +36,7 @@ internal object Waiting {
         else -> null
     }
 
-    private fun rest(missing: Danger?): String? = when (missing) {
+    private fun other(missing: Danger?): String? = when (missing) {
         Danger.FENCE -> "the boat is outside the mission's area"
         Danger.BATTERY_LOW -> "the boat's battery is low"
         Danger.LOG_LOST -> "the log cannot be written"
