@@ -340,6 +340,6 @@ internal class Navigator(
         const val MOST_COMEBACKS = 3
 
         /** Ways home on which the boat is held up, on end, after which none is tried. */
-        const val MOST_WAYS_HOME = 5
+        const val MOST_WAYS_HOME = 10
     }
 }

@@ -69,7 +69,7 @@ class HeldUpTest {
         assertTrue(desk.until(120.0) { desk.distanceHome() > 20 })
         heldFrom = desk.boat.time.seconds
         assertTrue(desk.until(900.0) { it is MissionState.Returning }, "${desk.mission.state}")
-        assertTrue(desk.until(600.0) { it is MissionState.Stopped }, "${desk.mission.state}")
+        assertTrue(desk.until(900.0) { it is MissionState.Stopped }, "${desk.mission.state}")
         assertEquals(MissionState.Stopped(StopReason.STRANDED), desk.mission.state)
         assertTrue(desk.until(5.0) { desk.mission.board.state == BoardState.STANDBY }, "disarmed")
         assertTrue(desk.boat.board.actuation.isAtRest)
