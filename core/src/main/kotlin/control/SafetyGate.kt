@@ -33,6 +33,9 @@ public enum class Danger {
     /** Fixes lie where the boat cannot be. */
     FIX_JUMPING,
 
+    /** No way home is left on which the boat gets on. */
+    STRANDED,
+
     /** The boat is beyond the fence. */
     FENCE,
 
@@ -165,6 +168,9 @@ public class Situation {
     /** Whether what is left of the budget is needed for the way home. */
     public var budgetSpent: Boolean = false
 
+    /** Whether no way home is left on which the boat gets on. */
+    public var stranded: Boolean = false
+
     /** Whether the mission has nothing left to do. */
     public var missionEnded: Boolean = false
 }
@@ -253,6 +259,7 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         !(situation.linkAge <= settings.longestSilence) -> Danger.LINK_LOST
         isLost(situation) -> Danger.FIX_STALE
         situation.jumps > settings.mostJumps -> Danger.FIX_JUMPING
+        situation.stranded -> Danger.STRANDED
         fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
         batteryLow -> Danger.BATTERY_LOW
         situation.logLost -> Danger.LOG_LOST

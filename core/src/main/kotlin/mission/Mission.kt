@@ -23,8 +23,8 @@ import stillwater.wire.Message
  * A boat's whole way of working, one [step] after the other: it calls, and computes nothing itself.
  *
  * Link, framer, codec ([BoardPort]); where the boat was when a sample was taken ([PoseHistory]); is it plausible
- * ([PlausibilityGate]); estimator, map; planner, when the last waypoint was reached; follower; safety gate, which has the
- * last word in every state; encoder, link; and one [MissionLog] record a step.
+ * ([PlausibilityGate]); estimator, map; planner, when the last waypoint was reached; follower; safety gate, which has
+ * the last word in every state; encoder, link; and one [MissionLog] record a step.
  *
  * The phone hands in its fixes and compass as they come and calls [step] at about 10 Hz, all on one thread: a step
  * farther than half a second from the one before makes the board's watchdog rest the motors. No step throws on data.
@@ -88,6 +88,7 @@ public class Mission(
     private var armedAt = Double.NEGATIVE_INFINITY
     private var stopWanted = false
     private var logLost = false
+    private var loggedVersion = 0
 
     /** What the mission is about. */
     public var state: MissionState = MissionState.Idle
@@ -111,8 +112,8 @@ public class Mission(
     public val sensor: SensorBelief? get() = sensorBelief(survey.estimator)
 
     /**
-     * Of the readings that the map took, those so near to a cell's border, or right behind one, that they told of the probe
-     * but of no cell; 0 where the estimator takes all places at their word.
+     * Of the readings that the map took, those so near to a cell's border, or right behind one, that they told of the
+     * probe but of no cell; 0 where the estimator takes all places at their word.
      */
     public val unplaced: Long get() = unplacedReadings(survey.estimator)
 
@@ -132,8 +133,14 @@ public class Mission(
     /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
     public val probeSilence: Double get() = probe.silence(now)
 
-    /** Waypoints given up because the boat came no nearer for a minute; after three on end the mission is over. */
+    /** Waypoints given up because the boat came no nearer for a minute. */
     public val givenUp: Long get() = navigator.givenUp
+
+    /**
+     * Cells that the boat did not get into, and that it went round; those that it came to later are not among them.
+     * Allocates.
+     */
+    public val givenUpCells: List<Int> get() = navigator.givenUpCells
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -195,8 +202,15 @@ public class Mission(
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)
         command(before)
-        log.step(StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut))
+        log.step(record(time))
         return state
+    }
+
+    private fun record(time: BoatTime): StepRecord {
+        val isNew = navigator.givenUpVersion != loggedVersion
+        loggedVersion = navigator.givenUpVersion
+        val cells = if (isNew) navigator.givenUpCells else null
+        return StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut, cells)
     }
 
     private fun begin(time: BoatTime): Double {
@@ -204,6 +218,7 @@ public class Mission(
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
+            navigator.resume(it.givenUp, time.seconds)
         }
         return 0.0
     }
@@ -218,6 +233,7 @@ public class Mission(
         situation.logLost = logLost
         situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
+        situation.stranded = navigator.isStranded
         return gate.assess(situation)
     }
 
@@ -225,7 +241,7 @@ public class Mission(
     private fun wanted(ruling: Ruling): Drive {
         when (state) {
             MissionState.Surveying -> navigator.survey(now.seconds, survey.map, survey.lastValue)
-            is MissionState.Returning -> navigator.goHome(now.seconds)
+            is MissionState.Returning -> navigator.goHome(now.seconds, isDriven = drive != Drive.NONE)
             is MissionState.Holding ->
                 if (ruling is Ruling.Fall && ruling.failsafe == Failsafe.HOLD) navigator.hold() else navigator.rest()
             else -> navigator.rest()
@@ -262,7 +278,8 @@ public class Mission(
 
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
-     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every question.
+     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every
+     * question.
      */
     private fun leaveDisarmed() {
         if (port.state != BoardState.STANDBY || port.askState(now)) port.order(Command.Disarm)
@@ -290,8 +307,8 @@ public class Mission(
     }
 
     /**
-     * Rest was said, or the board is only being armed; what is said on to a board that is not heard can only be spoilt on
-     * the way and become a drive.
+     * Rest was said, or the board is only being armed; what is said on to a board that is not heard can only be spoilt
+     * on the way and become a drive.
      */
     private fun isDeaf(): Boolean {
         val isAtRest = state == MissionState.Arming || state == MissionState.Holding(Danger.LINK_LOST)

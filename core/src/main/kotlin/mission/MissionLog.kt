@@ -45,6 +45,7 @@ public data class LogStart(
  * @property drive that was let through.
  * @property used of the budget, in its unit.
  * @property leftOut readings that the map did without.
+ * @property givenUp cells that the boat did not get into; null where they are those of the step before.
  */
 public data class StepRecord(
     val time: BoatTime,
@@ -54,17 +55,18 @@ public data class StepRecord(
     val drive: Drive,
     val used: Double,
     val leftOut: Long,
+    val givenUp: List<Int>? = null,
 )
 
 /**
  * Writes a mission down, line by line: a superset of the Platypus 4.2 log, `<ms>` tab `I` tab `{json}`.
  *
- * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step) and `in` (all that came
- * in since the step before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the place's
- * standard deviation) or `pass` (a cell left without a reading); the first line has the whole mission, and, where that
- * is known, which `boat` it is of and whether that is a `virtual` one.
- * Numbers are written so that they are read back to the last bit; what
- * is not finite is `null`. [MissionRecovery] reads it back.
+ * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step, where they change with
+ * the cells that the boat did not get into) and `in` (all that came in since the step before, for a replay), `reading`
+ * (what the map took, exactly: time, x, y, value and the place's standard deviation) or `pass` (a cell left without a
+ * reading); the first line has the whole mission, and, where that is known, which `boat` it is of and whether that is a
+ * `virtual` one. Numbers are written so that they are read back to the last bit; what is not finite is `null`.
+ * [MissionRecovery] reads it back.
  *
  * A mission that goes on after a restart appends to the same log; the new first line then says so to any reader.
  *
@@ -103,11 +105,12 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
             is MissionState.Preflight -> state.missing?.let { ""","why":"${it.name.lowercase()}"""" }.orEmpty()
             else -> ""
         }
+        val givenUp = record.givenUp?.let { ""","given_up":[${it.joinToString(",")}]""" }.orEmpty()
         write(
             record.time,
             """$pose"mission":{"t_s":${number(record.time.seconds)},"state":"${state.word}"$why,""" +
                 """"drive":[${number(record.drive.forward)},${number(record.drive.turn)}],""" +
-                """"used":${number(record.used)},"left_out":${record.leftOut}}${inputs.take()}""",
+                """"used":${number(record.used)},"left_out":${record.leftOut}$givenUp}${inputs.take()}""",
         )
     }
 
@@ -117,8 +120,8 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
     }
 
     /**
-     * Writes what the probe said at [now], the [verdict] on it, what the map took, what waits, and how many equal readings
-     * there were on end.
+     * Writes what the probe said at [now], the [verdict] on it, what the map took, what waits, and how many equal
+     * readings there were on end.
      */
     public fun reading(
         now: BoatTime,

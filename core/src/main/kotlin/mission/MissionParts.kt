@@ -23,6 +23,8 @@ import stillwater.model.WaterArea
 import stillwater.plan.BoundedExtendedPlanner
 import stillwater.plan.BoundedPlanner
 import stillwater.plan.BoundedPlannerSettings
+import stillwater.plan.ClosedCells
+import stillwater.plan.DetourWays
 import stillwater.plan.InformationPlanner
 import stillwater.plan.InformationPlannerSettings
 import stillwater.plan.Lawnmower
@@ -201,9 +203,12 @@ internal val AreaSpec.isOpen: Boolean get() = shore == null && keepOuts.isEmpty(
 /** What ways keep from land on the mission's water, m. */
 internal val BoatSpec.wayMargin: Double get() = arrival / 2
 
-/** The ways over [water] that [spec]'s boat may take; null where it may take any. */
-internal fun ways(spec: MissionSpec, water: WaterArea): WaterRoutes? = if (spec.area.isOpen) {
-    null
-} else {
-    WaterRoutes(water, spec.boat.wayMargin, WaterRoutes.resolution(water, spec.grid.cell / 2))
-}
+/** The ways over [water] that [spec]'s boat may take, round [closed] cells. */
+internal fun ways(spec: MissionSpec, water: WaterArea, closed: ClosedCells) = DetourWays(
+    water,
+    spec.boat.wayMargin,
+    WaterRoutes.resolution(water, spec.grid.cell / 2),
+    spec.area.isOpen,
+    closed,
+    spec.home.position,
+)

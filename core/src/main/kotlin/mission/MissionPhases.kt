@@ -54,6 +54,7 @@ internal object MissionPhases {
         Danger.MISSION_END -> StopReason.COMPLETED
         Danger.BATTERY_LOW -> StopReason.BATTERY
         Danger.FENCE -> StopReason.FENCE
+        Danger.STRANDED -> StopReason.STRANDED
         Danger.LOG_LOST -> StopReason.LOG_LOST
         Danger.OPERATOR_STOP, Danger.OPERATOR_RETURN -> StopReason.OPERATOR
         Danger.LINK_LOST,

@@ -33,6 +33,7 @@ import stillwater.model.Utm
  * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
+ * @property givenUp cells that the boat did not get into.
  * @property boat what the boat was called when the log last began, or went on; null where the log does not say.
  * @property isVirtual whether the log is of a virtual boat; null where it does not say.
  */
@@ -48,6 +49,7 @@ public class RecoveredMission internal constructor(
     public val lastState: String,
     public val readings: Long,
     public val unreadable: Long,
+    public val givenUp: List<Int>,
     public val boat: String?,
     public val isVirtual: Boolean?,
 )
@@ -83,6 +85,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
     private var readings = 0L
     private var unreadable = 0L
     private var frame: LocalFrame? = null
+    private var givenUp = emptyList<Int>()
     private var boat: String? = null
     private var isVirtual: Boolean? = null
 
@@ -109,6 +112,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
             lastState,
             readings,
             unreadable,
+            givenUp,
             boat,
             isVirtual,
         )
@@ -172,6 +176,9 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         val spent = (json["used"] as? JsonPrimitive)?.doubleOrNull ?: return false
         lastTime = maxOf(lastTime, time)
         used = spent
+        (json["given_up"] as? JsonArray)?.let { cells ->
+            givenUp = cells.mapNotNull { (it as? JsonPrimitive)?.intOrNull }
+        }
         lastState = (json["state"] as? JsonPrimitive)?.contentOrNull ?: return false
         return pose == null || listener == null || at(pose, listener)
     }

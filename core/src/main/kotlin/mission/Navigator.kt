@@ -11,13 +11,12 @@ import stillwater.model.Plan
 import stillwater.model.Position
 import stillwater.model.WaterArea
 import stillwater.plan.BudgetedPlanner
+import stillwater.plan.ClosedCells
+import stillwater.plan.DetourPlanner
+import stillwater.plan.Pace
 import stillwater.plan.PlanOutcome
-import stillwater.plan.Planner
 import stillwater.plan.StopCondition
-import stillwater.plan.StraightHome
 import stillwater.plan.TravelCost
-import stillwater.plan.WaterHome
-import stillwater.plan.WaterRoutes
 import kotlin.math.hypot
 import kotlin.random.Random
 
@@ -38,89 +37,11 @@ internal class BudgetUse(private val budget: BudgetSpec) {
     }
 }
 
-/** Tells for how long a boat has come no nearer to where it goes. */
-internal class ProgressWatch(private val least: Double) {
-    private var nearest = Double.POSITIVE_INFINITY
-    private var since = 0.0
-
-    /** Another place is gone for. */
-    fun begin() {
-        nearest = Double.POSITIVE_INFINITY
-    }
-
-    /** Seconds, by [now] in s, since the boat, [distance] m from there now, last came nearer by [least] m. */
-    fun idle(now: Double, distance: Double): Double {
-        if (distance < nearest - least) {
-            nearest = distance
-            since = now
-        }
-        return now - since
-    }
-}
-
 /**
- * Leads a boat that is off the map, or off the water, to the map; else another planner plans.
- *
- * From the water to the nearest cell's centre that a clear line leads to, else round the land by [routes], which are started
- * here and then at [home] again; where they do not lead there either, nowhere. Off the water any nearest cell will do,
- * because the safety gate leads the boat to the water first.
- */
-internal class EntryPlanner(
-    private val planner: Planner,
-    private val water: WaterArea,
-    private val routes: WaterRoutes?,
-    private val home: Position,
-) : Planner {
-    override fun plan(
-        map: FieldMap,
-        from: Position,
-        sensorValue: Double,
-        stop: StopCondition,
-        plan: Plan,
-    ): PlanOutcome {
-        val outcome = planner.plan(map, from, sensorValue, stop, plan)
-        if (outcome != PlanOutcome.OffMap && outcome != PlanOutcome.OffWater) return outcome
-        plan.clear()
-        val mustSee = routes != null && from in water
-        val nearest = nearest(map.grid, from, mustSee)
-        if (nearest != Grid.OUTSIDE) {
-            plan.add(map.grid.centerX(nearest), map.grid.centerY(nearest))
-        } else if (mustSee) {
-            leadRound(map.grid, from, plan)
-        }
-        return if (plan.size > 0) PlanOutcome.Planned else outcome
-    }
-
-    private fun leadRound(grid: Grid, from: Position, plan: Plan) {
-        val routes = routes ?: return
-        routes.start(from.x, from.y)
-        val inside = (0 until routes.points).filter { grid.cellAt(routes.x(it), routes.y(it)) != Grid.OUTSIDE }
-        inside.minByOrNull(routes::distance)?.let { routes.wayTo(it, plan) }
-        routes.start(home.x, home.y)
-    }
-
-    private fun nearest(grid: Grid, from: Position, mustSee: Boolean): Int {
-        var best = Grid.OUTSIDE
-        var least = Double.POSITIVE_INFINITY
-        for (cell in 0 until grid.size) {
-            val x = grid.centerX(cell)
-            val y = grid.centerY(cell)
-            val distance = hypot(x - from.x, y - from.y)
-            if (distance < least &&
-                (if (mustSee) water.isClear(from.x, from.y, x, y, 0.0) else water.contains(x, y))
-            ) {
-                least = distance
-                best = cell
-            }
-        }
-        return best
-    }
-}
-
-/**
- * Where to steer: along the plan, home, or back to where the boat holds. Plans when the last waypoint was reached or was
- * given up, which it is where the boat has come no nearer for [PATIENCE] s: on weeds, against a current, or where the
- * safety gate lets it come no nearer. After [MOST_GIVEN_UP] on end the mission is over. Confined to one thread.
+ * Where to steer: along the plan, home, or back to where the boat holds. Plans when the last waypoint was reached or
+ * was given up, which it is where the boat has come no nearer for [PATIENCE] s: on weeds, against a current, or where
+ * the safety gate lets it come no nearer; [HoldUps] says what then. A way home on which the boat is held up
+ * [MOST_WAYS_HOME] times is none. Confined to one thread.
  */
 internal class Navigator(
     private val spec: MissionSpec,
@@ -133,31 +54,48 @@ internal class Navigator(
     private enum class Aim { NOTHING, SURVEY, HOME, HOLD }
 
     private val home = spec.home.position
-    private val routes = ways(spec, water)
-    private val wayHome = if (routes == null) StraightHome(home) else WaterHome(routes, home)
+    private val closed = ClosedCells(spec.grid.grid(), water, spec.boat.arrival)
+    private val ways = ways(spec, water, closed)
     private val follower = WaypointFollower(spec.boat.follower().copy(turnThrust = mixing.turnThrust))
     private val planner = BudgetedPlanner(
-        EntryPlanner(spec.planner.build(spec, water, Random(spec.seed)), water, routes, home),
+        EntryPlanner(
+            DetourPlanner(spec.planner.build(spec, water, Random(spec.seed)), closed, ways),
+            water,
+            ways,
+            closed,
+        ),
         limit = spec.budget.metres ?: spec.budget.seconds ?: 0.0,
         cost = if (spec.budget.metres != null) TravelCost(1.0, 0.0) else TravelCost(1 / spec.boat.cruise, TURN_TIME),
         meter = { use.used },
-        wayHome = wayHome,
+        wayHome = ways,
         home = home,
         reserve = spec.budget.reserve,
+        pace = if (spec.budget.metres != null) Pace.STILL else DriftPace(track, spec.boat.cruise),
     )
     private val plan = Plan()
     private var next = 0
     private var aim = Aim.NOTHING
     private var knowsWay = false
+    private val holdUps = HoldUps(closed, HOLDING * spec.boat.arrival)
     private val progress = ProgressWatch(spec.boat.arrival)
-    private var givenUpOnEnd = 0
+    private var goal: Position? = null
+    private var nearGoal: Position? = null
+    private var comebacks = 0
+    private val homeward = ProgressWatch(spec.boat.arrival)
+    private var waysHome = 0
+    private var heldFromHome = Double.POSITIVE_INFINITY
 
     /** In which a slow boat, too, comes nearer by an arrival radius, s. */
     private val slowness = SLOWEST * spec.boat.arrival / spec.boat.cruise
 
     /** Waypoints that were given up. */
-    var givenUp = 0L
-        private set
+    val givenUp: Long get() = holdUps.count
+
+    /** Cells that the boat did not get into. Allocates. */
+    val givenUpCells: List<Int> get() = closed.mapCells()
+
+    /** Changes whenever [givenUpCells] may have changed. */
+    val givenUpVersion: Int get() = closed.version
 
     /** Times the planner was asked. */
     var plans = 0L
@@ -167,18 +105,32 @@ internal class Navigator(
     var isHomeBound = false
         private set
 
-    /** Whether the planner has nowhere to go any more. */
+    /** Whether there is nowhere to go any more. */
     var isOver = false
+        private set
+
+    /** Whether no way home is left to try; stays so. */
+    var isStranded = false
         private set
 
     /** Whether the boat came home on purpose. */
     val isHome: Boolean get() = aim == Aim.HOME && knowsWay && next >= plan.size && (follower.arrived || isNearHome)
 
-    /** Whether the boat is about home and comes no nearer, as where home lies nearer to the shore than the gate lets it. */
+    /**
+     * Whether the boat is about home and comes no nearer, as where home lies nearer to the shore than the gate lets it.
+     */
     private var isNearHome = false
 
     /** The waypoints ahead, the one steered for first. */
     fun ahead(): List<Position> = plan.waypoints().drop(maxOf(0, next - 1))
+
+    /** Goes on [now], s, after a restart before which the boat did not get into [cells]. */
+    fun resume(cells: List<Int>, now: Double) {
+        val map = closed.map
+        for (cell in cells) {
+            if (cell in 0 until map.size) closed.close(closed.at(map.centerX(cell), map.centerY(cell)), now)
+        }
+    }
 
     /** Forgets the way: the boat does not steer. */
     fun rest() {
@@ -187,22 +139,39 @@ internal class Navigator(
 
     /** Goes where the planner says, [now], s; [value] is what the sensor says. */
     fun survey(now: Double, map: FieldMap, value: Double) {
+        if (aim == Aim.HOME) comebacks++
         turnTo(Aim.SURVEY)
         if (planner.mustTurnBack(track.x, track.y)) isHomeBound = true
-        var from = Position(track.x, track.y)
+        val here = Position(track.x, track.y)
+        var from = here
         if (follower.arrived) {
-            givenUpOnEnd = 0
+            arrive(here)
         } else {
-            val goal = Position(plan.x(next - 1), plan.y(next - 1))
+            val goal = waypoint(next - 1)
             val isNear = isNear(goal)
-            val patience = slowness + if (isNear) PATIENCE_NEAR else PATIENCE
-            if (progress.idle(now, from.distanceTo(goal)) < patience) return
-            if (!isNear && !giveUp()) return
-            // Asked from where the boat is, a planner that goes in order would say the same again.
-            if (!spec.planner.keepsToWater) from = goal
+            if (!isHeldUp(now, here.distanceTo(goal), isNear && goal == nearGoal, isNear)) return
+            if (isNear) {
+                nearGoal = goal
+                // Asked from where the boat is, a planner that goes in order would say the same again.
+                if (!spec.planner.keepsToWater) from = goal
+            } else if (!giveUp(now, here, goal)) {
+                return
+            }
         }
-        if (next >= plan.size) replan(map, value, from)
+        if (next >= plan.size) replan(now, map, value, from)
         if (next < plan.size) nextLeg()
+    }
+
+    private fun arrive(here: Position) {
+        if (next == 0) return holdUps.setOut(here)
+        holdUps.arrived(here, waypoint(next - 1))
+        progress.begin()
+        nearGoal = null
+    }
+
+    private fun isHeldUp(now: Double, distance: Double, isKnownToBeNear: Boolean, isNear: Boolean): Boolean {
+        val patience = slowness + if (isNear) PATIENCE_NEAR else PATIENCE
+        return progress.idle(now, distance) >= patience || isKnownToBeNear || comebacks >= MOST_COMEBACKS
     }
 
     /** So near that what keeps the boat off may be no more than how well its place is known. */
@@ -210,35 +179,67 @@ internal class Navigator(
         hypot(track.x - place.x, track.y - place.y) <= HOLDING * (spec.boat.arrival + track.deviation)
 
     /** Answers whether something else is to be tried. */
-    private fun giveUp(): Boolean {
-        givenUp++
-        givenUpOnEnd++
-        isOver = givenUpOnEnd >= MOST_GIVEN_UP
+    private fun giveUp(now: Double, here: Position, goal: Position): Boolean {
+        val instead = holdUps.giveUp(now, here, goal)
+        isOver = holdUps.isHeld
+        plan.clear()
+        next = 0
+        nearGoal = null
+        comebacks = 0
+        if (instead != null) plan.add(instead.x, instead.y)
         return !isOver
     }
 
-    /** Goes home, [now], s. */
-    fun goHome(now: Double) {
+    /** Goes home, [now], s; [isDriven] tells whether the motors may run. */
+    fun goHome(now: Double, isDriven: Boolean) {
         val isAfloat = water.contains(track.x, track.y)
         if (turnTo(Aim.HOME) || (isAfloat && !knowsWay)) fillWayHome(isAfloat)
         if (follower.arrived && next < plan.size) nextLeg()
         val off = hypot(track.x - home.x, track.y - home.y)
         isNearHome = progress.idle(now, off) >= slowness + PATIENCE_NEAR && isNear(home)
+        val patience = if (isDriven) slowness + PATIENCE else PATIENCE_ADRIFT
+        if (!isHome && homeward.idle(now, leftToGo()) >= patience) findOtherWayHome(now, isAfloat)
         if (isHomeBound && isHome) isOver = true
+    }
+
+    private fun leftToGo(): Double {
+        var sum = 0.0
+        var x = track.x
+        var y = track.y
+        for (i in maxOf(0, next - 1) until plan.size) {
+            sum += hypot(plan.x(i) - x, plan.y(i) - y)
+            x = plan.x(i)
+            y = plan.y(i)
+        }
+        return sum
+    }
+
+    private fun findOtherWayHome(now: Double, isAfloat: Boolean) {
+        val left = hypot(track.x - home.x, track.y - home.y)
+        if (left < heldFromHome - HOLDING * spec.boat.arrival) waysHome = 0
+        heldFromHome = minOf(heldFromHome, left)
+        waysHome++
+        isStranded = waysHome >= MOST_WAYS_HOME
+        if (isStranded) return
+        val goal = waypoint(maxOf(0, next - 1))
+        val cell = closed.ahead(track.x, track.y, goal.x, goal.y)
+        if (cell != Grid.OUTSIDE && !closed.isClosed(cell)) closed.close(cell, now)
+        fillWayHome(isAfloat)
+        homeward.begin()
     }
 
     /** From off the water, as believed, the nearest of it comes first, and the way is asked for again from there. */
     private fun fillWayHome(isAfloat: Boolean) {
         startLegs()
-        wayHome.fill(track.x, track.y, plan)
+        ways.fill(track.x, track.y, plan)
         knowsWay = isAfloat
-        if (plan.size > 0) return
-        if (isAfloat) {
+        if (plan.size == 0 && isAfloat) {
             plan.add(home.x, home.y)
-        } else {
+        } else if (plan.size == 0) {
             val deep = HOLDING * spec.boat.arrival - fence.distance(track.x, track.y)
             plan.add(track.x + deep * fence.inwardX, track.y + deep * fence.inwardY)
         }
+        homeward.resume(leftToGo())
     }
 
     /** Stays where the boat is, and comes back when it was carried off. */
@@ -269,21 +270,23 @@ internal class Navigator(
         plan.clear()
         next = 0
         isNearHome = false
-        progress.begin()
         // A leg of no length to where the boat is counts as reached at the next look.
         follower.leg(track.x, track.y, track.x, track.y)
         follower.steer(track, 0.0, 0.0)
     }
 
-    private fun replan(map: FieldMap, value: Double, here: Position) {
+    private fun replan(now: Double, map: FieldMap, value: Double, here: Position) {
         plans++
         next = 0
+        closed.expire(now)
         // The budgeted planner asks whether the boat is home to the last digit.
         val from = if (here.distanceTo(home) <= HOLDING * spec.boat.arrival) home else here
         val outcome = planner.plan(map, from, value, StopCondition.NEVER, plan)
         isOver = outcome != PlanOutcome.Planned
         if (planner.isHomeBound) isHomeBound = true
     }
+
+    private fun waypoint(index: Int) = Position(plan.x(index), plan.y(index))
 
     private fun nextLeg() {
         val after = next + 1
@@ -292,15 +295,33 @@ internal class Navigator(
         val afterX = if (after < plan.size) plan.x(after) else Double.NaN
         val afterY = if (after < plan.size) plan.y(after) else Double.NaN
         follower.leg(fromX, fromY, plan.x(next), plan.y(next), afterX, afterY)
-        progress.begin()
+        watch(waypoint(next))
         next++
+    }
+
+    /**
+     * A link that is cut again and again, or a fence that the boat is turned back from, makes no new waypoint of an
+     * old.
+     */
+    private fun watch(goal: Position) {
+        if (aim == Aim.SURVEY && goal == this.goal) {
+            progress.resume(hypot(track.x - goal.x, track.y - goal.y))
+            return
+        }
+        progress.begin()
+        if (aim != Aim.SURVEY) return
+        this.goal = goal
+        comebacks = 0
     }
 
     private companion object {
         /** Time a waypoint costs beyond its distance, s: slowing down and turning. */
         const val TURN_TIME = 5.0
 
-        /** The follower lets a waypoint count as passed within three arrival radii; deviations of the place that may lack. */
+        /**
+         * The follower lets a waypoint count as passed within three arrival radii; deviations of the place that may
+         * lack.
+         */
         const val HOLDING = 3.0
 
         /** A waypoint to which the boat has come no nearer for so long is given up, s. */
@@ -309,10 +330,16 @@ internal class Navigator(
         /** The same where it [isNear], s: there it counts as reached. */
         const val PATIENCE_NEAR = 10.0
 
+        /** The same on the way home while the motors rest, s: what carries a boat off may bring it back. */
+        const val PATIENCE_ADRIFT = 600.0
+
         /** Of the cruise speed a boat that makes way keeps one in so many. */
         const val SLOWEST = 4.0
 
-        /** Waypoints given up on end after which nothing more is tried. */
-        const val MOST_GIVEN_UP = 3
+        /** Times a boat may be turned back by the fence on its way to one waypoint. */
+        const val MOST_COMEBACKS = 3
+
+        /** Ways home on which the boat is held up, on end, after which none is tried. */
+        const val MOST_WAYS_HOME = 10
     }
 }

@@ -9,6 +9,7 @@ import stillwater.model.BoatTime
 import stillwater.model.Drive
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import kotlin.math.abs
 
 /**
  * Where the boat is, from the phone's fixes and compass and what its thrusters do. Confined to one thread.
@@ -25,6 +26,9 @@ internal class PoseInput(
 ) {
     val track = TrackEstimator()
     private var fixTime = Double.NEGATIVE_INFINITY
+
+    /** What the last fix taken was stamped, s: ahead of [fixTime] where its clock is. */
+    private var stamp = Double.NEGATIVE_INFINITY
     private var compassTime = Double.NEGATIVE_INFINITY
     private var lastHeading = Double.NaN
     private var waiting: LatLon? = null
@@ -35,7 +39,7 @@ internal class PoseInput(
     private var isBelieved = false
     private var agreement = AGREEMENT
 
-    /** Fixes refused: not finite, older than one before, of a time to come, or where the boat cannot be. */
+    /** Fixes refused: not finite, older than one before, too old, of a time to come, or where the boat cannot be. */
     var refused = 0L
         private set
 
@@ -46,10 +50,11 @@ internal class PoseInput(
     /** Heading, rad; NaN where none was heard lately. */
     val heading: Double get() = if (now - compassTime <= OLDEST_COMPASS) lastHeading else Double.NaN
 
+    /** Of several fixes between two steps, as after a hiccup of the link to the receiver, the newest tells the most. */
     fun fix(time: BoatTime, place: LatLon) {
         // A receiver says one fix in two sentences, whose times differ by rounding.
-        if (Math.abs(time.seconds - fixTime) < SAME_FIX) return
-        val isNewer = time.seconds > fixTime && !(time.seconds <= waitingTime)
+        if (abs(time.seconds - stamp) < SAME_FIX || abs(time.seconds - waitingTime) < SAME_FIX) return
+        val isNewer = time.seconds > stamp && !(time.seconds <= waitingTime)
         if (!isNewer || !time.seconds.isFinite()) {
             refused++
             return
@@ -87,18 +92,23 @@ internal class PoseInput(
     }
 
     private fun take(place: LatLon) {
-        if (waitingTime > now + FAST_CLOCK) {
+        val stamped = waitingTime
+        waitingTime = Double.NaN
+        val late = now - stamped
+        if (late < -FAST_CLOCK || late > PAUSE * oldestFix) {
             refused++
-            waitingTime = Double.NaN
             return
         }
         val local = frame.toLocal(place)
-        if (track.fix(local.x, local.y) != FixUse.USED) {
+        // The boat went on since.
+        val since = maxOf(0.0, late)
+        if (track.fix(local.x + since * track.velocityX, local.y + since * track.velocityY) != FixUse.USED) {
             refused++
             doubt()
             return
         }
-        val time = minOf(waitingTime, now)
+        stamp = stamped
+        val time = minOf(stamped, now)
         // The longer without a fix, the farther off the first one may be that is taken.
         if (time - fixTime > PAUSE * oldestFix) {
             isBelieved = false

@@ -22,6 +22,17 @@ public data class TravelCost(val perMetre: Double, val perWaypoint: Double) {
     }
 }
 
+/** Tells how much longer the water makes a leg. */
+public fun interface Pace {
+    /** Cost of a leg [east] m and [north] m long over its cost in still water, at least 1, finite. */
+    public fun of(east: Double, north: Double): Double
+
+    public companion object {
+        /** Still water. */
+        public val STILL: Pace = Pace { _, _ -> 1.0 }
+    }
+}
+
 /** Tells how much of its budget the boat has used, by an odometer or a clock. */
 public fun interface BudgetMeter {
     /** Used so far, in the budget's unit. Never goes back. */
@@ -31,8 +42,8 @@ public fun interface BudgetMeter {
 /** Knows the way home. */
 public fun interface WayHome {
     /**
-     * Fills [plan] with the waypoints from ([x], [y]), local frame, m, home; home is the last. Empty where no way is known
-     * or the boat is home.
+     * Fills [plan] with the waypoints from ([x], [y]), local frame, m, home; home is the last. Empty where no way is
+     * known or the boat is home.
      */
     public fun fill(x: Double, y: Double, plan: Plan)
 }
@@ -41,11 +52,12 @@ public fun interface WayHome {
  * Lets another planner plan as long as the boat can still be home within its budget, then brings it home.
  *
  * A waypoint is kept only if what was used, the way to it and the way home from it are within the budget together; what
- * comes after the first that is not is dropped. Where none is kept the way home is planned, and [PlanOutcome.BudgetSpent]
- * is said once the boat is there. So, if home was within the budget when the boat set out and travel costs what [cost]
- * says, the boat never uses more than [limit] (but for rounding) and ends at home. Wind, current and detours cost more: [reserve] is kept
- * back for them, and a boat that is held up on its way to a waypoint has [mustTurnBack] to ask. Where no way home is known
- * the boat goes nowhere.
+ * comes after the first that is not is dropped. Where none is kept the way home is planned, and
+ * [PlanOutcome.BudgetSpent] is said once the boat is there. So, if home was within the budget when the boat set out and
+ * travel costs what [cost] says, the boat never uses more than [limit] (but for rounding) and ends at home. Wind and
+ * current cost more as far as the pace says; for what it does not know, and for detours, [reserve] is kept back, and a
+ * boat that is held up on its way to a waypoint has [mustTurnBack] to ask. Where no way home is known the boat goes
+ * nowhere.
  *
  * No allocation once the buffers have grown, if the other planner and the way home have none. Confined to one thread.
  *
@@ -56,6 +68,7 @@ public fun interface WayHome {
  * @param wayHome the way home from any place, through the water. Retained.
  * @param home where the boat has to be in the end.
  * @property reserve share of the way home's cost that is kept back besides, dimensionless, at least 0.
+ * @param pace what the water makes of a leg's cost by the metre; asked anew each time. Retained.
  * @throws IllegalArgumentException if a number is out of its range.
  */
 public class BudgetedPlanner(
@@ -66,6 +79,7 @@ public class BudgetedPlanner(
     private val wayHome: WayHome,
     private val home: Position,
     public val reserve: Double = 0.0,
+    private val pace: Pace = Pace.STILL,
 ) : Planner {
     private val back = Plan()
     private var lookAt = 0.0
@@ -98,10 +112,10 @@ public class BudgetedPlanner(
     }
 
     /**
-     * Whether a boat on its way to a waypoint, at ([x], [y]) m, has to turn back: what is left is less than the way home
-     * costs from there, or nothing is left where no way home is known. Cheap as long as much is left: the way home is
-     * looked for again when an eighth of what was to spare is used up, which a boat needs that goes away from home at seven
-     * times the speed that [cost] reckons with.
+     * Whether a boat on its way to a waypoint, at ([x], [y]) m, has to turn back: what is left is less than the way
+     * home costs from there, or nothing is left where no way home is known. Cheap as long as much is left: the way home
+     * is looked for again when an eighth of what was to spare is used up, which a boat needs that goes away from home
+     * at seven times the speed that [cost] reckons with.
      */
     public fun mustTurnBack(x: Double, y: Double): Boolean {
         val used = meter.used()
@@ -152,7 +166,7 @@ public class BudgetedPlanner(
     }
 
     private fun leg(fromX: Double, fromY: Double, toX: Double, toY: Double) =
-        cost.perMetre * hypot(toX - fromX, toY - fromY) + cost.perWaypoint
+        cost.perMetre * hypot(toX - fromX, toY - fromY) * pace.of(toX - fromX, toY - fromY) + cost.perWaypoint
 
     private companion object {
         /** Share of the limit by which sums along the way may round otherwise than the meter. */

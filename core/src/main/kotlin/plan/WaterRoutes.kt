@@ -36,6 +36,9 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
     private var startY = Double.NaN
     private val scratch = Plan()
 
+    /** What ways lead round besides land, from the next [start] on. */
+    internal var avoided: Obstacle? = null
+
     init {
         require(margin >= 0 && margin.isFinite()) { "margin ($margin m) must be at least 0 and finite" }
         require(resolution > 0 && resolution.isFinite()) { "resolution ($resolution m) must be above 0 and finite" }
@@ -59,6 +62,9 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
 
     /** Length of the way from [start]'s place to [point], m; infinite where there is none. */
     public fun distance(point: Int): Double = distances[point]
+
+    /** Whether [point] lies on the water and farther than the margin from land. */
+    internal fun isClear(point: Int): Boolean = clear[point]
 
     private fun join(point: Int) {
         val column = point % lattice.columns
@@ -95,7 +101,7 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         // What leads out of the margin may be nearer to land than the margin, and nothing else.
         val kept = if (area.isClear(x, y, margin)) margin else 0.0
         forNear(x, y) { point ->
-            if (area.isClear(x, y, x(point), y(point), kept)) {
+            if (area.isClear(x, y, x(point), y(point), kept) && !isAvoided(x, y, x(point), y(point))) {
                 distances[point] = hypot(x(point) - x, y(point) - y)
                 parents[point] = START
                 queue.push(point)
@@ -110,6 +116,7 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         for (step in 0 until STEPS) {
             if (ways[point].toInt() shr step and 1 == 0) continue
             val to = point + ROW_STEPS[step] * lattice.columns + COLUMN_STEPS[step]
+            if (isAvoided(x(point), y(point), x(to), y(to))) continue
             val length = distances[point] + resolution * (if (step < EDGE_STEPS) 1.0 else SQRT_2)
             if (length < distances[to]) {
                 distances[to] = length
@@ -144,7 +151,9 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         val kept = if (area.isClear(x, y, margin)) margin else 0.0
         forNear(x, y) { point ->
             val length = distances[point] + hypot(x(point) - x, y(point) - y)
-            if (length < least && area.isClear(x, y, x(point), y(point), kept)) {
+            if (length < least && area.isClear(x, y, x(point), y(point), kept) &&
+                !isAvoided(x, y, x(point), y(point))
+            ) {
                 least = length
                 best = point
             }
@@ -183,7 +192,10 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
     }
 
     private fun isLeg(fromX: Double, fromY: Double, toX: Double, toY: Double) =
-        area.isClear(fromX, fromY, toX, toY, margin)
+        area.isClear(fromX, fromY, toX, toY, margin) && !isAvoided(fromX, fromY, toX, toY)
+
+    private fun isAvoided(fromX: Double, fromY: Double, toX: Double, toY: Double) =
+        avoided?.blocks(fromX, fromY, toX, toY) ?: false
 
     /** Calls [use] with the clear points within two steps of the lattice, or with the margin's more. */
     private inline fun forNear(x: Double, y: Double, use: (Int) -> Unit) {

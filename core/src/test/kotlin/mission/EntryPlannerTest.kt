@@ -6,13 +6,13 @@ import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.model.Position
 import stillwater.model.WaterArea
+import stillwater.plan.ClosedCells
+import stillwater.plan.DetourWays
 import stillwater.plan.Lawnmower
 import stillwater.plan.LawnmowerPattern
 import stillwater.plan.PlanOutcome
 import stillwater.plan.Planner
 import stillwater.plan.StopCondition
-import stillwater.plan.WaterHome
-import stillwater.plan.WaterRoutes
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -25,10 +25,10 @@ class EntryPlannerTest {
     )
     private val map = FieldMap(Grid(Position(42.0, 42.0), 2, 2, 8.0), Interval.UNIT)
     private val home = Position(10.0, 55.0)
-    private val routes = WaterRoutes(water, 0.75, 4.0)
-    private val wayHome = WaterHome(routes, home)
+    private val closed = ClosedCells(map.grid)
+    private val wayHome = DetourWays(water, 0.75, 4.0, isOpen = false, closed, home)
     private val entry: Planner =
-        EntryPlanner(Lawnmower(LawnmowerPattern.HAMILTONIAN_CYCLE), water, routes, home)
+        EntryPlanner(Lawnmower(LawnmowerPattern.HAMILTONIAN_CYCLE), water, wayHome, closed)
 
     private fun way(from: Position): List<Position> {
         val plan = Plan()

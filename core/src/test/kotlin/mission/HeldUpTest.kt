@@ -2,7 +2,9 @@ package stillwater.mission
 
 import stillwater.control.Danger
 import stillwater.model.Position
+import stillwater.wire.BoardState
 import kotlin.math.cos
+import kotlin.math.sin
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -41,12 +43,54 @@ class HeldUpTest {
 
     /** A boat that lies on a bar uses no metres. */
     @Test
-    fun waypointsThatAreNotReachedAreGivenUpOneByOneAndThenTheMissionIsOver() {
+    fun whatLiesBeyondABarIsGivenUpAndTheRestIsSurveyed() {
         val desk = barred(spec { it.replace("\"seconds\":900", "\"metres\":900") }, 492, 24.0)
-        assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "${desk.mission.state}")
+        assertTrue(desk.until(4000.0) { it is MissionState.Stopped }, "${desk.mission.state}")
         assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state)
-        assertTrue(desk.mission.givenUp >= 3, "${desk.mission.givenUp} given up")
+        val unseen = (0 until 36).filter { it % 6 < 2 && desk.mission.map.readings(it) == 0 }
+        assertEquals(emptyList(), unseen)
+        assertTrue(desk.mission.givenUp >= 6, "${desk.mission.givenUp} given up")
         assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
+    }
+
+    /** Weeds in the screw: nowhere to go is no way home either. */
+    @Test
+    fun aBoatThatMakesNoWayAtAllIsStranded() {
+        val desk = Desk(spec(), 493)
+        var heldFrom = Double.POSITIVE_INFINITY
+        desk.meanwhile = {
+            val boat = desk.boat.dynamics
+            val isHeld = desk.boat.time.seconds > heldFrom
+            boat.currentX = if (isHeld) -boat.surge * cos(boat.heading) else 0.0
+            boat.currentY = if (isHeld) -boat.surge * sin(boat.heading) else 0.0
+        }
+        desk.until(3.0) { false }
+        desk.mission.start()
+        assertTrue(desk.until(120.0) { desk.distanceHome() > 20 })
+        heldFrom = desk.boat.time.seconds
+        assertTrue(desk.until(900.0) { it is MissionState.Returning }, "${desk.mission.state}")
+        assertTrue(desk.until(900.0) { it is MissionState.Stopped }, "${desk.mission.state}")
+        assertEquals(MissionState.Stopped(StopReason.STRANDED), desk.mission.state)
+        assertTrue(desk.until(5.0) { desk.mission.board.state == BoardState.STANDBY }, "disarmed")
+        assertTrue(desk.boat.board.actuation.isAtRest)
+    }
+
+    /** Away from home it takes a fifth of the time that it takes back. */
+    @Test
+    fun theBudgetBringsABoatHomeAgainstTheCurrent() {
+        for ((seed, planner) in listOf(495 to PlannerName.LAWNMOWER, 496 to PlannerName.BOUNDED_EXTENDED)) {
+            val desk = Desk(spec().copy(planner = planner, budget = BudgetSpec(seconds = 400.0)), seed)
+            desk.meanwhile = {
+                desk.boat.dynamics.currentX = 0.35
+                desk.boat.dynamics.currentY = 0.5
+            }
+            desk.until(3.0) { false }
+            desk.mission.start()
+            assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "$planner: ${desk.mission.state}")
+            assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state)
+            assertTrue(desk.mission.used < 400, "$planner: used ${desk.mission.used} s of 400")
+            assertTrue(desk.distanceHome() < 7.0, "$planner: ${desk.distanceHome()} m from home")
+        }
     }
 
     /** Three deviations of the place, some 2 m, are kept from the shore, and home counts as reached within 0.5 m. */

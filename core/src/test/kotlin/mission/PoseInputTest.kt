@@ -91,6 +91,64 @@ class PoseInputTest {
         assertEquals(before, input.track.deviation, "as well known as before")
     }
 
+    /** A receiver whose clock is half a second fast: its fixes are of now, and one said twice is one. */
+    @Test
+    fun twoSentencesOfAFixThatIsAheadAreOne() {
+        fixes(20)
+        input.fix(BoatTime(now + 0.5), frame.toLatLon(Position(0.0, 0.0)))
+        pass(0.1, Drive.NONE)
+        assertTrue(age() <= 0.1, "it is of now, not of a time to come")
+        val before = input.track.deviation
+        for (stamp in listOf(now + 0.4, now + 0.4 - 1e-5, now + 0.4 + 1e-5)) {
+            input.fix(BoatTime(stamp), frame.toLatLon(Position(0.0, 0.0)))
+        }
+        input.advance(BoatTime(now), 0.0, Drive.NONE)
+        assertEquals(before, input.track.deviation, "as well known as before")
+        assertEquals(0, input.refused)
+        assertTrue(age() <= 0.1)
+    }
+
+    @Test
+    fun ofABurstOfFixesTheNewestCountsInWhateverOrderTheyCome() {
+        fixes(20)
+        val before = input.refused
+        for (ago in listOf(4.0, 3.0, 0.5, 2.0, 1.0)) {
+            input.fix(BoatTime(now + 5.0 - ago), frame.toLatLon(Position(-ago, 0.0)))
+        }
+        pass(5.0, Drive.NONE)
+        assertEquals(0.5, age(), 1e-9)
+        assertEquals(2, input.refused - before, "those older than one that came before them")
+        // A fix of 1.5 m against a place known to less: half the way to it at most.
+        assertEquals(-0.3, input.track.x, 0.3)
+    }
+
+    /** A burst is no proof of agreement: the boat has not been watched for any longer. */
+    @Test
+    fun aBurstDoesNotAgreeWithItself() {
+        now = 20.0
+        for (ago in 16 downTo 0) input.fix(BoatTime(now - ago), frame.toLatLon(Position(0.0, 0.0)))
+        pass(0.1, Drive.NONE)
+        assertEquals(Double.POSITIVE_INFINITY, age())
+    }
+
+    /** A backlog of a receiver: what it says is of some time ago, and the boat went on. */
+    @Test
+    fun aLateFixIsOfWhereTheBoatWas() {
+        val places = ArrayList<Position>()
+        repeat(60) {
+            repeat(10) { pass(0.1, if (now < 16) Drive.NONE else Drive(1.0, 0.0)) }
+            places += Position(maxOf(0.0, now - 18) * 1.4, 0.0)
+            val late = if (places.size < 30) 0 else 2
+            input.fix(BoatTime(now - late), frame.toLatLon(places[places.size - 1 - late]))
+        }
+        // 2.8 m behind without it.
+        assertEquals(places.last().x, input.track.x, 1.0)
+        val refused = input.refused
+        input.fix(BoatTime(now - 0.5), frame.toLatLon(places.last()))
+        pass(10.0, Drive.NONE)
+        assertEquals(refused + 1, input.refused, "ten seconds ago is no place any more")
+    }
+
     @Test
     fun aBoatUnderPowerIsFollowedStepByStep() {
         fix(0.0)

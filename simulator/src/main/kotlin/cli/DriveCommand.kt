@@ -160,7 +160,13 @@ class DriveCommand : WorkCommand("drive") {
     private fun otherThan(wanted: MissionSpec, found: MissionSpec): String {
         val mixing = found.boat.mixing
         if (found != wanted.copy(boat = wanted.boat.copy(mixing = mixing))) return "another one, ${found.name}"
-        val then = if (mixing == Mixing.VECTORED) "add --vectored" else "without --vectored"
+        // Older versions did not write down that a boat was vectored.
+        val then = if (mixing == Mixing.VECTORED) {
+            "add --vectored"
+        } else {
+            "leave --vectored and boat.mixing out if the boat has two fixed thrusters; if it has one that swivels, " +
+                "the log is of an older version, which did not note it, and cannot be gone on with: take another --out"
+        }
         return "it with boat.mixing ${mixing.name.lowercase()}; $then"
     }
 

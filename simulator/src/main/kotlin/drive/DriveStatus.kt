@@ -13,7 +13,8 @@ import java.util.Locale
 
 /**
  * Shows a mission under way: a line that stays up to date where somebody watches the terminal, else a line at each
- * change of state and every minute of the boat's time.
+ * change of state and every minute of the boat's time, and before the boat moves also when it waits for something else,
+ * every 5 s at most.
  */
 internal class DriveStatus(
     private val terminal: Terminal,
@@ -24,12 +25,14 @@ internal class DriveStatus(
     private val isLive = terminal.terminalInfo.outputInteractive
     private var shownAt = 0L
     private var shownTime = 0.0
+    private var shownWaiting = emptyList<String>()
 
     override fun changed(mission: Mission, time: BoatTime) {
         if (isQuiet) return
         wipe()
         terminal.println(line(mission, time))
         shownTime = time.seconds
+        shownWaiting = kinds(mission, time)
     }
 
     override fun stepped(mission: Mission, time: BoatTime) {
@@ -40,10 +43,16 @@ internal class DriveStatus(
             shownAt = now
             wipe()
             terminal.rawPrint(line(mission, time).take(terminal.size.width - 1))
-        } else if (time.seconds - shownTime >= MINUTE) {
+        } else if (time.seconds - shownTime >= MINUTE || waitsForOther(mission, time)) {
             changed(mission, time)
         }
     }
+
+    private fun waitsForOther(mission: Mission, time: BoatTime) =
+        time.seconds - shownTime >= PAUSE && kinds(mission, time) != shownWaiting
+
+    /** What is waited for, without how long. */
+    private fun kinds(mission: Mission, time: BoatTime) = Waiting.of(mission, time).map { it.filterNot(Char::isDigit) }
 
     /** Leaves the line that stays up to date. */
     fun wipe() {
@@ -56,8 +65,7 @@ internal class DriveStatus(
             is MissionState.Holding -> " (${words(state.danger.name)})"
             is MissionState.Returning -> " (${words(state.danger.name)})"
             is MissionState.Stopped -> " (${words(state.reason.name)})"
-            is MissionState.Preflight -> state.missing?.let { " (${words(it.name)})" }.orEmpty()
-            else -> ""
+            else -> Waiting.of(mission, time).takeIf { it.isNotEmpty() }?.joinToString("; ", " (", ")").orEmpty()
         }
         val map = mission.map
         val known = (0 until map.grid.size).count { map.readings(it) > 0 }
@@ -68,6 +76,7 @@ internal class DriveStatus(
             mission.position?.let { "at %.1f, %.1f m".format(Locale.ROOT, it.x, it.y) } ?: "place unknown",
             "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readings.passed, "reading")}",
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
+            mission.givenUpCells.size.let { if (it > 0) "${counted(it, "cell")} given up" else "" },
             trouble(mission),
             phone.trouble(),
         )
@@ -100,6 +109,9 @@ internal class DriveStatus(
     private companion object {
         const val LIVE_NANOS = 250_000_000L
         const val MINUTE = 60.0
+
+        /** Between two lines on what is waited for, s. */
+        const val PAUSE = 5.0
 
         /** Five times what the slowest firmware takes for a reading, s. */
         const val LONGEST_SILENCE = 15.0

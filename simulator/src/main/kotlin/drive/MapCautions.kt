@@ -22,6 +22,7 @@ internal object MapCautions {
         EstimatorName.SELF_CALIBRATING,
     )
     private val THREE = SignificantDigits(3)
+    private const val MOST_NAMED = 5
 
     /** One line each; of [mission]'s map as it is now. */
     fun of(mission: Mission): List<String> = listOfNotNull(
@@ -29,6 +30,7 @@ internal object MapCautions {
         unexplained(mission.spec.estimator, mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
         "no cell has a reading".takeIf { visited(mission) == 0 },
+        givenUp(mission),
     )
 
     /** Whether [mission] did all it was to do, by its own word, and knows of no cell but that where the boat lay. */
@@ -44,6 +46,17 @@ internal object MapCautions {
         } else {
             null
         }
+
+    private fun givenUp(mission: Mission): String? {
+        val cells = mission.givenUpCells
+        if (cells.isEmpty()) return null
+        val grid = mission.map.grid
+        val places = cells.take(MOST_NAMED).joinToString {
+            "(${THREE.format(grid.centerX(it))}, ${THREE.format(grid.centerY(it))})"
+        }
+        val more = if (cells.size > MOST_NAMED) " and ${cells.size - MOST_NAMED} more" else ""
+        return "${counted(cells.size, "cell")} given up, because the boat came no nearer: $places m$more"
+    }
 
     private fun visited(mission: Mission) = (0 until mission.map.grid.size).count { mission.map.readings(it) > 0 }
 

@@ -70,6 +70,8 @@ internal object SimulationJson {
             put("place_error_rms_m", finite(run.track.poseError))
             put("energy_wh", run.world.battery.used)
             put("battery_v", run.world.battery.volts)
+            put("waypoints_given_up", run.mission.givenUp)
+            putJsonArray("cells_given_up") { run.mission.givenUpCells.forEach { add(JsonPrimitive(it)) } }
         }
     }
 

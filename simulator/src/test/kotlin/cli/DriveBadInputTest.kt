@@ -94,7 +94,7 @@ class DriveBadInputTest {
             assertRefused("expected the mission of $mission, found another one, pond", *drive(*flags))
             assertEquals(lines, log.readText())
             directory.resolve("pond.json").writeText(POND)
-            assertRefused("found it with boat.mixing differential; without --vectored", *drive(*flags, "--vectored"))
+            assertRefused("found it with boat.mixing differential; leave --vectored", *drive(*flags, "--vectored"))
             val vectored = "\"boat\":{\"mixing\":\"vectored\"},\"home\""
             directory.resolve("pond.json").writeText(POND.replace("\"home\"", vectored))
             assertRefused("found it with boat.mixing differential", *drive(*flags))

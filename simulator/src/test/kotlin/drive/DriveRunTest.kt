@@ -35,7 +35,7 @@ class DriveRunTest {
     private val spec = MissionSpec.fromJson(POND)
     private val said = StringBuilder()
     private val reopened = CountDownLatch(1)
-    private val recorder = TerminalRecorder()
+    private var recorder = TerminalRecorder()
 
     /** The boat's end of a wire until it is cut. */
     private inner class Wire(private val link: ByteLink) : BoardWire {
@@ -61,13 +61,14 @@ class DriveRunTest {
         val log = MissionLog(file, LogStart(1_700_000_000_000, "2023"), spec)
         val mission = Mission(spec, prompt, log)
         var meanwhile: (Int) -> Unit = { }
+        var seesGps = true
         private var steps = 0
         private val phone = object : Phone {
             override fun await(): Moment {
                 meanwhile(steps++)
                 check(steps < MOST_STEPS) { "this never ends" }
                 world.advance(0.1)
-                val fix = world.boat.takeFix()?.let { PhoneFix(it.time, it.place) }
+                val fix = world.boat.takeFix()?.takeIf { seesGps }?.let { PhoneFix(it.time, it.place) }
                 return Moment(world.time, listOfNotNull(fix), world.boat.heading(), world.boat.yawRate)
             }
 
@@ -119,6 +120,29 @@ class DriveRunTest {
         assertNull(afloat.sail())
         afloat.run.start()
         assertFalse(afloat.run.heedSilence(), "a mission that was begun goes on")
+    }
+
+    /** Whoever waits ashore is told what for, whenever that changes, and not every step. */
+    @Test
+    fun beforeTheBoatMovesItIsSaidWhatItWaitsFor() {
+        recorder = TerminalRecorder(outputInteractive = false)
+        val afloat = Afloat()
+        afloat.first.isCut = true
+        afloat.seesGps = false
+        afloat.run.start()
+        afloat.meanwhile = { step ->
+            if (step == 200) reopened.countDown()
+            if (step == 400) afloat.seesGps = true
+            if (afloat.mission.state == MissionState.Surveying) afloat.run.stop()
+        }
+        assertEquals(StopReason.OPERATOR, afloat.sail())
+        val lines = recorder.stdout().lines().filter { "preflight" in it || "arming" in it }
+        assertContains(lines.first(), "nothing heard from the board: is it on, is --port right?; no fix yet")
+        val fixless = lines.filter { "(no fix yet)" in it }
+        assertTrue(fixless.size in 1..3, "$lines")
+        assertContains(lines.joinToString("\n"), "(fixes have to agree for some 15 s, and a heading is needed)")
+        assertContains(lines.joinToString("\n"), "the board was told to arm")
+        assertTrue(lines.size <= 12, "$lines")
     }
 
     @Test

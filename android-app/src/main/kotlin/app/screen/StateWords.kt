@@ -60,6 +60,7 @@ private fun StopReason.words(): Int =
         StopReason.BATTERY -> R.string.danger_battery
         StopReason.LOG_LOST -> R.string.danger_log
         StopReason.FENCE -> R.string.danger_fence
+        StopReason.STRANDED -> R.string.danger_stranded
         StopReason.DISARMED -> R.string.stopped_disarmed
     }
 
