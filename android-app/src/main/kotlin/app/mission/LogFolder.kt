@@ -37,9 +37,16 @@ internal class LogFolder(
     /** The log [name], to go on with. */
     fun goOn(name: String): LogFile = LogFile(File(folder, name), ::open, room)
 
-    /** What the newest incomplete log tells; null where there is none. Older ones stay. */
+    /** What the incomplete log tells that was written last; null where there is none. Others stay. */
     fun recover(): RecoveredRun? =
-        files().filter { it.name.endsWith(INCOMPLETE) }.sortedByDescending { it.name }.firstNotNullOfOrNull(::read)
+        files()
+            .filter { it.name.endsWith(INCOMPLETE) }
+            // A mission that was gone on with may have been begun before one that was not.
+            .sortedWith(compareByDescending<File> { it.lastModified() }.thenByDescending { it.name })
+            .firstNotNullOfOrNull(::read)
+
+    /** What the incomplete log [name] tells; null where it is not there, or has no mission in it. */
+    fun recover(name: String): RecoveredRun? = files().find { it.name == name && name.endsWith(INCOMPLETE) }?.let(::read)
 
     /** Gives the incomplete log [name] the name of a complete one: nobody goes on with it. */
     fun complete(name: String) {

@@ -65,6 +65,12 @@ internal class MissionControl(
     /** Whether a mission was started and is not over: stepped, and its board maybe armed. */
     val isUnderWay: Boolean get() = run != null
 
+    /** Below which voltage the boat's battery is low, V; 0 where nobody watches it; null where the mission does not say. */
+    val lowestVolts: Double?
+        get() =
+            // What was begun before missions had to say so can be brought to its end.
+            spec?.failsafe?.lowestVolts ?: 0.0.takeIf { recovered != null || isUnderWay }
+
     /** Whether the motors were last told to do something. */
     val isMoving: Boolean get() = run?.isMoving == true
 
@@ -88,11 +94,36 @@ internal class MissionControl(
     fun recover(then: () -> Unit) {
         disk.run {
             val found = folder.recover()
+            val all = folder.past()
             disk.answer {
+                past = all
                 if (spec == null) takeUp(found)
                 then()
             }
         }
+    }
+
+    /**
+     * Loads the mission whose log, cut off, is [name], to go on with; the one that is loaded stays on the disk as it is.
+     * [then] hears why not, or null.
+     */
+    fun goOnWith(name: String, then: (Answer?) -> Unit): Answer? {
+        if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
+        disk.run {
+            val found = folder.recover(name)
+            disk.answer {
+                // A mission may have been started meanwhile.
+                val answer =
+                    when {
+                        isUnderWay -> Answer(Answer.Reason.UNDER_WAY)
+                        found == null -> Answer(Answer.Reason.NOT_READABLE)
+                        else -> null
+                    }
+                if (answer == null) takeUp(found)
+                then(answer)
+            }
+        }
+        return null
     }
 
     private fun takeUp(found: RecoveredRun?) {
@@ -115,10 +146,7 @@ internal class MissionControl(
     /** Starts the mission with [boat], with [wish], where [isReady]; tells one that was started of [wish]. */
     fun begin(boat: BoatAtHand?, isReady: Boolean, wish: Wish): Answer? {
         val spec = this.spec ?: return Answer(Answer.Reason.NO_MISSION)
-        run?.let {
-            it.wish = wish
-            return null
-        }
+        run?.let { return wish(it, wish) }
         if (last?.isOver == true) return Answer(Answer.Reason.OVER)
         if (boat == null) return Answer(Answer.Reason.NOT_READY)
         otherWorld(boat)?.let { return it }
@@ -147,8 +175,19 @@ internal class MissionControl(
     /** Tells a mission that was started what a person wants. */
     fun tell(wish: Wish): Answer? {
         val run = this.run ?: return Answer(Answer.Reason.NOT_UNDER_WAY)
+        return wish(run, wish)
+    }
+
+    /** What was stopped stays stopped, whatever is pressed while the board is being told. */
+    private fun wish(run: MissionRun, wish: Wish): Answer? {
+        if (run.isStopping) return Answer(Answer.Reason.OVER)
         run.wish = wish
         return null
+    }
+
+    /** The phone's charge, percent; null where it does not say. */
+    fun phoneCharge(percent: Int?) {
+        run?.phoneCharge(percent)
     }
 
     /** Ends the mission; it is over once the board has been told. */
@@ -240,6 +279,7 @@ internal class MissionControl(
             recovered?.trace?.points().orEmpty(),
             ReadingCounts(received = found?.readings ?: 0, taken = found?.readings ?: 0),
             recovered?.let { LogReport(it.name) },
+            probeSilence = null,
             DoubleArray(map.grid.size) { Double.NaN },
             now = 0.0,
         )

@@ -28,6 +28,9 @@ interface BoatCommands {
     /** Rests the motors, disarms, ends the mission and closes its log. The link stays. */
     fun stop()
 
+    /** Loads the mission whose log, cut off, is [name], with its map, unless one is under way. Others stay as they are. */
+    fun goOnWith(name: String)
+
     /** Forgets the mission that is loaded, unless it is under way; a recovered one's log is closed as it is. */
     fun newMission()
 
