@@ -6,6 +6,7 @@ import android.view.MotionEvent
 import android.view.View
 import android.widget.Button
 import android.widget.EditText
+import android.widget.TextView
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
@@ -20,6 +21,7 @@ import stillwater.app.screen.button
 import stillwater.app.screen.go
 import stillwater.app.screen.shown
 import stillwater.app.screen.view
+import stillwater.app.screen.views
 import stillwater.app.screen.wordsShown
 import stillwater.mission.DraftField
 import stillwater.mission.MissionDraft
@@ -309,7 +311,10 @@ class SetupTest {
     }
 
     private fun sayVolts() {
-        val field = activity.shown().filterIsInstance<EditText>().single { "Low is below" in it.contentDescription }
+        val field =
+            activity.shown().filterIsInstance<EditText>().single { edit ->
+                views(edit.parent as View).any { it is TextView && "Low is below" in it.text }
+            }
         field.setText("13.2")
         window.settle()
     }
