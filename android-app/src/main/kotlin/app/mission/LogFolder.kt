@@ -25,7 +25,7 @@ internal class LogFolder(
     room: (() -> Long)? = null,
 ) {
     private val folder by lazy(place)
-    private val room = room ?: { folder.usableSpace }
+    private val room = room ?: ::roomOnDisk
 
     /** A log for the mission [name], begun at [epochMillis], Unix time, ms; on the disk from its first flush on. */
     fun begin(name: String, epochMillis: Long): LogFile {
@@ -42,8 +42,9 @@ internal class LogFolder(
         files()
             .filter { it.name.endsWith(INCOMPLETE) }
             // A mission that was gone on with may have been begun before one that was not.
-            .sortedWith(compareByDescending<File> { it.lastModified() }.thenByDescending { it.name })
-            .firstNotNullOfOrNull(::read)
+            .map { it.lastModified() to it }
+            .sortedWith(compareByDescending<Pair<Long, File>> { it.first }.thenByDescending { it.second.name })
+            .firstNotNullOfOrNull { read(it.second) }
 
     /** What the incomplete log [name] tells; null where it is not there, or has no mission in it. */
     fun recover(name: String): RecoveredRun? = files().find { it.name == name && name.endsWith(INCOMPLETE) }?.let(::read)
@@ -60,7 +61,13 @@ internal class LogFolder(
             PastMission(it.name, it.length(), !it.name.endsWith(INCOMPLETE), it.lastModified())
         }
 
+    private fun roomOnDisk(): Long {
+        mayWait("the room on the disk")
+        return folder.usableSpace
+    }
+
     private fun read(file: File): RecoveredRun? {
+        mayWait("read a log")
         val trace = Trace()
         val track = Track()
         val recovery =
@@ -80,6 +87,7 @@ internal class LogFolder(
     }
 
     private fun open(file: File): LogOutput {
+        mayWait("make a log's folder")
         if (!folder.isDirectory && !folder.mkdirs()) throw NoFolder()
         return opener.open(file)
     }

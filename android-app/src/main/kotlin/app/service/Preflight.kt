@@ -8,6 +8,7 @@ import android.os.Build
 import android.os.PowerManager
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
+import stillwater.app.mayWait
 import stillwater.app.pose.PoseProblem
 import stillwater.control.FixCheck
 
@@ -151,7 +152,11 @@ internal class Preflight(private val context: Context) {
                 ?.takeIf { it in 0..FULL_PERCENT }
 
     /** Room for a log, bytes. */
-    val storage: Long get() = context.filesDir.usableSpace
+    val storage: Long
+        get() {
+            mayWait("the room on the disk")
+            return context.filesDir.usableSpace
+        }
 
     /** All checks, in their order. */
     fun look(boat: BoatAtRest): List<PreflightItem> =
