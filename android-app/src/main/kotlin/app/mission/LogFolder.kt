@@ -49,12 +49,6 @@ internal class LogFolder(
     /** What the incomplete log [name] tells; null where it is not there, or has no mission in it. */
     fun recover(name: String): RecoveredRun? = files().find { it.name == name && name.endsWith(INCOMPLETE) }?.let(::read)
 
-    /** Gives the incomplete log [name] the name of a complete one: nobody goes on with it. */
-    fun complete(name: String) {
-        mayWait("rename a log")
-        File(folder, name).renameTo(File(folder, name.removeSuffix(INCOMPLETE)))
-    }
-
     /** All logs, newest first. */
     fun past(): List<PastMission> =
         files().sortedByDescending { it.name }.map {

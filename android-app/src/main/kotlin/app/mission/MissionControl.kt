@@ -83,21 +83,27 @@ internal class MissionControl(
             } catch (error: IllegalArgumentException) {
                 return Answer(Answer.Reason.NOT_A_MISSION, error.message)
             }
-        forget()
+        recovered = null
         spec = read
         keeper.mission = json
         last = null
         return null
     }
 
-    /** Has what a process left behind: an incomplete log's mission, else the loaded one. [then] comes after. */
+    /**
+     * Has what a process left behind: the mission of the log that was cut off last, unless another was loaded after that.
+     * [then] comes after.
+     */
     fun recover(then: () -> Unit) {
         disk.run {
             val found = folder.recover()
             val all = folder.past()
             disk.answer {
                 past = all
-                if (spec == null) takeUp(found)
+                if (spec == null) {
+                    val kept = kept()
+                    if (found != null && (kept == null || kept == found.mission.spec)) takeUp(found) else spec = kept
+                }
                 then()
             }
         }
@@ -119,21 +125,21 @@ internal class MissionControl(
                         found == null -> Answer(Answer.Reason.NOT_READABLE)
                         else -> null
                     }
-                if (answer == null) takeUp(found)
+                if (found != null && answer == null) takeUp(found)
                 then(answer)
             }
         }
         return null
     }
 
-    private fun takeUp(found: RecoveredRun?) {
-        if (found != null) {
-            recovered = found
-            spec = found.mission.spec
-            last = null
-            return
-        }
-        spec = keeper.mission?.let {
+    private fun takeUp(found: RecoveredRun) {
+        recovered = found
+        spec = found.mission.spec
+        last = null
+    }
+
+    private fun kept(): MissionSpec? =
+        keeper.mission?.let {
             try {
                 MissionSpec.fromJson(it)
             } catch (_: IllegalArgumentException) {
@@ -141,7 +147,6 @@ internal class MissionControl(
                 null
             }
         }
-    }
 
     /** Starts the mission with [boat], with [wish], where [isReady]; tells one that was started of [wish]. */
     fun begin(boat: BoatAtHand?, isReady: Boolean, wish: Wish): Answer? {
@@ -154,6 +159,8 @@ internal class MissionControl(
         val now = epochMillis()
         val name = if (boat.isVirtual) VIRTUAL + spec.name else spec.name
         val log = recovered?.let { folder.goOn(it.name) } ?: folder.begin(name, now)
+        // After the process died it is this one that comes back, whichever was loaded before.
+        keeper.mission = spec.toJson()
         run = MissionRun(spec, boat, log, recovered, now).also {
             it.wish = wish
             it.start()
@@ -195,10 +202,10 @@ internal class MissionControl(
         run?.stop()
     }
 
-    /** Forgets the mission that is loaded. */
+    /** Forgets the mission that is loaded; one that was cut off can still be gone on with. */
     fun clear(): Answer? {
         if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
-        forget()
+        recovered = null
         spec = null
         last = null
         keeper.mission = null
@@ -283,13 +290,6 @@ internal class MissionControl(
             DoubleArray(map.grid.size) { Double.NaN },
             now = 0.0,
         )
-    }
-
-    /** Closes the log of a mission that nobody will go on with. */
-    private fun forget() {
-        val name = recovered?.name ?: return
-        recovered = null
-        disk.run { folder.complete(name) }
     }
 
     /** Again and again, where the disk takes nothing: what was measured is not given up while there is hope. */

@@ -31,7 +31,7 @@ interface BoatCommands {
     /** Loads the mission whose log, cut off, is [name], with its map, unless one is under way. Others stay as they are. */
     fun goOnWith(name: String)
 
-    /** Forgets the mission that is loaded, unless it is under way; a recovered one's log is closed as it is. */
+    /** Forgets the mission that is loaded, unless it is under way; one that was cut off can still be gone on with. */
     fun newMission()
 
     /** Looks for past missions on the disk. */

@@ -148,6 +148,29 @@ class ProcessDeathTest {
         assertEquals(listOf(first.name, second.name).sorted(), pond.logs().map { it.name })
     }
 
+    /** "Another mission" is beside the controls, and gloves are wet: what was cut off can be gone on with all the same. */
+    @Test
+    fun whatWasCutOffIsNotClosedByLoadingAnother() {
+        survey()
+        desk.pass(5.0)
+        val file = dieAndComeBack()
+        desk.ask { newMission() }
+        desk.pass(1.0)
+        assertEquals(null, desk.snapshot.mission)
+        assertEquals(listOf(file.name), desk.snapshot.cutOff.map { it.name })
+        desk.ask { load(ServiceDesk.POND.replace("\"pond\"", "\"bay\"")) }
+        desk.end()
+        desk.start(intent = null)
+        desk.pass(1.0)
+        assertEquals("bay", desk.report.spec.name, "what was loaded last stays so")
+        desk.service.goOnWith(file.name)
+        desk.settle()
+        desk.pass(1.0)
+        sameMap(read(file))
+        pond.green()
+        survey()
+    }
+
     @Test
     fun whatARealBoatBeganTheDemoDoesNotGoOnWith() {
         survey()
