@@ -37,11 +37,13 @@ class WaitingCallsTest {
         for ((method, code) in codes) {
             for (call in code.calls) for (target in targets(call)) callers.getOrPut(target, ::HashSet) += method
         }
-        val unsaid = waiting.filter { isReachedUnsaid(it, callers) }.map { "${it.owner.substringAfterLast('/')}.${it.name}" }
+        val unsaid = waiting.filter { isReachedUnsaid(it, callers) }.map { "${it.owner}.${it.name}" }
         assertEquals(emptyList(), unsaid.sorted(), "these wait, and there is a way to them on which nobody has said so")
     }
 
-    /** Whether a way leads to [method], from where Android or a thread comes in, on which nobody says that it may wait. */
+    /**
+     * Whether a way leads to [method], from where Android or a thread comes in, on which nobody says that it may wait.
+     */
     private fun isReachedUnsaid(method: Call, callers: Map<Call, Set<Call>>): Boolean {
         if (says(method)) return false
         val seen = hashSetOf(method)
@@ -56,7 +58,8 @@ class WaitingCallsTest {
     }
 
     /** It says so, or calls one that does. */
-    private fun says(method: Call) = saysItself(method) || codes.getValue(method).calls.any { it in codes && saysItself(it) }
+    private fun says(method: Call) =
+        saysItself(method) || codes.getValue(method).calls.any { it in codes && saysItself(it) }
 
     private fun saysItself(method: Call) = codes.getValue(method).calls.any { it.name == "mayWait" }
 
@@ -66,7 +69,7 @@ class WaitingCallsTest {
             call in codes && call.name == "<init>" -> listOf(call)
             // What Android and Kotlin call by their own interfaces begins a way.
             !call.owner.startsWith(OURS) -> emptyList()
-            else -> codes.keys.filter { it.name == call.name && (it.owner == call.owner || call.owner in allSupers(it.owner)) }
+            else -> codes.keys.filter { it.name == call.name && call.owner in allSupers(it.owner) + it.owner }
         }
 
     private fun allSupers(owner: String): Set<String> =
@@ -106,7 +109,10 @@ class WaitingCallsTest {
         const val WAITING_AT_LEAST = 10
         const val OURS = "stillwater/app/"
 
-        /** Classes of Java, Kotlin, Android and the USB library, and which of their functions may wait; all, where none is named. */
+        /**
+         * Classes of Java, Kotlin, Android and the USB library, and which of their functions may wait; all, where none
+         * is named.
+         */
         val WAITING =
             mapOf(
                 "java/io/RandomAccessFile" to emptySet(),
@@ -118,7 +124,8 @@ class WaitingCallsTest {
                         "listFiles", "list", "exists", "isFile", "isDirectory", "mkdir", "mkdirs", "renameTo", "delete",
                         "length", "lastModified", "getUsableSpace", "createNewFile", "setLastModified",
                     ),
-                "kotlin/io/FilesKt" to setOf("readText", "writeText", "readBytes", "writeBytes", "forEachLine", "readLines"),
+                "kotlin/io/FilesKt" to
+                    setOf("readText", "writeText", "readBytes", "writeBytes", "forEachLine", "readLines"),
                 "kotlin/io/FilesKt__FileReadWriteKt" to emptySet(),
                 "java/io/InputStream" to setOf("read"),
                 "java/io/OutputStream" to setOf("write", "flush"),

@@ -18,7 +18,8 @@ public object PhoneTurn {
     public fun compassDeg(heading: Double): Double = (QUARTER - Math.toDegrees(heading)).mod(FULL)
 
     /**
-     * Rate of turn about the upright axis, rad/s, counter-clockwise seen from above: the rotation's last row points up in
+     * Rate of turn about the upright axis, rad/s, counter-clockwise seen from above: the rotation's last row points up
+     * in
      * the phone's axes, and ψ' = u · ω.
      *
      * @param rotation from the phone's axes to east, north and up, row-major 3 × 3, as Android has it. Not modified.

@@ -168,7 +168,9 @@ public class Mission(
         logLost = true
     }
 
-    /** The phone that steers says its charge, [percent], NaN where it does not know: when that is low, the policy says. */
+    /**
+     * The phone that steers says its charge, [percent], NaN where it does not know: when that is low, the policy says.
+     */
     public fun phoneCharge(percent: Double) {
         // Told as often as the phone likes, written down when it changes.
         if (percent.equals(phonePercent)) return

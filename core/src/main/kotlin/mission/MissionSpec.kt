@@ -270,9 +270,11 @@ public enum class FailsafeSpec(internal val failsafe: Failsafe) {
  * What to do where the mission can't go on. A lost link or place always rests the motors.
  *
  * @property battery when the boat's battery is low, or the phone's.
- * @property lowestVolts below which the boat's is, V; 0 where none is measured; null where the mission does not say, which
+ * @property lowestVolts below which the boat's is, V; 0 where none is measured; null where the mission does not say,
+ *   which
  *   watches none either.
- * @property lowestPhonePercent below which the phone's is, percent; 0 where it is not to be watched. The default is where
+ * @property lowestPhonePercent below which the phone's is, percent; 0 where it is not to be watched. The default is
+ *   where
  *   Android itself begins to warn (`config_lowBatteryWarningLevel`).
  * @property fence when the boat is beyond the shore line.
  * @property end when the mission has nothing left to do, or can no longer be written down.

@@ -43,7 +43,8 @@ class SafetyGateTest {
 
     @Test
     fun everyDangerIsNamedAndTheBlindOnesRestTheMotorsWhateverThePolicy() {
-        val home = SafetySettings(lowestVolts = 11.0, lowFor = 0.0, lowestPhonePercent = 15.0, answers = Danger.entries.associateWith { Failsafe.RETURN_HOME })
+        val answers = Danger.entries.associateWith { Failsafe.RETURN_HOME }
+        val home = SafetySettings(lowestVolts = 11.0, lowFor = 0.0, lowestPhonePercent = 15.0, answers = answers)
         val blind = mapOf<Danger, Situation.() -> Unit>(
             Danger.LINK_LOST to { linkAge = 0.6 },
             Danger.FIX_STALE to { fixAge = 3.5 },

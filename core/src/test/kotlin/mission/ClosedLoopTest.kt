@@ -205,13 +205,11 @@ class ClosedLoopTest {
 
     @Test
     fun aProbeThatFallsSilentUnderWayIsTold() {
-        val desk = Desk(MissionSpec.fromJson(Desk.SMALL.replace("self-calibrating", "averaging")), 363)
+        val plain = Desk.SMALL.replace("self-calibrating", "averaging")
+        val desk = Desk(MissionSpec.fromJson(plain), 363)
         desk.begin()
         assertFalse(desk.until(40.0) { desk.mission.isProbeSilent })
-        val deaf = Desk(
-            MissionSpec.fromJson(Desk.SMALL.replace("self-calibrating", "averaging").replace("\"port\":1", "\"port\":3")),
-            363,
-        )
+        val deaf = Desk(MissionSpec.fromJson(plain.replace("\"port\":1", "\"port\":3")), 363)
         assertFalse(deaf.until(20.0) { deaf.mission.isProbeSilent }, "nobody waits for it before the start")
         deaf.begin()
         assertTrue(deaf.until(40.0) { deaf.mission.isProbeSilent })

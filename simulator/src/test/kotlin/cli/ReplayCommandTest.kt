@@ -123,7 +123,8 @@ class ReplayCommandTest {
         }
         assertTrue(states.containsAll(listOf("surveying", "holding", "returning")), "$states")
         assertEquals(1, lines.count { "\"log-lost\"" in it })
-        assertEquals(listOf("[14.0]", "[null]"), lines.mapNotNull { Regex("\"phone\":(.*?])").find(it)?.groupValues?.get(1) })
+        val charges = lines.mapNotNull { Regex("\"phone\":(.*?])").find(it)?.groupValues?.get(1) }
+        assertEquals(listOf("[14.0]", "[null]"), charges)
         val summary = replay(write("log.txt", lines), "out")
         assertSameMap(mission, directory.resolve("out/cells.csv"))
         assertEquals(lines, directory.resolve("out/mission.txt").readLines())

@@ -105,7 +105,9 @@ class ApkTest {
         assertTrue(diagnosis.isEmpty(), "$diagnosis")
     }
 
-    /** The packager looks at the class files; here, that the dex itself names nothing that neither it nor Android has. */
+    /**
+     * The packager looks at the class files; here, that the dex itself names nothing that neither it nor Android has.
+     */
     @Test
     fun nothingInItLeadsToAClassThatIsNowhere() {
         val dexes = dexes()

@@ -76,10 +76,13 @@ class PackagerTest {
         return process.waitFor() to said
     }
 
-    /** The jar of an artifact in the repository that the tests' own libraries are in; the newest, as the build has one. */
+    /**
+     * The jar of an artifact in the repository that the tests' own libraries are in; the newest, as the build has one.
+     */
     private fun library(artifact: String): File {
-        val kotlin = File(KotlinVersion::class.java.protectionDomain.codeSource.location.toURI()).invariantSeparatorsPath
-        val folder = File(kotlin.substringBefore("/org/jetbrains/kotlin/"), artifact)
+        val kotlin = KotlinVersion::class.java.protectionDomain.codeSource.location
+        val path = File(kotlin.toURI()).invariantSeparatorsPath
+        val folder = File(path.substringBefore("/org/jetbrains/kotlin/"), artifact)
         val jars = folder.walk().filter { it.extension == "jar" && "sources" !in it.name && "javadoc" !in it.name }
         return Built.existing(jars.maxByOrNull { it.parentFile.name } ?: folder.resolve("jar"), "`mvn package`")
     }

@@ -47,7 +47,8 @@ internal class LogFolder(
             .firstNotNullOfOrNull { read(it.second) }
 
     /** What the incomplete log [name] tells; null where it is not there, or has no mission in it. */
-    fun recover(name: String): RecoveredRun? = files().find { it.name == name && name.endsWith(INCOMPLETE) }?.let(::read)
+    fun recover(name: String): RecoveredRun? =
+        files().find { it.name == name && name.endsWith(INCOMPLETE) }?.let(::read)
 
     /** All logs, newest first. */
     fun past(): List<PastMission> =

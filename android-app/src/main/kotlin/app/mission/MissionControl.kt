@@ -65,7 +65,9 @@ internal class MissionControl(
     /** Whether a mission was started and is not over: stepped, and its board maybe armed. */
     val isUnderWay: Boolean get() = run != null
 
-    /** Below which voltage the boat's battery is low, V; 0 where nobody watches it; null where the mission does not say. */
+    /**
+     * Below which voltage the boat's battery is low, V; 0 where nobody watches it; null where the mission does not say.
+     */
     val lowestVolts: Double?
         get() =
             // What was begun before missions had to say so can be brought to its end.
@@ -91,7 +93,8 @@ internal class MissionControl(
     }
 
     /**
-     * Has what a process left behind: the mission of the log that was cut off last, unless another was loaded after that.
+     * Has what a process left behind: the mission of the log that was cut off last, unless another was loaded after
+     * that.
      * [then] comes after.
      */
     fun recover(then: () -> Unit) {
@@ -110,7 +113,8 @@ internal class MissionControl(
     }
 
     /**
-     * Loads the mission whose log, cut off, is [name], to go on with; the one that is loaded stays on the disk as it is.
+     * Loads the mission whose log, cut off, is [name], to go on with; the one that is loaded stays on the disk as it
+     * is.
      * [then] hears why not, or null.
      */
     fun goOnWith(name: String, then: (Answer?) -> Unit): Answer? {

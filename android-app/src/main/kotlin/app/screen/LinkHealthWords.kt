@@ -76,7 +76,9 @@ internal class LinkHealthWords(private val context: Context) {
             },
             HealthLine(text(R.string.fix_counts, fixes.received, fixes.jumps, fixes.wide, fixes.refused))
                 .takeIf { fixes.received > 0 },
-            snapshot.phoneBatteryPercent?.let { HealthLine(text(R.string.phone_battery, it), isBad = isLow(it, snapshot)) },
+            snapshot.phoneBatteryPercent?.let {
+                HealthLine(text(R.string.phone_battery, it), isBad = isLow(it, snapshot))
+            },
             HealthLine(text(R.string.gaps, gaps.count, gaps.longestSeconds), isBad = true).takeIf { gaps.count > 0 },
         )
     }

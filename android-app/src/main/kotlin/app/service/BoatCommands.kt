@@ -28,7 +28,9 @@ interface BoatCommands {
     /** Rests the motors, disarms, ends the mission and closes its log. The link stays. */
     fun stop()
 
-    /** Loads the mission whose log, cut off, is [name], with its map, unless one is under way. Others stay as they are. */
+    /**
+     * Loads the mission whose log, cut off, is [name], with its map, unless one is under way. Others stay as they are.
+     */
     fun goOnWith(name: String)
 
     /** Forgets the mission that is loaded, unless it is under way; one that was cut off can still be gone on with. */

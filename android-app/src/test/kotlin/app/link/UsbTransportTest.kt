@@ -128,7 +128,9 @@ class UsbTransportTest {
         link.close()
     }
 
-    /** A driver that waits on although its adapter is gone: the next command finds it out, and closing ends the wait. */
+    /**
+     * A driver that waits on although its adapter is gone: the next command finds it out, and closing ends the wait.
+     */
     @Test
     fun aReadThatAnUnpluggedAdapterLeavesHangingIsEndedByTheNextCommand() {
         val port = plugIn(granted = true).port

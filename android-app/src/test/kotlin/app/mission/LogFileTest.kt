@@ -154,6 +154,7 @@ class LogFileTest {
         assertEquals(null, folder.recover(name))
         assertTrue(folder.goOn(name).close())
         assertEquals(listOf(true), folder.past().map { it.isComplete })
-        assertEquals(null, folder.recover(name.removeSuffix(LogFolder.INCOMPLETE)), "what is complete is not gone on with")
+        val complete = name.removeSuffix(LogFolder.INCOMPLETE)
+        assertEquals(null, folder.recover(complete), "what is complete is not gone on with")
     }
 }

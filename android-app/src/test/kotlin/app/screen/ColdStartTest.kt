@@ -40,7 +40,8 @@ import kotlin.test.assertTrue
  * From nothing to the live map, after the process died in the middle of a mission: the service, the window, the log of
  * half an hour read back, the map drawn. No disk and no link on the main thread meanwhile.
  *
- * What the main thread does for it does not grow with the log. How long it takes is written to `target/cold-start.txt` beside what an empty window takes on the same machine, and
+ * What the main thread does for it does not grow with the log. How long it takes is written to `target/cold-start.txt`
+ * beside what an empty window takes on the same machine, and
  * judged by whoever reads it: a busy machine proves nothing.
  */
 @RunWith(RobolectricTestRunner::class)
@@ -69,7 +70,8 @@ class ColdStartTest {
     }
 
     /**
-     * Bytes that the main thread allocates stand for the work that it does, and are the same on any machine: of a log three
+     * Bytes that the main thread allocates stand for the work that it does, and are the same on any machine: of a log
+     * three
      * times as long it does no more. The trace and the track of both are as long as they get.
      */
     @Test

@@ -148,7 +148,9 @@ class ProcessDeathTest {
         assertEquals(listOf(first.name, second.name).sorted(), pond.logs().map { it.name })
     }
 
-    /** "Another mission" is beside the controls, and gloves are wet: what was cut off can be gone on with all the same. */
+    /**
+     * "Another mission" is beside the controls, and gloves are wet: what was cut off can be gone on with all the same.
+     */
     @Test
     fun whatWasCutOffIsNotClosedByLoadingAnother() {
         survey()

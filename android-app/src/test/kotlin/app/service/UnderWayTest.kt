@@ -14,6 +14,7 @@ import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.Shadows.shadowOf
 import org.robolectric.annotation.Config
+import org.robolectric.shadows.ShadowNotification
 import org.robolectric.shadows.ShadowPowerManager
 import org.robolectric.shadows.ShadowSystemClock
 import stillwater.app.screen.MainActivity
@@ -57,7 +58,8 @@ class UnderWayTest {
     fun aBoatWhoseBatteryIsLowComesHome() {
         pond.survey()
         desk.boat.board.volts = 13.0
-        assertTrue(desk.until(20.0) { it.mission?.state == MissionState.Returning(Danger.BATTERY_LOW) }, "${desk.state}")
+        val low = MissionState.Returning(Danger.BATTERY_LOW)
+        assertTrue(desk.until(20.0) { it.mission?.state == low }, "${desk.state}")
     }
 
     @Test
@@ -116,7 +118,8 @@ class UnderWayTest {
         ShadowSystemClock.simulateDeepSleep(Duration.ofSeconds(4))
         repeat(40) { desk.boat.advance(0.1) }
         assertTrue(desk.boat.board.actuation.isAtRest, "nobody has spoken to it")
-        assertTrue(desk.until(30.0) { it.gaps.count == 1L && it.mission?.state == MissionState.Surveying }, "${desk.state}")
+        val isOn = desk.until(30.0) { it.gaps.count == 1L && it.mission?.state == MissionState.Surveying }
+        assertTrue(isOn, "${desk.state}")
     }
 
     @Test
@@ -188,8 +191,10 @@ class UnderWayTest {
         shadowOf(assertNotNull(context.getSystemService(BatteryManager::class.java)))
             .setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, percent)
 
-    private fun shown() =
-        shadowOf(shadowOf(context.getSystemService(NotificationManager::class.java)!!).getNotification(BoatNotification.ID))
+    private fun shown(): ShadowNotification {
+        val manager = shadowOf(assertNotNull(context.getSystemService(NotificationManager::class.java)))
+        return shadowOf(manager.getNotification(BoatNotification.ID))
+    }
 
     private fun title() = shown().contentTitle
 
