@@ -8,12 +8,10 @@ import kotlin.math.max
 
 /**
  * What a receiver's fixes are worth by themselves: how wide, and whether one lies farther from the one before than a
- * boat
- * goes. For counts and screens; what a mission makes of its fixes is [TrackEstimator]'s.
+ * boat goes. For counts and screens; what a mission makes of its fixes is [TrackEstimator]'s.
  *
  * A jump: d > 3 (a + b) + v t, d the way between two fixes, a and b their accuracies, v the fastest boat's speed, t
- * the time
- * between them. Two that jumped, but lie near each other, are where the boat is now. Confined to one thread.
+ * the time between them. Two that jumped, but lie near each other, are where the boat is now. Confined to one thread.
  */
 public class FixCheck {
     private var trusted: Fix? = null

@@ -19,8 +19,7 @@ public object PhoneTurn {
 
     /**
      * Rate of turn about the upright axis, rad/s, counter-clockwise seen from above: the rotation's last row points up
-     * in
-     * the phone's axes, and ψ' = u · ω.
+     * in the phone's axes, and ψ' = u · ω.
      *
      * @param rotation from the phone's axes to east, north and up, row-major 3 × 3, as Android has it. Not modified.
      * @param rates about the phone's own axes, rad/s, length 3 at least. Not modified.

@@ -8,8 +8,7 @@ import android.os.Build
  * with the location permission "while in use" they are its only as long as somebody began it from a window.
  *
  * Up to Android 10 the foreground with its type `location` is enough. From 11 to 13 the service is let into the
- * foreground,
- * nothing is said, and no position ever comes. From 14 on it is refused by an exception.
+ * foreground, nothing is said, and no position ever comes. From 14 on it is refused by an exception.
  *
  * Source: Android's documentation, "Restrictions on starting a foreground service from the background"; AOSP change
  * c83a949722d0, which says when it is looked at: when the service is started or bound.

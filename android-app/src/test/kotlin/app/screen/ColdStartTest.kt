@@ -71,8 +71,7 @@ class ColdStartTest {
 
     /**
      * Bytes that the main thread allocates stand for the work that it does, and are the same on any machine: of a log
-     * three
-     * times as long it does no more. The trace and the track of both are as long as they get.
+     * three times as long it does no more. The trace and the track of both are as long as they get.
      */
     @Test
     fun whatTheMainThreadDoesDoesNotGrowWithTheLog() {

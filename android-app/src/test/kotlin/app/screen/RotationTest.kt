@@ -7,7 +7,6 @@ import android.widget.Button
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
-import org.robolectric.Shadows.shadowOf
 import org.robolectric.annotation.Config
 import stillwater.app.R
 import stillwater.app.service.Preflight

@@ -23,9 +23,8 @@ import kotlin.test.assertTrue
 
 /**
  * Android starts the service again in the background after the process died, lets it into the foreground and keeps
- * positions
- * back without a word, as Androids 11 to 13 do. Robolectric keeps nothing back by itself: the receiver's silence is
- * the test's.
+ * positions back without a word, as Androids 11 to 13 do. Robolectric keeps nothing back by itself: the receiver's
+ * silence is the test's.
  */
 @RunWith(RobolectricTestRunner::class)
 @Config(sdk = [34])
