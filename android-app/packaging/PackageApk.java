@@ -5,7 +5,9 @@ import com.android.tools.r8.D8;
 import com.android.tools.r8.D8Command;
 import com.android.tools.r8.JdkClassFileProvider;
 import com.android.tools.r8.OutputMode;
+import java.io.ByteArrayInputStream;
 import java.io.ByteArrayOutputStream;
+import java.io.DataInputStream;
 import java.io.File;
 import java.io.IOException;
 import java.io.InputStream;
@@ -19,6 +21,7 @@ import java.util.Arrays;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 import java.util.stream.Stream;
 import java.util.zip.CRC32;
@@ -29,7 +32,8 @@ import java.util.zip.ZipOutputStream;
 /**
  * Puts an APK together: the classes as dex, the resources of aapt2, and whatever else the jars hold for the run time
  * (META-INF/services and resources); aligned and signed with the schemes v2 and v3. The result is verified before it
- * gets its name, and the same input gives the same bytes with the same key.
+ * gets its name, and the same input gives the same bytes with the same key. Of the class path only what the app's own
+ * classes lead to gets in; what they lead to and is nowhere fails the build ({@link Reachable}).
  *
  * <p>Run from its source, `java -cp (D8 and apksig) PackageApk.java`, by android-app/pom.xml.
  *
@@ -48,7 +52,7 @@ final class PackageApk {
             + "|.*\\.(class|kotlin_builtins|kotlin_metadata|knm)|[A-Za-z]+Main/default/.*"
             + "|(.*/)?module-info.*|.*/");
 
-    private static final String SERVICES = "META-INF/services/";
+    static final String SERVICES = "META-INF/services/";
 
     public static void main(String[] arguments) throws Exception {
         Path resources = Path.of(arguments[0]);
@@ -61,12 +65,16 @@ final class PackageApk {
 
         Path work = Files.createTempDirectory(apk.toAbsolutePath().getParent(), "apk");
         try {
-            dex(program, androidJar, minimumApi, work);
+            Map<String, byte[]> javaResources = javaResources(program);
+            Path classes = work.resolve("classes");
+            new Reachable(program, androidJar, javaResources).copyTo(classes);
+            dex(classes, androidJar, minimumApi, work);
             Path unsigned = work.resolve("unsigned.apk");
-            write(resources, work, javaResources(program), unsigned);
+            write(resources, work, javaResources, unsigned);
             Path signed = work.resolve("signed.apk");
             sign(unsigned, signed, minimumApi, keyStore);
             verify(signed, minimumApi);
+            compare(signed, javaResources);
             Files.move(signed, apk, java.nio.file.StandardCopyOption.REPLACE_EXISTING);
         } finally {
             try (Stream<Path> left = Files.walk(work)) {
@@ -76,16 +84,10 @@ final class PackageApk {
         System.out.println(apk + ": " + Files.size(apk) + " bytes");
     }
 
-    private static void dex(List<Path> program, Path androidJar, int minimumApi, Path output) throws Exception {
-        List<Path> classes = new ArrayList<>();
-        for (Path entry : program) {
-            if (Files.isDirectory(entry)) {
-                try (Stream<Path> files = Files.walk(entry)) {
-                    files.filter(file -> file.toString().endsWith(".class")).sorted().forEach(classes::add);
-                }
-            } else {
-                classes.add(entry);
-            }
+    private static void dex(Path classFiles, Path androidJar, int minimumApi, Path output) throws Exception {
+        List<Path> classes;
+        try (Stream<Path> files = Files.walk(classFiles)) {
+            classes = files.filter(Files::isRegularFile).sorted().toList();
         }
         D8.run(
             D8Command.builder()
@@ -168,7 +170,7 @@ final class PackageApk {
         zip.closeEntry();
     }
 
-    private static byte[] bytes(ZipFile zip, ZipEntry entry) throws IOException {
+    static byte[] bytes(ZipFile zip, ZipEntry entry) throws IOException {
         try (InputStream content = zip.getInputStream(entry)) {
             return content.readAllBytes();
         }
@@ -210,5 +212,127 @@ final class PackageApk {
             new ApkVerifier.Builder(apk.toFile()).setMinCheckedPlatformVersion(minimumApi).build().verify();
         boolean good = result.isVerified() && result.isVerifiedUsingV2Scheme() && result.isVerifiedUsingV3Scheme();
         if (!good) throw new IOException("the APK does not verify: " + result.getAllErrors());
+    }
+
+    /** All that the jars hold for the run time has reached the APK. */
+    private static void compare(Path apk, Map<String, byte[]> javaResources) throws IOException {
+        try (ZipFile zip = new ZipFile(apk.toFile())) {
+            for (Map.Entry<String, byte[]> file : javaResources.entrySet()) {
+                ZipEntry entry = zip.getEntry(file.getKey());
+                boolean same = entry != null && Arrays.equals(bytes(zip, entry), file.getValue());
+                if (!same) throw new IOException(file.getKey() + " has not reached the APK");
+            }
+        }
+    }
+}
+
+/**
+ * The classes that the app's own lead to, class by class: all of the first entry of the class path, what the service lists
+ * name, and from there what a class file names, be it as a class, in a signature or in a text, for a text may be looked up by
+ * its name at run time. Nothing is taken out of a class.
+ */
+final class Reachable {
+    private static final Pattern IN_SIGNATURE = Pattern.compile("L([\\w/$]+)[;<]");
+
+    /** The real USB library is in Gradle's build only: the app looks whether it is there before it calls it. */
+    private static final String USB = "com/hoho/android/usbserial/";
+    private final Map<String, byte[]> all = new TreeMap<>();
+    private final Map<String, byte[]> kept = new TreeMap<>();
+    private final Map<String, String> missing = new TreeMap<>();
+    private final Path androidJar;
+
+    Reachable(List<Path> program, Path androidJar, Map<String, byte[]> javaResources) throws IOException {
+        this.androidJar = androidJar;
+        List<String> next = new ArrayList<>();
+        for (Path entry : program) {
+            Map<String, byte[]> found = classes(entry);
+            if (all.isEmpty()) next.addAll(found.keySet());
+            found.forEach(all::putIfAbsent);
+        }
+        for (Map.Entry<String, byte[]> file : javaResources.entrySet()) {
+            if (!file.getKey().startsWith(PackageApk.SERVICES)) continue;
+            for (String line : new String(file.getValue()).split("\\R")) next.add(line.replaceAll("#.*", "").trim().replace('.', '/'));
+        }
+        while (!next.isEmpty()) {
+            String name = next.remove(next.size() - 1);
+            byte[] bytes = all.get(name);
+            if (bytes != null && kept.putIfAbsent(name, bytes) == null) follow(name, bytes, next);
+        }
+    }
+
+    /** Writes them below [folder]; fails where one of them names a class that neither the program nor Android has. */
+    void copyTo(Path folder) throws IOException {
+        try (ZipFile android = new ZipFile(androidJar.toFile())) {
+            missing.keySet().removeIf(name -> name.startsWith(USB) || android.getEntry(name + ".class") != null || isJavas(name));
+        }
+        if (!missing.isEmpty()) throw new IOException("classes that are nowhere, and who names them: " + missing);
+        for (Map.Entry<String, byte[]> file : kept.entrySet()) {
+            Path path = folder.resolve(file.getKey() + ".class");
+            Files.createDirectories(path.getParent());
+            Files.write(path, file.getValue());
+        }
+        System.out.println(kept.size() + " of " + all.size() + " classes are reached");
+    }
+
+    private static boolean isJavas(String name) {
+        return ClassLoader.getPlatformClassLoader().getResource(name + ".class") != null;
+    }
+
+    private static Map<String, byte[]> classes(Path entry) throws IOException {
+        Map<String, byte[]> found = new TreeMap<>();
+        if (Files.isDirectory(entry)) {
+            try (Stream<Path> files = Files.walk(entry)) {
+                for (Path file : files.filter(path -> path.toString().endsWith(".class")).toList()) {
+                    put(found, entry.relativize(file).toString().replace(File.separatorChar, '/'), Files.readAllBytes(file));
+                }
+            }
+        } else {
+            try (ZipFile jar = new ZipFile(entry.toFile())) {
+                for (ZipEntry file : (Iterable<ZipEntry>) jar.stream().map(ZipEntry.class::cast)::iterator) {
+                    put(found, file.getName(), PackageApk.bytes(jar, file));
+                }
+            }
+        }
+        return found;
+    }
+
+    private static void put(Map<String, byte[]> found, String name, byte[] bytes) {
+        boolean isClass = name.endsWith(".class") && !name.startsWith("META-INF/") && !name.endsWith("module-info.class");
+        if (isClass) found.put(name.substring(0, name.length() - ".class".length()), bytes);
+    }
+
+    /** Source: The Java Virtual Machine Specification 17, section 4.4, the constant pool. */
+    private void follow(String name, byte[] bytes, List<String> next) throws IOException {
+        DataInputStream in = new DataInputStream(new ByteArrayInputStream(bytes));
+        in.skipNBytes(8);
+        int count = in.readUnsignedShort();
+        String[] texts = new String[count];
+        List<Integer> named = new ArrayList<>();
+        for (int index = 1; index < count; index++) {
+            int tag = in.readUnsignedByte();
+            switch (tag) {
+                case 1 -> texts[index] = in.readUTF();
+                case 7 -> named.add(in.readUnsignedShort());
+                case 8, 16, 19, 20 -> in.skipNBytes(2);
+                case 15 -> in.skipNBytes(3);
+                case 3, 4, 9, 10, 11, 12, 17, 18 -> in.skipNBytes(4);
+                case 5, 6 -> {
+                    in.skipNBytes(8);
+                    index++;
+                }
+                default -> throw new IOException(name + ": a constant of kind " + tag);
+            }
+        }
+        for (int index : named) {
+            String type = texts[index].startsWith("[") ? texts[index].replaceAll("^\\[+L?|;$", "") : texts[index];
+            boolean isPrimitive = texts[index].startsWith("[") && !texts[index].endsWith(";");
+            if (!isPrimitive && !all.containsKey(type)) missing.putIfAbsent(type, name);
+        }
+        for (String text : texts) {
+            if (text == null) continue;
+            next.add(text.replace('.', '/'));
+            Matcher matcher = IN_SIGNATURE.matcher(text);
+            while (matcher.find()) next.add(matcher.group(1));
+        }
     }
 }

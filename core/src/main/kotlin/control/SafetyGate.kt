@@ -39,8 +39,11 @@ public enum class Danger {
     /** The boat is beyond the fence. */
     FENCE,
 
-    /** The battery was low for too long. */
+    /** The boat's battery was low for too long. */
     BATTERY_LOW,
+
+    /** The battery of the phone that steers was low for too long. */
+    PHONE_LOW,
 
     /** What is measured can no longer be written down. */
     LOG_LOST,
@@ -73,8 +76,9 @@ public enum class Danger {
  * @property stopTime time constant with which the boat loses its way, motors at rest, s, at least 0.
  * @property reaction time from a decision to its effect on the motors, s, at least 0.
  * @property deviations standard deviations of the position that are kept from the fence on top, at least 0.
- * @property lowestVolts below which the battery is low, V; 0 where none is measured.
- * @property lowFor the battery is low after so long below, s, at least 0: thrust makes the voltage sag.
+ * @property lowestVolts below which the boat's battery is low, V; 0 where none is measured.
+ * @property lowFor a battery is low after so long below, s, at least 0: thrust makes the voltage sag.
+ * @property lowestPhonePercent below which the phone's battery is low, percent; 0 where it is not watched.
  * @property answers what to do in each danger; what is not among them is [Failsafe.STOP].
  * @throws IllegalArgumentException if a number is out of its range.
  */
@@ -88,8 +92,10 @@ public data class SafetySettings(
     val deviations: Double = 3.0,
     val lowestVolts: Double = 0.0,
     val lowFor: Double = 10.0,
+    val lowestPhonePercent: Double = 0.0,
     val answers: Map<Danger, Failsafe> = mapOf(
         Danger.BATTERY_LOW to Failsafe.RETURN_HOME,
+        Danger.PHONE_LOW to Failsafe.RETURN_HOME,
         Danger.FENCE to Failsafe.RETURN_HOME,
         Danger.LOG_LOST to Failsafe.RETURN_HOME,
         Danger.OPERATOR_HOLD to Failsafe.HOLD,
@@ -111,6 +117,7 @@ public data class SafetySettings(
             "deviations" to deviations,
             "lowestVolts (V)" to lowestVolts,
             "lowFor (s)" to lowFor,
+            "lowestPhonePercent (%)" to lowestPhonePercent,
         )) {
             require(value >= 0 && value.isFinite()) { "$name ($value) must be at least 0 and finite" }
         }
@@ -153,8 +160,11 @@ public class Situation {
     /** Heading, rad, counter-clockwise from east. */
     public var heading: Double = Double.NaN
 
-    /** Battery, V; NaN where it has not been heard of. */
+    /** Boat's battery, V; NaN where it has not been heard of. */
     public var volts: Double = Double.NaN
+
+    /** Charge of the phone that steers, percent; NaN where it does not say. */
+    public var phonePercent: Double = Double.NaN
 
     /** Whether a person wants the boat to stop. */
     public var operatorStop: Boolean = false
@@ -199,8 +209,8 @@ public sealed interface Ruling {
  * @property fence what to stay within. Retained.
  */
 public class SafetyGate(public val settings: SafetySettings, public val fence: Fence) {
-    private var lowSince = Double.NaN
-    private var batteryLow = false
+    private val boatCharge = LowCharge(settings.lowestVolts, settings.lowFor)
+    private val phoneCharge = LowCharge(settings.lowestPhonePercent, settings.lowFor)
 
     /** Drives refused because they were not finite. */
     public var notFinite: Long = 0
@@ -208,7 +218,8 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
 
     /** What to do in [situation]. A low battery stays low. */
     public fun assess(situation: Situation): Ruling {
-        watchBattery(situation)
+        boatCharge.watch(situation.volts, situation.seconds)
+        phoneCharge.watch(situation.phonePercent, situation.seconds)
         val danger = danger(situation) ?: return Ruling.GoOn
         val wanted = settings.answers[danger] ?: Failsafe.STOP
         return Ruling.Fall(danger, if (isBlind(situation)) Failsafe.STOP else wanted)
@@ -245,15 +256,6 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
     public fun stoppingDistance(situation: Situation): Double = settings.deviations * situation.deviation +
         hypot(situation.velocityX, situation.velocityY) * (settings.reaction + settings.stopTime)
 
-    private fun watchBattery(situation: Situation) {
-        if (!(situation.volts < settings.lowestVolts)) {
-            lowSince = Double.NaN
-            return
-        }
-        if (lowSince.isNaN()) lowSince = situation.seconds
-        if (situation.seconds - lowSince >= settings.lowFor) batteryLow = true
-    }
-
     private fun danger(situation: Situation): Danger? = when {
         situation.operatorStop -> Danger.OPERATOR_STOP
         !(situation.linkAge <= settings.longestSilence) -> Danger.LINK_LOST
@@ -261,7 +263,8 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         situation.jumps > settings.mostJumps -> Danger.FIX_JUMPING
         situation.stranded -> Danger.STRANDED
         fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
-        batteryLow -> Danger.BATTERY_LOW
+        boatCharge.isLow -> Danger.BATTERY_LOW
+        phoneCharge.isLow -> Danger.PHONE_LOW
         situation.logLost -> Danger.LOG_LOST
         situation.operatorWish != null -> situation.operatorWish
         situation.missionEnded -> Danger.MISSION_END

@@ -53,6 +53,28 @@ public class FieldMap(public val grid: Grid, public val prior: Interval) {
     /** Times evidence in [cell] contradicted a bound set before. */
     public fun conflicts(cell: Int): Int = conflictCounts[cell]
 
+    /**
+     * How far the evidence has narrowed the bounds in [cell]: 1 − (upper − lower) / width of the prior; 0 before it is
+     * measured, 1 where the value is known exactly.
+     */
+    public fun certainty(cell: Int): Double = 1 - (uppers[cell] - lowers[cell]) / prior.width
+
+    /** Whether nothing is known of [cell] but the prior. */
+    public fun isUnknown(cell: Int): Boolean =
+        readingCounts[cell] == 0 && lowers[cell] <= prior.lower && uppers[cell] >= prior.upper
+
+    /** The least and the greatest best estimate of the cells with readings, sensor units; null where there are none. */
+    public fun measuredRange(): Interval? {
+        var low = Double.POSITIVE_INFINITY
+        var high = Double.NEGATIVE_INFINITY
+        for (cell in 0 until grid.size) {
+            if (readingCounts[cell] == 0 || !values[cell].isFinite()) continue
+            low = minOf(low, values[cell])
+            high = maxOf(high, values[cell])
+        }
+        return if (low <= high) Interval(low, high) else null
+    }
+
     /** Sets the best estimate in [cell], sensor units. */
     public fun setValue(cell: Int, value: Double) {
         values[cell] = value

@@ -47,7 +47,7 @@ internal class DraftChecker(private val draft: MissionDraft) {
     private fun number(field: DraftField): Double? {
         val text = draft.numeral(field)
         if (text.isEmpty()) {
-            if (!field.optional) problems[field] = "a number is needed here"
+            if (!field.optional) problems[field] = NEEDED[field] ?: "a number is needed here"
             return null
         }
         val number = if (text.all { it in NUMERALS }) text.toDoubleOrNull() else null
@@ -199,6 +199,10 @@ internal class DraftChecker(private val draft: MissionDraft) {
 
     private companion object {
         const val NUMERALS = "0123456789.+-eE"
+
+        /** A boat whose battery nobody watches is a person's choice and never one that nobody made. */
+        val NEEDED =
+            mapOf(DraftField.LOWEST_VOLTS to "a number is needed here, 0 where the board does not measure its battery")
 
         /** How a refusal begins, and the field it is about. */
         val NAMES = mapOf(

@@ -70,8 +70,8 @@ public enum class DraftField(
     /** How near is there. */
     ARRIVAL("1.5", "m"),
 
-    /** Below which the battery is low. */
-    LOWEST_VOLTS("0", "V"),
+    /** Below which the boat's battery is low; nobody but a person knows which battery it is, so it begins empty. */
+    LOWEST_VOLTS("", "V"),
     ;
 
     public companion object {

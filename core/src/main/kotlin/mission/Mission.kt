@@ -89,6 +89,7 @@ public class Mission(
     private var stopWanted = false
     private var logLost = false
     private var loggedVersion = 0
+    private var phonePercent = Double.NaN
 
     /** What the mission is about. */
     public var state: MissionState = MissionState.Idle
@@ -133,6 +134,9 @@ public class Mission(
     /** Time since the board said anything of the probe, or since the first step, s; NaN before. */
     public val probeSilence: Double get() = probe.silence(now)
 
+    /** Whether a boat under way has not heard its probe for longer than any probe that works is silent. */
+    public val isProbeSilent: Boolean get() = isUnderWay(state) && probeSilence > LONGEST_PROBE_SILENCE
+
     /** Waypoints given up because the boat came no nearer for a minute. */
     public val givenUp: Long get() = navigator.givenUp
 
@@ -169,6 +173,16 @@ public class Mission(
         // What is written after a gap is replayed, too.
         if (!logLost) log.order("log-lost")
         logLost = true
+    }
+
+    /**
+     * The phone that steers says its charge, [percent], NaN where it does not know: when that is low, the policy says.
+     */
+    public fun phoneCharge(percent: Double) {
+        // Told as often as the phone likes, written down when it changes.
+        if (percent.equals(phonePercent)) return
+        log.phone(percent)
+        phonePercent = percent
     }
 
     /** The phone's fix of [place] at [time]. */
@@ -228,6 +242,7 @@ public class Mission(
         situation.seconds = now.seconds
         situation.linkAge = port.silence(now)
         situation.volts = port.volts
+        situation.phonePercent = phonePercent
         situation.operatorStop = stopWanted
         situation.operatorWish = wish.danger
         situation.logLost = logLost
@@ -317,5 +332,8 @@ public class Mission(
 
     private companion object {
         const val LONGEST_ARMING = 20.0
+
+        /** Ten times what the slowest firmware takes for a reading, s. */
+        const val LONGEST_PROBE_SILENCE = 30.0
     }
 }

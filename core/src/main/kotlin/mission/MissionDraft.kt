@@ -24,7 +24,7 @@ import kotlin.math.round
  * @property texts the numbers as typed; what was never touched is not in it.
  * @property quantity what the probe measures.
  * @property isTimed whether the budget is in seconds, rather than metres.
- * @property onBattery what to do when the battery is low.
+ * @property onBattery what to do when the boat's battery is low, or the phone's.
  * @property onFence what to do beyond the shore.
  * @property atEnd what to do when nothing is left to do.
  * @property rearms whether a board that disarmed itself is armed again without a person.
@@ -159,7 +159,7 @@ public data class MissionDraft(
                 DraftField.TOP_SPEED to written(spec.boat.topSpeed),
                 DraftField.CRUISE to written(spec.boat.cruise),
                 DraftField.ARRIVAL to written(spec.boat.arrival),
-                DraftField.LOWEST_VOLTS to written(spec.failsafe.lowestVolts),
+                DraftField.LOWEST_VOLTS to spec.failsafe.lowestVolts?.let(::written).orEmpty(),
             ),
             estimator = spec.estimator,
             planner = spec.planner,

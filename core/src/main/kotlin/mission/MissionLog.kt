@@ -85,6 +85,9 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
     /** Keeps an order's [word] for the step's record. */
     internal fun order(word: String) = inputs.order(word)
 
+    /** Keeps the phone's charge, [percent], for the step's record. */
+    internal fun phone(percent: Double) = inputs.phone(percent)
+
     /** Keeps the phone's fix for the step's record. */
     internal fun fix(time: BoatTime, place: LatLon) = inputs.fix(time, place)
 

@@ -53,6 +53,7 @@ internal object MissionPhases {
     private fun final(danger: Danger): StopReason? = when (danger) {
         Danger.MISSION_END -> StopReason.COMPLETED
         Danger.BATTERY_LOW -> StopReason.BATTERY
+        Danger.PHONE_LOW -> StopReason.PHONE
         Danger.FENCE -> StopReason.FENCE
         Danger.STRANDED -> StopReason.STRANDED
         Danger.LOG_LOST -> StopReason.LOG_LOST

@@ -269,8 +269,13 @@ public enum class FailsafeSpec(internal val failsafe: Failsafe) {
 /**
  * What to do where the mission can't go on. A lost link or place always rests the motors.
  *
- * @property battery when the battery is low.
- * @property lowestVolts below which it is, V; 0 where none is measured.
+ * @property battery when the boat's battery is low, or the phone's.
+ * @property lowestVolts below which the boat's is, V; 0 where none is measured; null where the mission does not say,
+ *   which
+ *   watches none either.
+ * @property lowestPhonePercent below which the phone's is, percent; 0 where it is not to be watched. The default is
+ *   where
+ *   Android itself begins to warn (`config_lowBatteryWarningLevel`).
  * @property fence when the boat is beyond the shore line.
  * @property end when the mission has nothing left to do, or can no longer be written down.
  * @property rearms whether a board that disarmed itself, as after a long cut, is armed again without a person.
@@ -278,7 +283,8 @@ public enum class FailsafeSpec(internal val failsafe: Failsafe) {
 @Serializable
 public data class FailsafePolicy(
     val battery: FailsafeSpec = FailsafeSpec.RETURN_HOME,
-    @SerialName("lowest_volts") val lowestVolts: Double = 0.0,
+    @SerialName("lowest_volts") val lowestVolts: Double? = null,
+    @SerialName("lowest_phone_percent") val lowestPhonePercent: Double = 15.0,
     val fence: FailsafeSpec = FailsafeSpec.RETURN_HOME,
     val end: FailsafeSpec = FailsafeSpec.RETURN_HOME,
     val rearms: Boolean = true,
@@ -288,9 +294,11 @@ public data class FailsafePolicy(
     }
 
     internal fun settings() = SafetySettings(
-        lowestVolts = lowestVolts,
+        lowestVolts = lowestVolts ?: 0.0,
+        lowestPhonePercent = lowestPhonePercent,
         answers = mapOf(
             Danger.BATTERY_LOW to battery.failsafe,
+            Danger.PHONE_LOW to battery.failsafe,
             Danger.FENCE to fence.failsafe,
             Danger.BUDGET_SPENT to Failsafe.RETURN_HOME,
             Danger.MISSION_END to end.failsafe,

@@ -50,8 +50,11 @@ public enum class StopReason {
     /** A person stopped it. */
     OPERATOR,
 
-    /** The battery was low. */
+    /** The boat's battery was low. */
     BATTERY,
+
+    /** The phone's battery was low. */
+    PHONE,
 
     /** The log could not be written. */
     LOG_LOST,

@@ -43,7 +43,8 @@ class SafetyGateTest {
 
     @Test
     fun everyDangerIsNamedAndTheBlindOnesRestTheMotorsWhateverThePolicy() {
-        val home = SafetySettings(lowestVolts = 11.0, answers = Danger.entries.associateWith { Failsafe.RETURN_HOME })
+        val answers = Danger.entries.associateWith { Failsafe.RETURN_HOME }
+        val home = SafetySettings(lowestVolts = 11.0, lowFor = 0.0, lowestPhonePercent = 15.0, answers = answers)
         val blind = mapOf<Danger, Situation.() -> Unit>(
             Danger.LINK_LOST to { linkAge = 0.6 },
             Danger.FIX_STALE to { fixAge = 3.5 },
@@ -58,6 +59,8 @@ class SafetyGateTest {
         val seeing = mapOf<Danger, Situation.() -> Unit>(
             Danger.OPERATOR_STOP to { operatorStop = true },
             Danger.FENCE to { x = -1.0 },
+            Danger.BATTERY_LOW to { volts = 10.9 },
+            Danger.PHONE_LOW to { phonePercent = 14.0 },
             Danger.LOG_LOST to { logLost = true },
             Danger.OPERATOR_WAIT to { operatorWish = Danger.OPERATOR_WAIT },
             Danger.OPERATOR_HOLD to { operatorWish = Danger.OPERATOR_HOLD },

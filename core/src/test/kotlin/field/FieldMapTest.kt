@@ -4,6 +4,8 @@ import org.junit.jupiter.api.Test
 import stillwater.model.Grid
 import stillwater.model.Interval
 import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+import kotlin.test.assertFalse
 import kotlin.test.assertSame
 
 class FieldMapTest {
@@ -35,6 +37,23 @@ class FieldMapTest {
             assertEquals(2 * cell, map.readings(cell))
             assertEquals(3 * cell, map.conflicts(cell))
         }
+    }
+
+    @Test
+    fun knowsHowFarItsBoundsHaveNarrowedAndWhatWasMeasured() {
+        val map = FieldMap(grid, Interval(0.0, 20.0))
+        assertEquals(null, map.measuredRange())
+        assertTrue(map.isUnknown(0))
+        assertEquals(0.0, map.certainty(0))
+        map.setBounds(0, 4.0, 9.0)
+        assertEquals(0.75, map.certainty(0))
+        assertFalse(map.isUnknown(0), "its neighbours may have told of it")
+        for ((cell, value) in listOf(1 to 7.0, 2 to 5.0, 3 to Double.NaN)) {
+            map.setValue(cell, value)
+            map.countReading(cell)
+        }
+        assertFalse(map.isUnknown(1))
+        assertEquals(Interval(5.0, 7.0), map.measuredRange(), "what was not measured counts for nothing")
     }
 
     @Test

@@ -187,6 +187,34 @@ class ClosedLoopTest {
         assertTrue(desk.boat.dynamics.run { Position(x, y) }.distanceTo(home) < 4.5 + 3 * 0.8)
     }
 
+    /** Nobody asks for it: a mission that says nothing of the phone comes home below 15 %. */
+    @Test
+    fun aPhoneThatRunsLowBringsTheBoatHome() {
+        val desk = Desk(MissionSpec.fromJson(Desk.SMALL.replace("self-calibrating", "averaging")), 362)
+        desk.begin()
+        desk.mission.phoneCharge(15.0)
+        assertFalse(desk.until(30.0) { it != MissionState.Surveying })
+        desk.mission.phoneCharge(14.0)
+        assertFalse(desk.until(9.5) { it != MissionState.Surveying }, "one word of it may be wrong")
+        assertTrue(desk.until(1.0) { it == MissionState.Returning(Danger.PHONE_LOW) })
+        // Plugged into something: what it is worth nobody knows.
+        desk.mission.phoneCharge(16.0)
+        assertTrue(desk.until(200.0) { it is MissionState.Stopped })
+        assertEquals(MissionState.Stopped(StopReason.PHONE), desk.mission.state)
+    }
+
+    @Test
+    fun aProbeThatFallsSilentUnderWayIsTold() {
+        val plain = Desk.SMALL.replace("self-calibrating", "averaging")
+        val desk = Desk(MissionSpec.fromJson(plain), 363)
+        desk.begin()
+        assertFalse(desk.until(40.0) { desk.mission.isProbeSilent })
+        val deaf = Desk(MissionSpec.fromJson(plain.replace("\"port\":1", "\"port\":3")), 363)
+        assertFalse(deaf.until(20.0) { deaf.mission.isProbeSilent }, "nobody waits for it before the start")
+        deaf.begin()
+        assertTrue(deaf.until(40.0) { deaf.mission.isProbeSilent })
+    }
+
     @Test
     fun everyPlannerSurveysAndAnIslandIsKeptOutOf() {
         val island = """,{"x_m":24,"y_m":24},{"x_m":36,"y_m":24},{"x_m":36,"y_m":36},{"x_m":24,"y_m":36}"""

@@ -13,6 +13,7 @@ class MissionDraftTest {
     private val triangle = MissionDraft(name = "Pond")
         .around(LatLon(45.33, -73.15))
         .copy(shore = listOf(place(0, 0), place(60, 0), place(0, 40)), home = place(5, 5))
+        .with(DraftField.LOWEST_VOLTS, "13.2")
 
     @Test
     fun whatWasDrawnBecomesAMissionThatCoversIt() {
@@ -65,6 +66,7 @@ class MissionDraftTest {
             Triple(triangle.with(DraftField.CRUISE, "3"), DraftField.CRUISE, "not be above topSpeed"),
             Triple(triangle.with(DraftField.ARRIVAL, "0"), DraftField.ARRIVAL, "above 0"),
             Triple(triangle.with(DraftField.LOWEST_VOLTS, "-1"), DraftField.LOWEST_VOLTS, "at least 0"),
+            Triple(triangle.with(DraftField.LOWEST_VOLTS, ""), DraftField.LOWEST_VOLTS, "0 where the board does not"),
         )) {
             val check = draft.check()
             assertNull(check.spec, words)
@@ -76,7 +78,8 @@ class MissionDraftTest {
     @Test
     fun aMissionComesBackFromItsDraftAsItWas() {
         // A grid that no draft would lay, a seed and a cell size that are nobody's default.
-        val spec = Desk.small().copy(seed = 7, grid = GridSpec(PlaceSpec(10.0, 10.0), 3, 2, 10.0))
+        val failsafe = FailsafePolicy(lowestVolts = 0.0, lowestPhonePercent = 30.0)
+        val spec = Desk.small().copy(seed = 7, grid = GridSpec(PlaceSpec(10.0, 10.0), 3, 2, 10.0), failsafe = failsafe)
         val draft = MissionDraft.of(spec)
         assertEquals(spec, draft.check().spec)
         assertEquals(spec, MissionDraft.fromJson(draft.toJson()).check().spec)
@@ -116,6 +119,7 @@ class MissionDraftTest {
         assertEquals(WHOLE_PROBE, MissionDraft.fromJson(draft.toJson()).check().spec?.probe)
         // Over a mission that has a probe of its own, and a probe that says less over one that said more.
         val loaded = MissionDraft.of(Desk.small().let { it.copy(probe = it.probe.copy(stuckAfter = 44)) })
+            .with(DraftField.LOWEST_VOLTS, "13.2")
         assertEquals(44, loaded.check().spec?.probe?.stuckAfter)
         assertEquals(WHOLE_PROBE, loaded.measuring(json).check().spec?.probe)
         val plain = ProbeSpec(Quantity.DISSOLVED_OXYGEN, lowest = 1.0, highest = 9.0)

@@ -151,6 +151,9 @@ internal class OwnLogReplay(
 
     private fun feed(mission: Mission, came: JsonObject) {
         for (order in came.list("order")) order(mission, (order as? JsonPrimitive)?.contentOrNull)
+        for (charge in came.list("phone")) {
+            mission.phoneCharge((charge as? JsonPrimitive)?.doubleOrNull ?: Double.NaN)
+        }
         for (fix in came.list("fix")) {
             val (time, latitude, longitude) = numbers(fix) ?: continue
             val isPlace = latitude in LatLon.LATITUDES_DEG && longitude in LatLon.LONGITUDES_DEG

@@ -115,12 +115,16 @@ class ReplayCommandTest {
                 800 -> mission.wish = Wish.GO_ON
                 1000 -> mission.wish = Wish.RETURN
                 1020 -> mission.wish = Wish.GO_ON
+                1100 -> mission.phoneCharge(14.0)
+                1110 -> mission.phoneCharge(Double.NaN)
                 in 1200..1210 -> mission.logLost()
             }
             states += mission.state.word
         }
         assertTrue(states.containsAll(listOf("surveying", "holding", "returning")), "$states")
         assertEquals(1, lines.count { "\"log-lost\"" in it })
+        val charges = lines.mapNotNull { Regex("\"phone\":(.*?])").find(it)?.groupValues?.get(1) }
+        assertEquals(listOf("[14.0]", "[null]"), charges)
         val summary = replay(write("log.txt", lines), "out")
         assertSameMap(mission, directory.resolve("out/cells.csv"))
         assertEquals(lines, directory.resolve("out/mission.txt").readLines())

@@ -96,26 +96,48 @@ class ApkTest {
 
     @Test
     fun itHoldsTheAppItsLibrariesAndNothingElse() {
-        val types = ZipFile(apk).use { zip ->
-            val dexes = zip.entries().asSequence().filter { it.name.endsWith(".dex") }.toList()
-            dexes.flatMap { definedTypes(zip.getInputStream(it).readBytes()) }
-        }
+        val types = dexes().flatMap { it.defined }
         val expected = listOf("stillwater/", "kotlin/", "kotlinx/serialization/") + ANNOTATIONS
         val foreign = types.filter { type -> expected.none { type.startsWith("L$it") } }
         assertTrue(types.isNotEmpty() && foreign.isEmpty(), "$foreign")
+        // What the phone does not run has no place there, nor has anything that only that leads to.
+        val diagnosis = types.filter { it.startsWith("Lstillwater/diagnose/") }
+        assertTrue(diagnosis.isEmpty(), "$diagnosis")
     }
 
-    /** Class descriptors that a dex file defines. Source: the Dalvik executable format, version 035 to 040. */
-    private fun definedTypes(dex: ByteArray): List<String> {
-        val bytes = ByteBuffer.wrap(dex).order(ByteOrder.LITTLE_ENDIAN)
-        val (strings, types) = bytes.getInt(60) to bytes.getInt(68)
-        val (count, classes) = bytes.getInt(96) to bytes.getInt(100)
-        return List(count) { index ->
-            val type = bytes.getInt(classes + 32 * index)
-            var start = bytes.getInt(strings + 4 * bytes.getInt(types + 4 * type))
+    /**
+     * The packager looks at the class files; here, that the dex itself names nothing that neither it nor Android has.
+     */
+    @Test
+    fun nothingInItLeadsToAClassThatIsNowhere() {
+        val dexes = dexes()
+        val defined = dexes.flatMap { it.defined }.toSet()
+        val named = dexes.flatMap { it.named }.map { it.trimStart('[') }.filter { it.startsWith("L") }.toSet()
+        val nowhere = (named - defined).filter { type -> OF_ANDROID.none { type.startsWith(it) } }
+        assertTrue(nowhere.all { it.startsWith(USB) }, "$nowhere")
+        assertTrue(nowhere.isNotEmpty(), "the USB library's are named and looked for first, so names are seen at all")
+    }
+
+    private fun dexes(): List<Dex> = ZipFile(apk).use { zip ->
+        zip.entries().asSequence().filter { it.name.endsWith(".dex") }
+            .map { Dex(zip.getInputStream(it).readBytes()) }.toList()
+    }
+
+    /** Class descriptors in a dex file. Source: the Dalvik executable format, version 035 to 040. */
+    private class Dex(private val dex: ByteArray) {
+        private val bytes = ByteBuffer.wrap(dex).order(ByteOrder.LITTLE_ENDIAN)
+
+        /** All types that are named. */
+        val named = List(bytes.getInt(64)) { text(bytes.getInt(bytes.getInt(68) + 4 * it)) }
+
+        /** Those that are defined. */
+        val defined = List(bytes.getInt(96)) { named[bytes.getInt(bytes.getInt(100) + 32 * it)] }
+
+        private fun text(index: Int): String {
+            var start = bytes.getInt(bytes.getInt(60) + 4 * index)
             // The length, of seven bits a byte, then the characters and a zero.
             while (dex[start++] < 0) Unit
-            String(dex, start, (start until dex.size).first { dex[it] == 0.toByte() } - start)
+            return String(dex, start, (start until dex.size).first { dex[it] == 0.toByte() } - start)
         }
     }
 
@@ -132,6 +154,11 @@ class ApkTest {
         const val END_SIZE = 22
         const val SCHEME_2 = 0x7109871a
         const val SCHEME_3 = -0xfac9740 // 0xf05368c0
+
+        const val USB = "Lcom/hoho/android/usbserial/"
+
+        /** What every Android of the app's levels has; which calls of it, animal-sniffer looks at. */
+        val OF_ANDROID = listOf("Landroid/", "Ldalvik/", "Ljava/", "Ljavax/")
 
         /** What comes with Kotlin's own library, and what D8 marks the classes with that it makes. */
         val ANNOTATIONS =

@@ -4,6 +4,7 @@ import android.content.Context
 import android.content.Intent
 import android.content.SharedPreferences
 import stillwater.app.R
+import stillwater.app.mayWait
 
 /** Which way to the board the person chose. */
 sealed interface LinkChoice {
@@ -41,6 +42,7 @@ sealed interface LinkChoice {
 
         /** Keeps [choice] beyond the process; null forgets. */
         fun keep(kept: SharedPreferences, choice: LinkChoice?) {
+            mayWait("preferences")
             val edit = kept.edit().clear()
             when (choice) {
                 null -> Unit
@@ -54,7 +56,10 @@ sealed interface LinkChoice {
         }
 
         /** What was kept, null where nothing was. */
-        fun kept(kept: SharedPreferences): LinkChoice? = of { kept.getString(it, null) }
+        fun kept(kept: SharedPreferences): LinkChoice? {
+            mayWait("preferences")
+            return of { kept.getString(it, null) }
+        }
 
         private fun of(text: (String) -> String?): LinkChoice? =
             when (text(KIND)) {

@@ -1,5 +1,6 @@
 package stillwater.app.mission
 
+import stillwater.app.mayWait
 import stillwater.mission.LogSink
 import java.io.ByteArrayOutputStream
 import java.io.File
@@ -69,6 +70,7 @@ internal class LogFile(
         flush()
         if (waiting.isNotEmpty()) return false
         release()
+        mayWait("rename a log")
         val complete = File(file.path.removeSuffix(LogFolder.INCOMPLETE))
         val isRenamed = !file.exists() || file.renameTo(complete)
         val name = if (isRenamed) complete.name else file.name

@@ -25,7 +25,7 @@ internal class LogFolder(
     room: (() -> Long)? = null,
 ) {
     private val folder by lazy(place)
-    private val room = room ?: { folder.usableSpace }
+    private val room = room ?: ::roomOnDisk
 
     /** A log for the mission [name], begun at [epochMillis], Unix time, ms; on the disk from its first flush on. */
     fun begin(name: String, epochMillis: Long): LogFile {
@@ -37,15 +37,18 @@ internal class LogFolder(
     /** The log [name], to go on with. */
     fun goOn(name: String): LogFile = LogFile(File(folder, name), ::open, room)
 
-    /** What the newest incomplete log tells; null where there is none. Older ones stay. */
+    /** What the incomplete log tells that was written last; null where there is none. Others stay. */
     fun recover(): RecoveredRun? =
-        files().filter { it.name.endsWith(INCOMPLETE) }.sortedByDescending { it.name }.firstNotNullOfOrNull(::read)
+        files()
+            .filter { it.name.endsWith(INCOMPLETE) }
+            // A mission that was gone on with may have been begun before one that was not.
+            .map { it.lastModified() to it }
+            .sortedWith(compareByDescending<Pair<Long, File>> { it.first }.thenByDescending { it.second.name })
+            .firstNotNullOfOrNull { read(it.second) }
 
-    /** Gives the incomplete log [name] the name of a complete one: nobody goes on with it. */
-    fun complete(name: String) {
-        mayWait("rename a log")
-        File(folder, name).renameTo(File(folder, name.removeSuffix(INCOMPLETE)))
-    }
+    /** What the incomplete log [name] tells; null where it is not there, or has no mission in it. */
+    fun recover(name: String): RecoveredRun? =
+        files().find { it.name == name && name.endsWith(INCOMPLETE) }?.let(::read)
 
     /** All logs, newest first. */
     fun past(): List<PastMission> =
@@ -53,7 +56,13 @@ internal class LogFolder(
             PastMission(it.name, it.length(), !it.name.endsWith(INCOMPLETE), it.lastModified())
         }
 
+    private fun roomOnDisk(): Long {
+        mayWait("the room on the disk")
+        return folder.usableSpace
+    }
+
     private fun read(file: File): RecoveredRun? {
+        mayWait("read a log")
         val trace = Trace()
         val track = Track()
         val recovery =
@@ -73,6 +82,7 @@ internal class LogFolder(
     }
 
     private fun open(file: File): LogOutput {
+        mayWait("make a log's folder")
         if (!folder.isDirectory && !folder.mkdirs()) throw NoFolder()
         return opener.open(file)
     }

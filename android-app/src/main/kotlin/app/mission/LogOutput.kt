@@ -56,5 +56,8 @@ internal class FileOutput(file: File) : LogOutput {
         }
     }
 
-    override fun close() = access.close()
+    override fun close() {
+        mayWait("close a log")
+        access.close()
+    }
 }

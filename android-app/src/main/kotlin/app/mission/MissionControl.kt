@@ -65,6 +65,14 @@ internal class MissionControl(
     /** Whether a mission was started and is not over: stepped, and its board maybe armed. */
     val isUnderWay: Boolean get() = run != null
 
+    /**
+     * Below which voltage the boat's battery is low, V; 0 where nobody watches it; null where the mission does not say.
+     */
+    val lowestVolts: Double?
+        get() =
+            // What was begun before missions had to say so can be brought to its end.
+            spec?.failsafe?.lowestVolts ?: 0.0.takeIf { recovered != null || isUnderWay }
+
     /** Whether the motors were last told to do something. */
     val isMoving: Boolean get() = run?.isMoving == true
 
@@ -77,32 +85,65 @@ internal class MissionControl(
             } catch (error: IllegalArgumentException) {
                 return Answer(Answer.Reason.NOT_A_MISSION, error.message)
             }
-        forget()
+        recovered = null
         spec = read
         keeper.mission = json
         last = null
         return null
     }
 
-    /** Has what a process left behind: an incomplete log's mission, else the loaded one. [then] comes after. */
+    /**
+     * Has what a process left behind: the mission of the log that was cut off last, unless another was loaded after
+     * that.
+     * [then] comes after.
+     */
     fun recover(then: () -> Unit) {
         disk.run {
             val found = folder.recover()
+            val all = folder.past()
             disk.answer {
-                if (spec == null) takeUp(found)
+                past = all
+                if (spec == null) {
+                    val kept = kept()
+                    if (found != null && (kept == null || kept == found.mission.spec)) takeUp(found) else spec = kept
+                }
                 then()
             }
         }
     }
 
-    private fun takeUp(found: RecoveredRun?) {
-        if (found != null) {
-            recovered = found
-            spec = found.mission.spec
-            last = null
-            return
+    /**
+     * Loads the mission whose log, cut off, is [name], to go on with; the one that is loaded stays on the disk as it
+     * is.
+     * [then] hears why not, or null.
+     */
+    fun goOnWith(name: String, then: (Answer?) -> Unit): Answer? {
+        if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
+        disk.run {
+            val found = folder.recover(name)
+            disk.answer {
+                // A mission may have been started meanwhile.
+                val answer =
+                    when {
+                        isUnderWay -> Answer(Answer.Reason.UNDER_WAY)
+                        found == null -> Answer(Answer.Reason.NOT_READABLE)
+                        else -> null
+                    }
+                if (found != null && answer == null) takeUp(found)
+                then(answer)
+            }
         }
-        spec = keeper.mission?.let {
+        return null
+    }
+
+    private fun takeUp(found: RecoveredRun) {
+        recovered = found
+        spec = found.mission.spec
+        last = null
+    }
+
+    private fun kept(): MissionSpec? =
+        keeper.mission?.let {
             try {
                 MissionSpec.fromJson(it)
             } catch (_: IllegalArgumentException) {
@@ -110,15 +151,11 @@ internal class MissionControl(
                 null
             }
         }
-    }
 
     /** Starts the mission with [boat], with [wish], where [isReady]; tells one that was started of [wish]. */
     fun begin(boat: BoatAtHand?, isReady: Boolean, wish: Wish): Answer? {
         val spec = this.spec ?: return Answer(Answer.Reason.NO_MISSION)
-        run?.let {
-            it.wish = wish
-            return null
-        }
+        run?.let { return wish(it, wish) }
         if (last?.isOver == true) return Answer(Answer.Reason.OVER)
         if (boat == null) return Answer(Answer.Reason.NOT_READY)
         otherWorld(boat)?.let { return it }
@@ -126,6 +163,8 @@ internal class MissionControl(
         val now = epochMillis()
         val name = if (boat.isVirtual) VIRTUAL + spec.name else spec.name
         val log = recovered?.let { folder.goOn(it.name) } ?: folder.begin(name, now)
+        // After the process died it is this one that comes back, whichever was loaded before.
+        keeper.mission = spec.toJson()
         run = MissionRun(spec, boat, log, recovered, now).also {
             it.wish = wish
             it.start()
@@ -147,8 +186,19 @@ internal class MissionControl(
     /** Tells a mission that was started what a person wants. */
     fun tell(wish: Wish): Answer? {
         val run = this.run ?: return Answer(Answer.Reason.NOT_UNDER_WAY)
+        return wish(run, wish)
+    }
+
+    /** What was stopped stays stopped, whatever is pressed while the board is being told. */
+    private fun wish(run: MissionRun, wish: Wish): Answer? {
+        if (run.isStopping) return Answer(Answer.Reason.OVER)
         run.wish = wish
         return null
+    }
+
+    /** The phone's charge, percent; null where it does not say. */
+    fun phoneCharge(percent: Int?) {
+        run?.phoneCharge(percent)
     }
 
     /** Ends the mission; it is over once the board has been told. */
@@ -156,10 +206,10 @@ internal class MissionControl(
         run?.stop()
     }
 
-    /** Forgets the mission that is loaded. */
+    /** Forgets the mission that is loaded; one that was cut off can still be gone on with. */
     fun clear(): Answer? {
         if (isUnderWay) return Answer(Answer.Reason.UNDER_WAY)
-        forget()
+        recovered = null
         spec = null
         last = null
         keeper.mission = null
@@ -240,16 +290,10 @@ internal class MissionControl(
             recovered?.trace?.points().orEmpty(),
             ReadingCounts(received = found?.readings ?: 0, taken = found?.readings ?: 0),
             recovered?.let { LogReport(it.name) },
+            probeSilence = null,
             DoubleArray(map.grid.size) { Double.NaN },
             now = 0.0,
         )
-    }
-
-    /** Closes the log of a mission that nobody will go on with. */
-    private fun forget() {
-        val name = recovered?.name ?: return
-        recovered = null
-        disk.run { folder.complete(name) }
     }
 
     /** Again and again, where the disk takes nothing: what was measured is not given up while there is hope. */

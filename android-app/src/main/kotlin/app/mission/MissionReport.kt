@@ -22,6 +22,8 @@ import stillwater.model.Position
  * @property trace the last readings, oldest first.
  * @property counts what became of the readings.
  * @property log where it is written down; null before it was first armed.
+ * @property probeSilence time since a boat under way has heard its probe, s, where that is longer than any probe that
+ *   works is silent; null elsewhere.
  * @param readAt when each cell was last read, s on the boat's clock; NaN where it never was. Retained, not modified.
  * @param now of the report, s on the same clock.
  */
@@ -39,16 +41,21 @@ class MissionReport(
     val trace: List<TracePoint>,
     val counts: ReadingCounts,
     val log: LogReport?,
+    val probeSilence: Double?,
     private val readAt: DoubleArray,
     private val now: Double,
 ) {
+    /** Whether it was started and is not over. */
+    val isUnderWay: Boolean get() = state != MissionState.Idle && !isOver
+
     /** What may be used of the budget, in its unit. */
     val budget: Double get() = spec.budget.metres ?: spec.budget.seconds ?: 0.0
 
     /** The same with [log], which has moved on. */
     internal fun withLog(log: LogReport): MissionReport =
         MissionReport(
-            spec, state, wish, isRecovered, isOver, map, position, track, plan, used, trace, counts, log, readAt, now,
+            spec, state, wish, isRecovered, isOver, map, position, track, plan, used, trace, counts, log, probeSilence,
+            readAt, now,
         )
 
     /** Time since the last reading in [cell], s; null where there was none, or none since the app was started. */

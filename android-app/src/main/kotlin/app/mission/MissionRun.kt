@@ -1,7 +1,7 @@
 package stillwater.app.mission
 
-import stillwater.app.pose.PhonePose
 import stillwater.app.pose.Pose
+import stillwater.control.FixCheck
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
@@ -63,16 +63,25 @@ internal class MissionRun(
     /** Begins. */
     fun start() = mission.start()
 
+    /** Whether a person has ended it, and the board is still being told. */
+    var isStopping = false
+        private set
+
     /** Ends. */
-    fun stop() = mission.stop()
+    fun stop() {
+        isStopping = true
+        mission.stop()
+    }
+
+    /** The phone's charge, percent; null where it does not say. */
+    fun phoneCharge(percent: Int?) = mission.phoneCharge(percent?.toDouble() ?: Double.NaN)
 
     /** Does all that is due at [seconds] on the phone's clock, with the newest of [pose]. */
     fun step(seconds: Double, pose: Pose) {
         now = seconds
         pose.fix?.takeIf { it.elapsedNanos > fixNanos }?.let { fix ->
             fixNanos = fix.elapsedNanos
-            val accuracy = fix.accuracyMetres
-            if (accuracy != null && accuracy <= PhonePose.WIDEST_FIX) {
+            if (FixCheck.isNarrow(fix.accuracyMetres?.toDouble())) {
                 mission.fix(BoatTime(fix.elapsedNanos * SECONDS_PER_NANO), fix.place)
             } else {
                 wideFixes++
@@ -104,6 +113,7 @@ internal class MissionRun(
             trace.points(),
             counts(),
             log.report,
+            mission.probeSilence.takeIf { mission.isProbeSilent },
             readAt.copyOf(),
             now,
         )

@@ -13,6 +13,8 @@ import android.location.LocationManager
 import android.os.Bundle
 import android.os.Handler
 import android.os.SystemClock
+import stillwater.control.FixCheck
+import stillwater.control.PhoneTurn
 import stillwater.model.LatLon
 
 /**
@@ -58,8 +60,7 @@ internal class PhonePose(context: Context) : Pose {
     @Volatile override var jumps = 0L
         private set
 
-    private var trusted: Location? = null
-    private var doubted: Location? = null
+    private val check = FixCheck()
     private var declinationDeg = 0.0
     private var yawRate = Double.NaN
 
@@ -95,37 +96,20 @@ internal class PhonePose(context: Context) : Pose {
             GeomagneticField(location.latitude.toFloat(), location.longitude.toFloat(), height, location.time)
                 .declination
                 .toDouble()
-        val jumped = isJump(location)
+        val place = LatLon(location.latitude, location.longitude)
+        val accuracy = if (location.hasAccuracy()) location.accuracy.toDouble() else 0.0
+        val jumped = check.isJump(location.elapsedRealtimeNanos * SECONDS_PER_NANO, place, accuracy)
         fixes++
-        if (jumped) jumps++
+        jumps = check.jumps
         fix =
             PhoneFix(
-                LatLon(location.latitude, location.longitude),
+                place,
                 location.accuracy.takeIf { location.hasAccuracy() },
                 location.speed.takeIf { location.hasSpeed() },
                 location.bearing.takeIf { location.hasBearing() },
                 location.elapsedRealtimeNanos,
                 jumped,
             )
-    }
-
-    /** Two that lie apart from those before, but near each other, are where the phone is now. */
-    private fun isJump(location: Location): Boolean {
-        val jumped = trusted?.let { isFar(it, location) } == true
-        if (!jumped || doubted?.let { !isFar(it, location) } == true) {
-            trusted = location
-            doubted = null
-        } else {
-            doubted = location
-        }
-        return jumped
-    }
-
-    /** What the receiver itself takes for possible counts as its error, three times over. */
-    private fun isFar(before: Location, location: Location): Boolean {
-        val seconds = (location.elapsedRealtimeNanos - before.elapsedRealtimeNanos) * SECONDS_PER_NANO
-        val errors = ERRORS * (location.accuracy + before.accuracy)
-        return location.distanceTo(before) > errors + FASTEST_BOAT * maxOf(0.0, seconds)
     }
 
     /** All four functions: before Android 11 the platform's interface has none of them itself. */
@@ -153,8 +137,7 @@ internal class PhonePose(context: Context) : Pose {
 
             override fun onSensorChanged(event: SensorEvent) {
                 if (event.sensor?.type == Sensor.TYPE_GYROSCOPE) {
-                    // About the upright axis, however the phone is strapped down: the rotation's last row points up.
-                    if (knowsRotation) yawRate = (0..2).sumOf { (rotation[UP + it] * event.values[it]).toDouble() }
+                    if (knowsRotation) yawRate = PhoneTurn.yawRate(rotation, event.values)
                     return
                 }
                 SensorManager.getRotationMatrixFromVector(rotation, event.values)
@@ -167,16 +150,9 @@ internal class PhonePose(context: Context) : Pose {
             override fun onAccuracyChanged(sensor: Sensor?, accuracy: Int) = Unit
         }
 
-    companion object {
-        /** Wider than a lawnmower's lane on a pond, a fix is no use. m. */
-        const val WIDEST_FIX = 10f
-
-        /** m/s; with a current, and a car's to the shore is none of it. */
-        private const val FASTEST_BOAT = 5.0
-        private const val ERRORS = 3f
-        private const val ROTATION_SIZE = 9
-        private const val ANGLES = 3
-        private const val UP = 6
-        private const val SECONDS_PER_NANO = 1e-9
+    private companion object {
+        const val ROTATION_SIZE = 9
+        const val ANGLES = 3
+        const val SECONDS_PER_NANO = 1e-9
     }
 }

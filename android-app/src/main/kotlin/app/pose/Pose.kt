@@ -1,6 +1,7 @@
 package stillwater.app.pose
 
 import android.os.Handler
+import stillwater.control.PhoneTurn
 
 /**
  * Where the boat is and which way it points, as far as the phone knows: the phone's own receiver and sensors, or the
@@ -38,15 +39,12 @@ internal interface Pose {
  */
 class PhoneHeading(val radians: Double, val yawRate: Double, val elapsedNanos: Long) {
     /** The same as a compass has it, degrees from north, clockwise, in 0 until 360. */
-    val degrees: Float get() = ((QUARTER - Math.toDegrees(radians)).mod(FULL)).toFloat()
+    val degrees: Float get() = PhoneTurn.compassDeg(radians).toFloat()
 
     companion object {
-        private const val QUARTER = 90.0
-        private const val FULL = 360.0
-
         /** What a compass that shows [degrees] from true north says. */
         fun ofCompass(degrees: Double, yawRate: Double, elapsedNanos: Long): PhoneHeading =
-            PhoneHeading(Math.toRadians(QUARTER - degrees), yawRate, elapsedNanos)
+            PhoneHeading(PhoneTurn.heading(degrees), yawRate, elapsedNanos)
     }
 }
 

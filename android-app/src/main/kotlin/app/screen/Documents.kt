@@ -75,11 +75,12 @@ internal class Documents(
                 // Not the desk's last look at it: after a turn of the phone there is none yet.
                 val draft = desk.draft
                 write(document, purpose) {
+                    mayWait("write a document")
                     val spec = draft.check().spec ?: throw IOException(context.getString(R.string.save_not_whole))
                     it.write(spec.toJson().toByteArray())
                 }
             }
-            DocumentPurpose.LOG -> ofShared(document, purpose) { log, out -> log.inputStream().use { it.copyTo(out) } }
+            DocumentPurpose.LOG -> ofShared(document, purpose, ::copy)
             DocumentPurpose.CSV -> ofShared(document, purpose) { log, out -> cells(log, out) { csv(it) } }
             DocumentPurpose.GEOJSON -> ofShared(document, purpose) { log, out -> cells(log, out) { geoJson(it) } }
         }
@@ -134,8 +135,14 @@ internal class Documents(
         }
     }
 
+    private fun copy(log: File, out: OutputStream) {
+        mayWait("read a log")
+        log.inputStream().use { it.copyTo(out) }
+    }
+
     /** The map as the log has it, for what [form] makes of it. */
     private fun cells(log: File, out: OutputStream, form: CellsText.(Appendable) -> Unit) {
+        mayWait("read a log")
         val recovery = MissionRecovery()
         log.useLines { lines -> lines.forEach(recovery::line) }
         val mission = recovery.recovered() ?: throw IOException(context.getString(R.string.log_without_mission))

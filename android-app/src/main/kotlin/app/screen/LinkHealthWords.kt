@@ -76,10 +76,15 @@ internal class LinkHealthWords(private val context: Context) {
             },
             HealthLine(text(R.string.fix_counts, fixes.received, fixes.jumps, fixes.wide, fixes.refused))
                 .takeIf { fixes.received > 0 },
-            snapshot.phoneBatteryPercent?.let { HealthLine(text(R.string.phone_battery, it)) },
+            snapshot.phoneBatteryPercent?.let {
+                HealthLine(text(R.string.phone_battery, it), isBad = isLow(it, snapshot))
+            },
             HealthLine(text(R.string.gaps, gaps.count, gaps.longestSeconds), isBad = true).takeIf { gaps.count > 0 },
         )
     }
+
+    private fun isLow(percent: Int, snapshot: BoatSnapshot): Boolean =
+        snapshot.mission?.spec?.let { percent < it.failsafe.lowestPhonePercent } == true
 
     private fun fixWords(accuracy: Float?, age: Double): String =
         if (accuracy == null) {
@@ -89,11 +94,13 @@ internal class LinkHealthWords(private val context: Context) {
         }
 
     private fun readings(snapshot: BoatSnapshot, rates: LinkRates): List<HealthLine> {
-        val counts = snapshot.mission?.counts ?: return emptyList()
+        val mission = snapshot.mission ?: return emptyList()
+        val counts = mission.counts
         return listOfNotNull(
             HealthLine(text(R.string.readings), isTitle = true),
             HealthLine(text(R.string.readings_taken, counts.received, counts.taken, counts.waiting)),
             rates.readings?.let { HealthLine(text(R.string.readings_rate, it)) },
+            mission.probeSilence?.let { HealthLine(text(R.string.probe_silent, context.duration(it)), isBad = true) },
             counts.atBorders.takeIf { it > 0 }?.let { HealthLine(text(R.string.readings_at_borders, it)) },
             HealthLine(
                 text(

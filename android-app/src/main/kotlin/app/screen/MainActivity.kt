@@ -80,6 +80,7 @@ internal class MainActivity :
     }
 
     private fun restore(state: Bundle?) {
+        isRefusedForGood = state?.getBoolean(REFUSED) == true
         state?.getIntArray(PEN)?.let { pen = AreaPen(PenTarget.entries[it[0]], it[1]) }
         documents.restore(state)
         val names = state?.getStringArrayList(TRAIL).orEmpty()
@@ -92,6 +93,7 @@ internal class MainActivity :
     override fun onSaveInstanceState(state: Bundle) {
         super.onSaveInstanceState(state)
         state.putStringArrayList(TRAIL, ArrayList(trail.map { it.name }))
+        state.putBoolean(REFUSED, isRefusedForGood)
         state.putIntArray(PEN, intArrayOf(pen.target.ordinal, pen.ring))
         documents.save(state)
         val json = desk.draft.toJson()
@@ -263,6 +265,7 @@ internal class MainActivity :
         const val MOST_STATE = 100_000
         const val TRAIL = "trail"
         const val PEN = "pen"
+        const val REFUSED = "refused-for-good"
         const val DRAFT = "draft"
     }
 }

@@ -50,7 +50,7 @@ internal class MapView(context: Context) : WaterView(context) {
 
     override fun onDraw(canvas: Canvas) {
         val projection = projection() ?: return drawNothing(canvas, R.string.map_empty)
-        val range = scene.map?.let { measuredRange(it) }
+        val range = scene.map?.measuredRange()
         scene.map?.let { drawCells(canvas, projection, it, range) }
         drawLine(canvas, projection, scene.fence, LineStyle(R.color.fence, FENCE_DP, isClosed = true))
         for (ring in scene.keepOuts) drawKeepOut(canvas, projection, ring)
@@ -101,33 +101,20 @@ internal class MapView(context: Context) : WaterView(context) {
         return resources.getString(R.string.map_said, measured, map.grid.size)
     }
 
-    /** The least and the greatest value of a measured cell, which the colours span; null before the first. */
-    private fun measuredRange(map: FieldMap): Interval? {
-        var low = Double.POSITIVE_INFINITY
-        var high = Double.NEGATIVE_INFINITY
-        for (cell in 0 until map.grid.size) {
-            if (map.readings(cell) == 0 || !map.value(cell).isFinite()) continue
-            low = minOf(low, map.value(cell))
-            high = maxOf(high, map.value(cell))
-        }
-        return if (low <= high) Interval(low, high) else null
-    }
-
     private fun drawCells(canvas: Canvas, projection: MapProjection, map: FieldMap, range: Interval?) {
         val reach = maxOf(map.grid.cellWidth, map.grid.cellHeight) * projection.scale
         stroke(R.color.line, HAIR_DP)
         for (cell in 0 until map.grid.size) {
             if (!isInSight(projection, map.grid, cell, reach)) continue
             trace(projection, map.grid.corners(cell), isClosed = true)
-            if (map.readings(cell) == 0 && map.lower(cell) <= map.prior.lower && map.upper(cell) >= map.prior.upper) {
+            if (map.isUnknown(cell)) {
                 // Nothing is known of it: its outline alone.
                 canvas.drawPath(path, line)
                 continue
             }
             // One measured value alone sits in the middle.
             val share = range?.takeIf { it.width > 0 }?.let { (map.value(cell) - it.lower) / it.width } ?: MIDDLE
-            val certainty = 1 - (map.upper(cell) - map.lower(cell)) / map.prior.width
-            fill.color = FieldColours.faded(FieldColours.of(share), certainty)
+            fill.color = FieldColours.faded(FieldColours.of(share), map.certainty(cell))
             canvas.drawPath(path, fill)
         }
     }

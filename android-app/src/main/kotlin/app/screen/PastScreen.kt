@@ -106,13 +106,17 @@ internal class PastScreen(
             if (mission.name == shownOpen) return@apply
             if (!mission.isComplete) {
                 below(context.line(context.getString(R.string.past_incomplete_why)))
+                val goOn = context.largeButton(context.getString(R.string.go_on_with)) { goOn(mission) }
+                below(goOn.apply { id = R.id.go_on_with })
                 below(context.largeButton(context.getString(R.string.close_log)) { close(mission) })
             }
             if (asksDeletion) {
+                // Where the question was asked for: a second tap of the same hand keeps it.
+                val no = context.largeButton(context.getString(R.string.delete_no)) { ask(false) }
+                below(no.apply { id = R.id.delete_no })
                 below(context.liveLine(context.getString(R.string.delete_sure)))
                 val yes = context.largeButton(context.getString(R.string.delete_yes)) { delete(mission) }
-                val no = context.largeButton(context.getString(R.string.delete_no)) { ask(false) }
-                below(context.row(yes.apply { id = R.id.delete_yes }, no))
+                below(yes.apply { id = R.id.delete_yes })
             } else {
                 below(context.largeButton(context.getString(R.string.delete)) { ask(true) }.apply { id = R.id.delete })
             }
@@ -126,6 +130,12 @@ internal class PastScreen(
     private fun ask(asks: Boolean) {
         asksDeletion = asks
         fill()
+    }
+
+    /** Its map and its state come to the screen with the controls; so does why not. */
+    private fun goOn(mission: PastMission) {
+        host.boat?.goOnWith(mission.name)
+        host.open(ScreenName.START)
     }
 
     private fun close(mission: PastMission) {

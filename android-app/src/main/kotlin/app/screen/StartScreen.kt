@@ -11,7 +11,6 @@ import stillwater.app.mission.MissionReport
 import stillwater.app.service.BoatSnapshot
 import stillwater.app.service.PreflightCheck
 import stillwater.app.service.PreflightItem
-import stillwater.app.service.PreflightNote
 import stillwater.app.service.PreflightReason
 import stillwater.app.setup.words
 
@@ -32,6 +31,8 @@ internal class StartScreen(private val context: Context, private val host: Scree
         host.boat?.newMission()
         host.open(ScreenName.MISSION)
     }
+    private val others = context.liveLine().apply { id = R.id.others_cut_off }
+    private val toOthers = button(R.string.open_cut_off, R.id.open_cut_off) { host.open(ScreenName.PAST) }
     private val controls = context.column()
     private val ready = context.liveLine().apply { id = R.id.readiness }
     private val checks = PreflightCheck.entries.associateWith(::CheckLine)
@@ -51,6 +52,8 @@ internal class StartScreen(private val context: Context, private val host: Scree
             below(about)
             below(setUp)
             below(another)
+            below(others)
+            below(toOthers)
             below(context.heading(context.getString(R.string.preflight)))
             checks.values.forEach { below(it) }
         }
@@ -72,8 +75,7 @@ internal class StartScreen(private val context: Context, private val host: Scree
         val items = snapshot.preflight.associateBy { it.check }
         for ((check, line) in checks) line.show(items[check])
         val red = snapshot.preflight.count { !it.ready }
-        // What many missions have would soon be overlooked: that of a battery nobody watches stays in the list.
-        val notes = snapshot.preflight.count { it.note != null && it.note != PreflightNote.NOT_WATCHED }
+        val notes = snapshot.preflight.count { it.note != null }
         ready.say(
             when {
                 snapshot.preflight.isEmpty() -> context.getString(R.string.checks_unknown)
@@ -82,8 +84,19 @@ internal class StartScreen(private val context: Context, private val host: Scree
                 else -> context.resources.getQuantityString(R.plurals.checks_red, red, red)
             },
         )
-        ready.setTextColor(context.getColor(if (red == 0 && items.isNotEmpty()) R.color.good else R.color.bad))
+        ready.setTextColor(context.getColor(readyColour(red, notes, isKnown = items.isNotEmpty())))
+        val cutOff = if (mission?.isUnderWay == true) 0 else snapshot.cutOff.size
+        others.say(context.resources.getQuantityString(R.plurals.others_cut_off, cutOff, cutOff).takeIf { cutOff > 0 })
+        toOthers.show(cutOff > 0)
     }
+
+    /** Green is for a list in which there is nothing to know. */
+    private fun readyColour(red: Int, notes: Int, isKnown: Boolean): Int =
+        when {
+            red > 0 || !isKnown -> R.color.bad
+            notes > 0 -> R.color.text
+            else -> R.color.good
+        }
 
     private fun about(mission: MissionReport): String {
         val spec = mission.spec
@@ -119,15 +132,14 @@ internal class StartScreen(private val context: Context, private val host: Scree
             val name = context.getString(check.words())
             val more = item?.let { context.preflightWords(it) }
             val full = if (more == null) name else context.getString(R.string.check_reason, name, more)
-            words.say(context.getString(if (isReady) R.string.check_ready else R.string.check_not_ready, full))
-            words.contentDescription =
-                context.getString(if (isReady) R.string.check_ready_said else R.string.check_not_ready_said, full)
-            val colour =
+            val (shown, spoken, colour) =
                 when {
-                    !isReady -> R.color.bad
-                    item.note != null -> R.color.text
-                    else -> R.color.good
+                    !isReady -> Triple(R.string.check_not_ready, R.string.check_not_ready_said, R.color.bad)
+                    item.note != null -> Triple(R.string.check_noted, R.string.check_noted_said, R.color.text)
+                    else -> Triple(R.string.check_ready, R.string.check_ready_said, R.color.good)
                 }
+            words.say(context.getString(shown, full))
+            words.contentDescription = context.getString(spoken, full)
             words.setTextColor(context.getColor(colour))
             mending = if (isReady || item == null) null else mending(item)
             mend.say(mending?.let { context.getString(it.first) })
@@ -141,7 +153,7 @@ internal class StartScreen(private val context: Context, private val host: Scree
                 (if (host.isRefusedForGood) R.string.allow_in_settings else R.string.allow) to host::allow
             PreflightReason.RECEIVER_OFF ->
                 R.string.open_location to { host.leave(Intent(Settings.ACTION_LOCATION_SOURCE_SETTINGS)) }
-            PreflightReason.OTHER_WATER, PreflightReason.NOT_REPORTED ->
+            PreflightReason.OTHER_WATER, PreflightReason.NOT_REPORTED, PreflightReason.NOT_SAID ->
                 R.string.open_mission to { host.open(ScreenName.MISSION) }
             PreflightReason.LITTLE_ROOM -> R.string.open_past to { host.open(ScreenName.PAST) }
             PreflightReason.NOT_EXEMPT -> R.string.exempt_button to host::exempt

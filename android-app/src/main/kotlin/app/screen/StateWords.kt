@@ -26,14 +26,27 @@ internal fun Context.stateWords(snapshot: BoatSnapshot): String {
         } else {
             missionWords(mission.state)
         }
-    val link =
-        snapshot.linkName?.let { getString(R.string.notification_link, it, getString(snapshot.link.state.words())) }
-    return listOfNotNull(first, link).joinToString("\n")
+    return listOfNotNull(first, linkWords(snapshot)).joinToString("\n")
+}
+
+/** The link's name and how it is: lost, or without a word of the probe, or in order; null where none is held. */
+internal fun Context.linkWords(snapshot: BoatSnapshot): String? {
+    val name = snapshot.linkName ?: return null
+    val silence = snapshot.mission?.probeSilence?.takeIf { snapshot.link.state == LinkState.CONNECTED }
+    val state =
+        if (silence == null) {
+            getString(snapshot.link.state.words())
+        } else {
+            getString(R.string.link_probe_silent, duration(silence))
+        }
+    return getString(R.string.notification_link, name, state)
 }
 
 /** Whether a person should look at once. */
 internal fun isBad(snapshot: BoatSnapshot): Boolean =
-    snapshot.link.state == LinkState.WAITING || snapshot.activity == BoatActivity.REFUSED
+    snapshot.link.state == LinkState.WAITING ||
+        snapshot.activity == BoatActivity.REFUSED ||
+        snapshot.mission?.probeSilence != null
 
 /** What a mission is about, with the reason where there is one. */
 internal fun Context.missionWords(state: MissionState): String =
@@ -58,6 +71,7 @@ private fun StopReason.words(): Int =
         StopReason.COMPLETED -> R.string.stopped_completed
         StopReason.OPERATOR -> R.string.stopped_operator
         StopReason.BATTERY -> R.string.danger_battery
+        StopReason.PHONE -> R.string.danger_phone
         StopReason.LOG_LOST -> R.string.danger_log
         StopReason.FENCE -> R.string.danger_fence
         StopReason.STRANDED -> R.string.danger_stranded
@@ -111,6 +125,8 @@ internal fun Context.answerWords(answer: Answer): String {
             Answer.Reason.UNDER_WAY -> R.string.answer_under_way
             Answer.Reason.NOT_UNDER_WAY -> R.string.answer_not_under_way
             Answer.Reason.OVER -> R.string.answer_over
+            Answer.Reason.GIVEN_UP -> R.string.answer_given_up
+            Answer.Reason.NOT_READABLE -> R.string.answer_not_readable
             Answer.Reason.OF_A_REAL_BOAT -> R.string.answer_of_a_real_boat
             Answer.Reason.OF_THE_VIRTUAL_BOAT -> R.string.answer_of_the_virtual_boat
         }
@@ -160,6 +176,7 @@ private fun PreflightReason.words(): Int =
         PreflightReason.NO_HEADING -> R.string.reason_no_heading
         PreflightReason.OTHER_WATER -> R.string.reason_other_water
         PreflightReason.NOT_REPORTED -> R.string.reason_not_reported
+        PreflightReason.NOT_SAID -> R.string.reason_not_said
         PreflightReason.UNKNOWN_CHARGE -> R.string.reason_unknown_charge
         PreflightReason.LOW_CHARGE -> R.string.reason_low_charge
         PreflightReason.LITTLE_ROOM -> R.string.reason_little_room

@@ -28,7 +28,12 @@ interface BoatCommands {
     /** Rests the motors, disarms, ends the mission and closes its log. The link stays. */
     fun stop()
 
-    /** Forgets the mission that is loaded, unless it is under way; a recovered one's log is closed as it is. */
+    /**
+     * Loads the mission whose log, cut off, is [name], with its map, unless one is under way. Others stay as they are.
+     */
+    fun goOnWith(name: String)
+
+    /** Forgets the mission that is loaded, unless it is under way; one that was cut off can still be gone on with. */
     fun newMission()
 
     /** Looks for past missions on the disk. */

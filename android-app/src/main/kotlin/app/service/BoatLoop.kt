@@ -71,6 +71,9 @@ internal class BoatLoop(
     /** Whether a screen is in sight: without a link too, an area can be drawn by walking along it. */
     var isLookedAt = false
 
+    /** Whether the link is about to be let go of: nothing begins over it. */
+    var isGivingUp = false
+
     /** Whether [phone] listens though no link is held. */
     private var listens = false
 
@@ -134,6 +137,16 @@ internal class BoatLoop(
         held.hold(fresh.link)
     }
 
+    /** Goes on with the mission whose log, cut off, is [name]; the demo's boat is put at its home. */
+    fun goOnWith(name: String) =
+        command {
+            goOnWith(name) { refused ->
+                answer = refused
+                if (refused == null) anchorDemo()
+                look(now())
+            }
+        }
+
     /** Puts the demo's boat at the home of the mission that is loaded now. */
     private fun anchorDemo() {
         if (demo == null || missions.isUnderWay) return
@@ -142,6 +155,7 @@ internal class BoatLoop(
     }
 
     private fun begun() {
+        isGivingUp = false
         disarmed = 0
         messages = 0
         heardAt = Double.NEGATIVE_INFINITY
@@ -151,6 +165,7 @@ internal class BoatLoop(
 
     /** Lets go of the link, and ends the mission. */
     fun letGo() {
+        isGivingUp = false
         missions.end()
         held.hold(null)
         pose.stop()
@@ -184,6 +199,7 @@ internal class BoatLoop(
 
     /** Arms, with [wish] for what comes after. */
     fun begin(wish: Wish) {
+        if (isGivingUp) return command { Answer(Answer.Reason.GIVEN_UP) }
         check(now())
         val boat = held.link?.let { BoatAtHand(held, it.name, isVirtual = demo != null) }
         command { begin(boat, checks.all { it.ready }, wish) }
@@ -232,12 +248,18 @@ internal class BoatLoop(
         }
     }
 
+    /** What was kept back when it was first asked for is asked for again. */
+    fun listenAfresh() {
+        if (held.link == null) return
+        pose.stop()
+        pose.start(handler)
+    }
+
     /** With a link, too, a permission that is given meanwhile counts from then on. */
     private fun listenAgain() {
         if (pose.problem != PoseProblem.NOT_PERMITTED) return
         if (Manifest.permission.ACCESS_FINE_LOCATION in Preflight.missingPermissions(context)) return
-        pose.stop()
-        pose.start(handler)
+        listenAfresh()
     }
 
     /** Whatever a board was told before this connection, by a process that died perhaps: it is over. */
@@ -276,7 +298,7 @@ internal class BoatLoop(
                     link = held.link?.health ?: LinkHealth(),
                     boardSilence = now - heardAt,
                     volts = held.ears.report.batteryVolts,
-                    lowestVolts = missions.spec?.failsafe?.lowestVolts,
+                    lowestVolts = missions.lowestVolts,
                     pose = pose.problem,
                     fixAgeSeconds = age(fix?.elapsedNanos),
                     accuracyMetres = fix?.accuracyMetres,
@@ -296,6 +318,7 @@ internal class BoatLoop(
 
     private fun look(now: Double) {
         check(now)
+        missions.phoneCharge(preflight.phoneBatteryPercent)
         val link = held.link
         val fix = pose.fix
         val before = snapshot
@@ -324,7 +347,14 @@ internal class BoatLoop(
 
     /** What the notification says. */
     private fun told(shot: BoatSnapshot) =
-        listOf(shot.link.state, shot.linkName, shot.mission?.state, shot.mission?.log?.problem, shot.isWithoutPlace)
+        listOf(
+            shot.link.state,
+            shot.linkName,
+            shot.mission?.state,
+            shot.mission?.log?.problem,
+            shot.mission?.probeSilence != null,
+            shot.isWithoutPlace,
+        )
 
     private fun age(elapsedNanos: Long?): Double? = elapsedNanos?.let { now() - it * SECONDS_PER_NANO }
 

@@ -8,9 +8,9 @@ import android.content.Context
 import android.content.Intent
 import stillwater.app.R
 import stillwater.app.screen.MainActivity
+import stillwater.app.screen.linkWords
 import stillwater.app.screen.logWords
 import stillwater.app.screen.missionWords
-import stillwater.app.screen.words
 import stillwater.mission.MissionState
 
 /** What stands in the notification shade while the service runs: the state, and a way to stop. */
@@ -27,8 +27,7 @@ internal class BoatNotification(private val context: Context) {
     fun of(snapshot: BoatSnapshot): Notification {
         val stop =
             PendingIntent.getService(context, 1, BoatService.stopIntent(context), PendingIntent.FLAG_IMMUTABLE)
-        val link = context.getString(snapshot.link.state.words())
-        val text = context.getString(R.string.notification_link, snapshot.linkName.orEmpty(), link)
+        val text = context.linkWords(snapshot).orEmpty()
         val trouble =
             snapshot.mission?.log?.problem?.let { context.getString(R.string.notification_log, context.logWords(it)) }
         val blind = context.getString(R.string.notification_open).takeIf { snapshot.isWithoutPlace }

@@ -13,6 +13,7 @@ import android.os.HandlerThread
 import android.os.IBinder
 import android.os.Looper
 import android.os.PowerManager
+import android.os.SystemClock
 import android.util.Log
 import stillwater.app.AboveMinSdk
 import stillwater.app.link.LinkChoice
@@ -46,8 +47,14 @@ open class BoatService :
     /** Whether Android took the service into the foreground without giving it the phone's position; main thread. */
     private var isWithoutPlace = false
 
+    /** How often a window in sight has asked for the position; main thread. */
+    private var asked = 0
+
     /** Whether a window shows what the service does; main thread. */
     private var isInSight = false
+
+    /** When STOP last ended a mission, ms; on the boat thread. */
+    private var endedAt = Long.MIN_VALUE / 2
 
     @Volatile private var wakeLock: PowerManager.WakeLock? = null
 
@@ -79,6 +86,7 @@ open class BoatService :
 
     private fun lookedAt() {
         isInSight = true
+        asked = 0
         askForPlace()
         onBoat { isLookedAt = true }
     }
@@ -87,11 +95,16 @@ open class BoatService :
     private fun askForPlace() {
         if (!isWithoutPlace || !isInSight) return
         try {
-            enter(snapshot, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION)
+            // Up to Android 13 what counts is whether the last start came from an app in sight: this one does.
+            if (BackgroundPlace.isKeptBackInSilence) startService(Intent(this, BoatService::class.java).setAction(SEEN))
+            // Of those that do not refuse nobody hears whether the window was in sight already: once more, to be sure.
+            val isSure = !BackgroundPlace.isKeptBackInSilence || asked++ > 0
+            enter(snapshot, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION, isKeptBack = !isSure)
         } catch (error: IllegalStateException) {
             // All stays as it was.
             Log.w(TAG, "no position yet: $error")
         }
+        onBoat { listenAfresh() }
         if (isWithoutPlace) Handler(Looper.getMainLooper()).postDelayed(::askForPlace, ASK_AGAIN_MILLIS)
     }
 
@@ -125,10 +138,13 @@ open class BoatService :
             // A link that stays, because a mission was under way, is taken up again after the process died.
             return START_STICKY
         }
+        // Sent for what Android makes of where it comes from.
+        if (intent?.action == SEEN) return START_STICKY
         // Android ends an app that does not say so within seconds, whatever comes after.
         loop.activity = if (intent == null) BoatActivity.RECOVERED else BoatActivity.STANDING_BY
         val asked = intent?.let(LinkChoice::of)
-        if (!enterForeground(BoatSnapshot(loop.activity), asked is LinkChoice.Demo)) return START_NOT_STICKY
+        val isKeptBack = intent == null && !isInSight && BackgroundPlace.isKeptBackInSilence
+        if (!enterForeground(BoatSnapshot(loop.activity), asked is LinkChoice.Demo, isKeptBack)) return START_NOT_STICKY
         loop.refusal = null
         getSystemService(NotificationManager::class.java)?.cancel(BoatNotification.REFUSED_ID)
         handler.post { begin(asked) }
@@ -157,6 +173,8 @@ open class BoatService :
 
     override fun stop() = onBoat { stop() }
 
+    override fun goOnWith(name: String) = onBoat { goOnWith(name) }
+
     override fun newMission() = onBoat { command { clear() } }
 
     override fun lookForPast() =
@@ -171,12 +189,16 @@ open class BoatService :
         handler.post { loop.work() }
     }
 
-    /** Whether the service may go on; [isDemo], which nobody trusts a boat to, does without the foreground. */
-    private fun enterForeground(first: BoatSnapshot, isDemo: Boolean): Boolean =
+    /**
+     * Whether the service may go on; [isDemo], which nobody trusts a boat to, does without the foreground.
+     *
+     * @param isKeptBack whether Android gives no positions though it does not say so.
+     */
+    private fun enterForeground(first: BoatSnapshot, isDemo: Boolean, isKeptBack: Boolean): Boolean =
         try {
             // From Android 14 on the position is refused to a service that Android itself starts again, after the
             // process died: the link and the log go on, and the position comes once a window is in sight.
-            val error = enter(first, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION)
+            val error = enter(first, ServiceInfo.FOREGROUND_SERVICE_TYPE_LOCATION, isKeptBack)
             error == null || isDemo || enter(first, LINK_ONLY) == null || refused(error)
         } catch (error: IllegalStateException) {
             // From Android 12 on: started from where no foreground service may be started.
@@ -184,12 +206,12 @@ open class BoatService :
         }
 
     /** Enters the foreground for the link and for [more]; answers what a missing permission has against it. */
-    private fun enter(shown: BoatSnapshot, more: Int): SecurityException? =
+    private fun enter(shown: BoatSnapshot, more: Int, isKeptBack: Boolean = false): SecurityException? =
         try {
-            val isLinkOnly = more == LINK_ONLY
-            foreground(notification.of(shown.copy(isWithoutPlace = isLinkOnly)), more)
-            isWithoutPlace = isLinkOnly
-            loop.isWithoutPlace = isLinkOnly
+            val isBlind = isKeptBack || more == LINK_ONLY
+            foreground(notification.of(shown.copy(isWithoutPlace = isBlind)), more)
+            isWithoutPlace = isBlind
+            loop.isWithoutPlace = isBlind
             null
         } catch (error: SecurityException) {
             Log.w(TAG, "not in the foreground as $more: $error")
@@ -256,8 +278,15 @@ open class BoatService :
      */
     private fun stopBoat() {
         handler.post {
-            if (loop.stop()) return@post
+            val now = SystemClock.uptimeMillis()
+            if (loop.stop()) {
+                endedAt = now
+                return@post
+            }
+            // The second of two taps, or the same one from the notification: meant for the mission that is over.
+            if (now - endedAt < SAME_STOP_MILLIS) return@post
             loop.activity = BoatActivity.IDLE
+            loop.isGivingUp = true
             LinkChoice.keep(getSharedPreferences(KEPT, Context.MODE_PRIVATE), null)
             handler.postDelayed(letGo, LAST_WORDS_MILLIS)
         }
@@ -278,11 +307,15 @@ open class BoatService :
         private const val LINK_ONLY = 0
         private const val ASK_AGAIN_MILLIS = 1_000L
         private const val STOP = "stillwater.app.STOP"
+        private const val SEEN = "stillwater.app.SEEN"
         private const val KEPT = "held-link"
         private const val LOGS = "missions"
 
         /** Longer than two lines take at 115200 baud by far, and than a board waits for the next command. */
         private const val LAST_WORDS_MILLIS = 300L
+
+        /** A board says within a second or so that it is disarmed; a hand in a glove presses twice. */
+        private const val SAME_STOP_MILLIS = 2_000L
 
         /** How links are made. */
         @Volatile internal var links: LinkMaker = LinkMaker.REAL

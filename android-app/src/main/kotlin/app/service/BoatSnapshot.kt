@@ -59,6 +59,9 @@ data class BoatSnapshot(
     val answer: Answer? = null,
     val past: List<PastMission>? = null,
 ) {
+    /** Missions that were cut off besides the one that is loaded: each can be gone on with, or marked as finished. */
+    val cutOff: List<PastMission> get() = past.orEmpty().filter { !it.isComplete && it.name != mission?.log?.name }
+
     /** [fix] while the phone is still there: as new as the checklist wants it; null otherwise. */
     val freshFix: PhoneFix? get() = fix?.takeIf { fixAgeSeconds != null && fixAgeSeconds <= Preflight.OLDEST_FIX }
 }
@@ -105,8 +108,14 @@ data class Answer(val reason: Reason, val words: String? = null) {
         /** The mission was not started. */
         NOT_UNDER_WAY,
 
-        /** The mission is over: load it again. */
+        /** The mission is over, or was stopped and the board is being told: load it again. */
         OVER,
+
+        /** STOP was pressed without a mission, so the link is being given up. */
+        GIVEN_UP,
+
+        /** What the log of a mission that was cut off has cannot be read. */
+        NOT_READABLE,
 
         /** The mission that was recovered is of a real boat, and the demo's is connected. */
         OF_A_REAL_BOAT,

@@ -8,8 +8,9 @@ import android.os.Build
 import android.os.PowerManager
 import stillwater.app.link.LinkHealth
 import stillwater.app.link.LinkState
-import stillwater.app.pose.PhonePose
+import stillwater.app.mayWait
 import stillwater.app.pose.PoseProblem
+import stillwater.control.FixCheck
 
 /**
  * One line of the checklist before a start; all have to be [ready].
@@ -79,6 +80,9 @@ enum class PreflightReason {
     /** The board has not said how much charge there is, and the mission asks. */
     NOT_REPORTED,
 
+    /** The mission does not say below which voltage the battery is low, nor that nobody is to watch it. */
+    NOT_SAID,
+
     /** The phone does not say how much charge there is. */
     UNKNOWN_CHARGE,
 
@@ -111,7 +115,7 @@ enum class PreflightCheck {
  * @property hasLink whether a link was chosen.
  * @property boardSilence time since the board was understood, s; infinite before.
  * @property volts of the boat's battery, V; null before the board said so.
- * @property lowestVolts that the mission goes on with, V; 0 where it does not ask; null where no mission is loaded.
+ * @property lowestVolts that the mission goes on with, V; 0 where it does not ask; null where none is loaded that says.
  * @property pose what stands in the way of a fix; null where nothing does.
  * @property fixAgeSeconds of the newest fix, s; null without.
  * @property accuracyMetres of the newest fix, m; null without.
@@ -148,7 +152,11 @@ internal class Preflight(private val context: Context) {
                 ?.takeIf { it in 0..FULL_PERCENT }
 
     /** Room for a log, bytes. */
-    val storage: Long get() = context.filesDir.usableSpace
+    val storage: Long
+        get() {
+            mayWait("the room on the disk")
+            return context.filesDir.usableSpace
+        }
 
     /** All checks, in their order. */
     fun look(boat: BoatAtRest): List<PreflightItem> =
@@ -199,7 +207,7 @@ internal class Preflight(private val context: Context) {
             boat.pose == PoseProblem.SWITCHED_OFF -> PreflightReason.RECEIVER_OFF
             age == null -> PreflightReason.NO_FIX
             age > OLDEST_FIX -> PreflightReason.FIX_OLD
-            accuracy == null || accuracy > PhonePose.WIDEST_FIX -> PreflightReason.FIX_WIDE
+            !FixCheck.isNarrow(accuracy?.toDouble()) -> PreflightReason.FIX_WIDE
             !boat.hasHeading -> PreflightReason.NO_HEADING
             else -> null
         }
@@ -221,6 +229,7 @@ internal class Preflight(private val context: Context) {
         val lowest = boat.lowestVolts
         return when {
             lowest == 0.0 -> null
+            boat.hasMission && lowest == null -> PreflightReason.NOT_SAID
             volts == null -> PreflightReason.NOT_REPORTED
             lowest != null && volts < lowest -> PreflightReason.LOW_CHARGE
             else -> null

@@ -26,8 +26,8 @@ import stillwater.mission.DraftField
 import stillwater.mission.MissionDraft
 import stillwater.mission.PlaceSpec
 import stillwater.model.LatLon
-import stillwater.model.LocalFrame
 import stillwater.model.Position
+import stillwater.model.TypedPlace
 
 /**
  * Draws the water of a mission: corners are dropped where the boat is, touched on the grid or typed as coordinates.
@@ -193,14 +193,11 @@ internal class AreaScreen(
     }
 
     private fun addTyped() {
-        val (north, east) = listOf(latitude, longitude).map { it.edit.text.toString().trim().replace(',', '.') }
-        val (lat, lon) = north.toDoubleOrNull() to east.toDoubleOrNull()
-        val isNorth = lat != null && lat in LatLon.LATITUDES_DEG && LocalFrame.canStartAt(lat)
-        val isEast = lon != null && lon in LatLon.LONGITUDES_DEG
-        latitude.problem(if (isNorth) null else context.getString(R.string.bad_latitude, north))
-        longitude.problem(if (isEast) null else context.getString(R.string.bad_longitude, east))
-        if (lat == null || lon == null || !isNorth || !isEast) return
-        add(LatLon(lat, lon))
+        val (north, east) = listOf(latitude, longitude).map { it.edit.text.toString() }
+        val typed = TypedPlace.of(north, east)
+        latitude.problem(context.getString(R.string.bad_latitude, north).takeIf { typed.latitudeDeg == null })
+        longitude.problem(context.getString(R.string.bad_longitude, east).takeIf { typed.longitudeDeg == null })
+        add(typed.place ?: return)
         if (refusal != null) return
         latitude.fill("")
         longitude.fill("")

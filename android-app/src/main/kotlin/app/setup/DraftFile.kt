@@ -10,7 +10,10 @@ import java.io.IOException
 /** Keeps the draft over the app's end: half a shore that was walked is not to be walked again. */
 internal class DraftFile(context: Context) {
     private val context = context.applicationContext
-    private val file: File by lazy { File(this.context.filesDir, "draft.json") }
+    private val file: File by lazy {
+        mayWait("the app's folder")
+        File(this.context.filesDir, "draft.json")
+    }
 
     /** Hands over what was kept, if anything was. */
     fun read(then: (MissionDraft) -> Unit) =

@@ -62,6 +62,7 @@ internal fun Danger.words(): Int =
         Danger.FIX_JUMPING -> R.string.danger_fix_jumping
         Danger.BATTERY_LOW -> R.string.danger_battery
         Danger.STRANDED -> R.string.danger_stranded
+        Danger.PHONE_LOW -> R.string.danger_phone
         Danger.FENCE -> R.string.danger_fence
         Danger.LOG_LOST -> R.string.danger_log
         Danger.OPERATOR_WAIT -> R.string.danger_wait

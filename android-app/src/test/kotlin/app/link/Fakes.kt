@@ -91,6 +91,9 @@ internal class FakePause : Pause {
 
     /** The wait that is asked for next; it goes on. */
     fun begins(): Long = assertNotNull(asked.poll(PATIENCE_SECONDS, TimeUnit.SECONDS))
+
+    /** The wait that goes on is over. */
+    fun ends() = over.release()
 }
 
 /** Asks again and again until [what] is there; other threads work meanwhile. */

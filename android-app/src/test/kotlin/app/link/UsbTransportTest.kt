@@ -17,6 +17,7 @@ import org.robolectric.Shadows.shadowOf
 import org.robolectric.annotation.Config
 import org.robolectric.shadow.api.Shadow
 import org.robolectric.util.ReflectionHelpers
+import stillwater.wire.ByteLink
 import java.io.IOException
 import java.util.concurrent.CopyOnWriteArrayList
 import java.util.concurrent.LinkedBlockingQueue
@@ -95,6 +96,62 @@ class UsbTransportTest {
         link.close()
         assertTrue(port.ended.tryAcquire(PATIENCE_SECONDS, TimeUnit.SECONDS), "the reader has gone")
         assertTrue("close" in port.calls)
+    }
+
+    /** As the library does when its read ends with nothing and the adapter is gone. */
+    @Test
+    fun anAdapterThatIsUnpluggedUnderARunningReadIsLeftAndTheNextIsFound() {
+        val first = plugIn(granted = true).port
+        val pause = FakePause()
+        val link = link(pause)
+        first.arriving.put("a".toByteArray())
+        assertEquals("a", link.text())
+        eventually("it waits for more") { first.reads.takeIf { it.size == 2 } }
+        plugged.clear()
+        first.unplug()
+        pause.begins()
+        val lost = link.health
+        assertEquals(listOf(1L, 1L), listOf(lost.connects, lost.drops))
+        assertEquals("USB get_status request failed", lost.lastError)
+        assertTrue("close" in first.calls && first.ended.availablePermits() == 1)
+        // Still out: an attempt fails, and the next one finds another device.
+        pause.ends()
+        val wait = pause.begins()
+        assertEquals(LinkState.WAITING to 1L, link.health.run { state to failures })
+        assertEquals(ByteLink.LOST, link.read(ByteArray(1)))
+        assertEquals(1000L, wait)
+        val second = plugIn(granted = true).port
+        pause.ends()
+        second.arriving.put("b".toByteArray())
+        assertEquals("b", link.text())
+        assertEquals(2L, link.health.connects)
+        link.close()
+    }
+
+    /**
+     * A driver that waits on although its adapter is gone: the next command finds it out, and closing ends the wait.
+     */
+    @Test
+    fun aReadThatAnUnpluggedAdapterLeavesHangingIsEndedByTheNextCommand() {
+        val port = plugIn(granted = true).port
+        val pause = FakePause()
+        val link = link(pause)
+        eventually("it waits") { port.reads.takeIf { it.size == 1 } }
+        plugged.clear()
+        port.isGone = true
+        assertTrue(link.write("question".toByteArray()), "taken, to be sent")
+        pause.begins()
+        assertEquals(LinkState.WAITING to 1L, link.health.run { state to drops })
+        assertEquals(1L, link.health.writesDropped)
+        assertEquals(1, port.ended.availablePermits(), "the reader is free")
+        link.close()
+    }
+
+    private fun link(pause: FakePause): ReconnectingLink {
+        val link = ReconnectingLink(transport, context::getString, pause, Parting(lingeringMillis = 0))
+        link.open()
+        eventually("connected") { link.health.takeIf { it.state == LinkState.CONNECTED } }
+        return link
     }
 
     @Test
@@ -186,13 +243,23 @@ class UsbTransportTest {
             val bytes = if (timeoutMillis == 0) arriving.take() else arriving.poll() ?: return 0
             if (bytes.isEmpty()) {
                 ended.release()
-                throw IOException("Connection closed")
+                throw IOException(if (isGone) "USB get_status request failed" else "Connection closed")
             }
             bytes.copyInto(into)
             return bytes.size
         }
 
-        override fun write(from: ByteArray, timeoutMillis: Int) = Unit
+        override fun write(from: ByteArray, timeoutMillis: Int) {
+            if (isGone) throw IOException("USB bulk transfer failed")
+        }
+
+        @Volatile var isGone = false
+
+        /** The read that waits ends with nothing, and the adapter does not answer. */
+        fun unplug() {
+            isGone = true
+            arriving.put(ByteArray(0))
+        }
 
         override fun close() {
             calls += "close"

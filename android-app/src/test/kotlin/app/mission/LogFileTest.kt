@@ -151,7 +151,10 @@ class LogFileTest {
         val name = "2023-11-14T22-13-20-Lac-d-Argent---2.log.incomplete"
         assertEquals(listOf(name), folder.past().map { it.name })
         assertEquals(null, folder.recover(), "it has no mission in it")
-        folder.complete(name)
+        assertEquals(null, folder.recover(name))
+        assertTrue(folder.goOn(name).close())
         assertEquals(listOf(true), folder.past().map { it.isComplete })
+        val complete = name.removeSuffix(LogFolder.INCOMPLETE)
+        assertEquals(null, folder.recover(complete), "what is complete is not gone on with")
     }
 }

@@ -9,6 +9,7 @@ import android.os.Looper
 import android.os.StrictMode
 import android.view.View
 import android.widget.TextView
+import com.sun.management.ThreadMXBean
 import org.junit.After
 import org.junit.Before
 import org.junit.Test
@@ -30,6 +31,7 @@ import stillwater.model.Drive
 import stillwater.model.Reading
 import stillwater.wire.Message
 import java.io.File
+import java.lang.management.ManagementFactory
 import java.time.Duration
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -38,7 +40,8 @@ import kotlin.test.assertTrue
  * From nothing to the live map, after the process died in the middle of a mission: the service, the window, the log of
  * half an hour read back, the map drawn. No disk and no link on the main thread meanwhile.
  *
- * How long it takes is written to `target/cold-start.txt` beside what an empty window takes on the same machine, and
+ * What the main thread does for it does not grow with the log. How long it takes is written to `target/cold-start.txt`
+ * beside what an empty window takes on the same machine, and
  * judged by whoever reads it: a busy machine proves nothing.
  */
 @RunWith(RobolectricTestRunner::class)
@@ -64,6 +67,28 @@ class ColdStartTest {
             "milliseconds, the first time in this process and the second\n" +
                 "an empty window: ${empty[0]}, ${empty[1]}\nto the live map: ${live[0]}, ${live[1]}\n",
         )
+    }
+
+    /**
+     * Bytes that the main thread allocates stand for the work that it does, and are the same on any machine: of a log
+     * three times as long it does no more. The trace and the track of both are as long as they get.
+     */
+    @Test
+    fun whatTheMainThreadDoesDoesNotGrowWithTheLog() {
+        writeLog()
+        liveMap()
+        val (long, short) = listOf(STEPS, STEPS / LONGER).map { steps ->
+            writeLog(steps)
+            allocated(::liveMap)
+        }
+        assertTrue(long < short * MOST_GROWTH, "$long bytes for $STEPS steps, $short for ${STEPS / LONGER}")
+    }
+
+    private fun allocated(work: () -> Unit): Long {
+        val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
+        val before = threads.getThreadAllocatedBytes(Thread.currentThread().id)
+        work()
+        return threads.getThreadAllocatedBytes(Thread.currentThread().id) - before
     }
 
     /** What Android itself takes, on this machine, for a window with a word in it. */
@@ -117,13 +142,13 @@ class ColdStartTest {
     }
 
     /** Half an hour of ten steps a second and a reading a second, along the first row of cells. */
-    private fun writeLog() {
+    private fun writeLog(steps: Int = STEPS) {
         val lines = ArrayList<String>()
         val log = MissionLog(lines::add, LogStart(1_784_000_000_000, "2026-07-14 03:33:20"), Scenes.spec)
         val grid = Scenes.spec.grid.grid()
-        for (step in 1..STEPS) {
+        for (step in 1..steps) {
             val now = BoatTime(step * STEP)
-            val cell = grid.center(step * grid.columns / (STEPS + 1))
+            val cell = grid.center(step * grid.columns / (steps + 1))
             val place = cell.moved((step % PACE) * CREEP, 0.0)
             if (step % STEPS_A_READING == 0) {
                 val reading = Reading(now, place, 7.0 + 2.0 * place.x / 100)
@@ -146,5 +171,9 @@ class ColdStartTest {
         const val STEPS_A_READING = 10
         const val PACE = 20
         const val CREEP = 0.05
+
+        /** Ten minutes, which fill the trace. */
+        const val LONGER = 3
+        const val MOST_GROWTH = 1.25
     }
 }

@@ -20,6 +20,7 @@ import stillwater.estimate.update
 import stillwater.field.FieldMap
 import stillwater.mission.AreaSpec
 import stillwater.mission.BudgetSpec
+import stillwater.mission.FailsafePolicy
 import stillwater.mission.GridSpec
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
@@ -55,6 +56,7 @@ internal object Scenes {
             planner = PlannerName.POLYGON_RRT,
             budget = BudgetSpec(metres = 1500.0),
             home = place(2, 3),
+            failsafe = FailsafePolicy(lowestVolts = 13.2),
         )
     private val grid = spec.grid.grid()
 
@@ -136,6 +138,7 @@ internal object Scenes {
         isRecovered: Boolean = false,
         isOver: Boolean = false,
         position: Position? = track.last(),
+        probeSilence: Double? = null,
     ) =
         MissionReport(
             spec = spec,
@@ -151,6 +154,7 @@ internal object Scenes {
             trace = trace.takeLast(TRACE),
             counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 0, 7, 3, 41),
             log = LogReport("2026-07-14T09-31-12-North-pond.log.incomplete", 9_113, 9_110),
+            probeSilence = probeSilence,
             readAt = DoubleArray(grid.size) { if (map.readings(it) > 0) 1.0 * it * SECONDS_A_CELL else Double.NaN },
             now = ROWS_DONE * grid.columns * SECONDS_A_CELL.toDouble(),
         )

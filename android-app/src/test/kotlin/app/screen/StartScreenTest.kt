@@ -4,6 +4,7 @@ import android.content.Intent
 import android.provider.Settings
 import android.view.View
 import android.widget.Button
+import android.widget.TextView
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
@@ -97,8 +98,8 @@ class StartScreenTest {
             PreflightItem(PreflightCheck.BOAT_BATTERY, true, note = PreflightNote.NOT_REPORTED),
         )
         val words = activity.wordsShown()
-        assertTrue("✓ The mission's water: 40 m from here; armed, the boat waits until it is there" in words, "$words")
-        assertTrue("✓ Boat battery: the board does not say, and the mission does not ask" in words, "$words")
+        assertTrue("! The mission's water: 40 m from here; armed, the boat waits until it is there" in words, "$words")
+        assertTrue("! Boat battery: the board does not say, and the mission does not ask" in words, "$words")
         assertTrue("All in order; see 2 notes below" in words, "$words")
         show(
             PreflightItem(PreflightCheck.PLACE, false, PreflightReason.OTHER_WATER, metres = 11_119.0),
@@ -110,6 +111,43 @@ class StartScreenTest {
         assertTrue("✗ Boat battery: $battery" in red, "$red")
         activity.shown().filterIsInstance<Button>().first { it.text.toString() == "Open the mission" }.performClick()
         assertTrue(activity.view<View>(R.id.setup).isShown)
+    }
+
+    /** Nothing is green that nobody looks after. */
+    @Test
+    fun aBatteryThatNobodyWatchesIsNotGreen() {
+        val unwatched = PreflightItem(PreflightCheck.BOAT_BATTERY, true, note = PreflightNote.NOT_WATCHED)
+        val others = Scenes.loaded.preflight.filter { it.check != PreflightCheck.BOAT_BATTERY }
+        activity.show(Scenes.loaded.copy(preflight = others + unwatched))
+        val words = activity.wordsShown()
+        assertTrue("All in order; see 1 note below" in words, "$words")
+        val green = activity.getColor(R.color.good)
+        val lines = activity.shown().filterIsInstance<TextView>().filter { it.currentTextColor == green }
+        assertEquals(others.size, lines.size, "${lines.map { it.text }}")
+        assertTrue(lines.none { "oat battery" in it.text || "in order" in it.text })
+        val unsaid = PreflightItem(PreflightCheck.BOAT_BATTERY, false, PreflightReason.NOT_SAID)
+        activity.show(Scenes.loaded.copy(preflight = others + unsaid))
+        val red = activity.wordsShown()
+        assertTrue("✗ Boat battery: the mission does not say below which voltage it is low" in red, "$red")
+        activity.button("Open the mission").performClick()
+        assertTrue(activity.view<View>(R.id.setup).isShown)
+    }
+
+    @Test
+    fun otherMissionsThatWereCutOffAreToldAndCanBeGoneOnWith() {
+        activity.show(Scenes.recovered.copy(past = Scenes.past))
+        val words = activity.wordsShown()
+        assertTrue("1 other mission was cut off: go on with it, or mark it as finished" in words, "$words")
+        activity.view<View>(R.id.open_cut_off).performClick()
+        window.boat.snapshot = Scenes.recovered.copy(past = Scenes.past)
+        activity.show(window.boat.snapshot)
+        activity.shown().filterIsInstance<Button>().first { "CUT" in it.text }.performClick()
+        activity.view<View>(R.id.go_on_with).performClick()
+        assertEquals("go on with 2026-07-13T15-02-05-Mill-bay.log.incomplete", window.boat.told.last { "look" != it })
+        assertTrue(activity.view<View>(R.id.arm).isShown, "its state and an answer are there")
+        // Under way there is something else to look at.
+        activity.show(Scenes.surveying.copy(past = Scenes.past))
+        assertTrue(activity.wordsShown().none { "cut off" in it })
     }
 
     @Test

@@ -32,7 +32,7 @@ class StrictModeTest {
         assertEquals(true, isSeen { open.append("line\n".toByteArray()) })
         open.close()
         assertEquals(true, isSeen { LogFolder({ folder }).past() })
-        assertEquals(true, isSeen { LogFolder({ folder }).complete("a.log.incomplete") })
+        assertEquals(true, isSeen { LogFolder({ folder }).recover("a.log.incomplete") })
         assertEquals(false, isSeen { context.getString(stillwater.app.R.string.stop) })
     }
 

@@ -52,6 +52,8 @@ internal class NotingBoat : BoatCommands {
 
     override fun stop() = note("stop")
 
+    override fun goOnWith(name: String) = note("go on with $name")
+
     override fun newMission() = note("new")
 
     override fun lookForPast() = note("look")

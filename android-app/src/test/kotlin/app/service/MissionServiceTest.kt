@@ -157,6 +157,7 @@ class MissionServiceTest {
         assertTrue(desk.boat.board.actuation.isAtRest)
         assertTrue(desk.until(10.0) { it.mission?.isOver == true })
         assertFalse(shadowOf(desk.service).isStoppedBySelf, "the link stays, for the board to be told again")
+        desk.pass(2.0)
         desk.ask { onStartCommand(BoatService.stopIntent(context), 0, 3) }
         desk.pass(0.5)
         assertTrue(shadowOf(desk.service).isStoppedBySelf)

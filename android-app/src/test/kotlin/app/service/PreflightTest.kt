@@ -65,8 +65,17 @@ class PreflightTest {
         assertEquals(PreflightNote.NOT_REPORTED, note(PreflightCheck.BOAT_BATTERY, boat(volts = null, lowest = 0.0)))
         assertEquals(PreflightNote.NOT_WATCHED, note(PreflightCheck.BOAT_BATTERY, boat(volts = 9.0, lowest = 0.0)))
         assertNull(note(PreflightCheck.BOAT_BATTERY, boat()))
-        val unasked = boat(volts = null, lowest = null)
+        val unasked = boat(volts = null, lowest = null, hasMission = false)
         assertEquals(PreflightReason.NOT_REPORTED, red(unasked)[PreflightCheck.BOAT_BATTERY], "no mission yet")
+    }
+
+    /** What nobody has said is nobody's choice. */
+    @Test
+    fun aMissionThatSaysNothingOfTheBatteryIsRed() {
+        for (volts in listOf(15.0, null)) {
+            val unsaid = boat(volts = volts, lowest = null)
+            assertEquals(mapOf(PreflightCheck.BOAT_BATTERY to PreflightReason.NOT_SAID), red(unsaid))
+        }
     }
 
     /** Not red: some boards let their probes speak only once they are armed. */

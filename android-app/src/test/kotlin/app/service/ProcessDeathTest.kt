@@ -102,6 +102,77 @@ class ProcessDeathTest {
         dieAndComeBack()
     }
 
+    /** Two missions were cut off: the one written last comes back, the other is told of, and neither is lost. */
+    @Test
+    fun ofTwoThatWereCutOffEitherCanBeGoneOnWith() {
+        survey()
+        desk.pass(20.0)
+        val first = pond.logs().single()
+        desk.end()
+        val kept = first.readText()
+        first.delete()
+        desk.start(intent = null)
+        pond.load(ServiceDesk.POND.replace("\"pond\"", "\"bay\""))
+        survey()
+        desk.pass(5.0)
+        val second = pond.logs().single()
+        first.writeText(kept)
+        first.setLastModified(second.lastModified() - 60_000)
+        desk.end()
+        desk.start(intent = null)
+        desk.pass(5.0)
+        assertEquals("bay", desk.report.spec.name)
+        assertEquals(listOf(first.name), desk.snapshot.cutOff.map { it.name })
+
+        desk.service.goOnWith(first.name)
+        desk.settle()
+        desk.pass(1.0)
+        assertEquals("pond", desk.report.spec.name)
+        assertTrue(desk.report.isRecovered)
+        sameMap(read(first))
+        assertEquals(listOf(second.name), desk.snapshot.cutOff.map { it.name }, "as it was, on the disk")
+        pond.green()
+        survey()
+        desk.service.goOnWith(second.name)
+        desk.pass(5.0)
+        assertEquals(Answer(Answer.Reason.UNDER_WAY), desk.snapshot.answer)
+        // The process dies again: the one that was under way comes back, though the other was begun later.
+        second.setLastModified(first.lastModified() - 60_000)
+        desk.end()
+        desk.start(intent = null)
+        desk.pass(5.0)
+        assertEquals("pond", desk.report.spec.name)
+        desk.service.goOnWith("no-such.log.incomplete")
+        desk.settle()
+        assertEquals(Answer(Answer.Reason.NOT_READABLE), desk.snapshot.answer)
+        assertEquals(listOf(first.name, second.name).sorted(), pond.logs().map { it.name })
+    }
+
+    /**
+     * "Another mission" is beside the controls, and gloves are wet: what was cut off can be gone on with all the same.
+     */
+    @Test
+    fun whatWasCutOffIsNotClosedByLoadingAnother() {
+        survey()
+        desk.pass(5.0)
+        val file = dieAndComeBack()
+        desk.ask { newMission() }
+        desk.pass(1.0)
+        assertEquals(null, desk.snapshot.mission)
+        assertEquals(listOf(file.name), desk.snapshot.cutOff.map { it.name })
+        desk.ask { load(ServiceDesk.POND.replace("\"pond\"", "\"bay\"")) }
+        desk.end()
+        desk.start(intent = null)
+        desk.pass(1.0)
+        assertEquals("bay", desk.report.spec.name, "what was loaded last stays so")
+        desk.service.goOnWith(file.name)
+        desk.settle()
+        desk.pass(1.0)
+        sameMap(read(file))
+        pond.green()
+        survey()
+    }
+
     @Test
     fun whatARealBoatBeganTheDemoDoesNotGoOnWith() {
         survey()

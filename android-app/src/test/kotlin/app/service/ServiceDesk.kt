@@ -193,7 +193,8 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
             "area":{"south_west":{"x_m":-20,"y_m":-20},"north_east":{"x_m":60,"y_m":50}},
             "grid":{"south_west":{"x_m":0,"y_m":0},"columns":4,"rows":3,"cell_m":10},
             "probe":{"quantity":"dissolved-oxygen","port":1,"lowest":0,"highest":15},
-            "planner":"lawnmower","budget":{"seconds":200},"home":{"x_m":5,"y_m":5}}"""
+            "planner":"lawnmower","budget":{"seconds":200},"home":{"x_m":5,"y_m":5},
+            "failsafe":{"lowest_volts":13.2}}"""
 
         private const val STEP = 0.1
         private const val MILLIS = 100L

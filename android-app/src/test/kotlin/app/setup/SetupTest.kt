@@ -6,6 +6,7 @@ import android.view.MotionEvent
 import android.view.View
 import android.widget.Button
 import android.widget.EditText
+import android.widget.TextView
 import org.junit.Test
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
@@ -20,6 +21,7 @@ import stillwater.app.screen.button
 import stillwater.app.screen.go
 import stillwater.app.screen.shown
 import stillwater.app.screen.view
+import stillwater.app.screen.views
 import stillwater.app.screen.wordsShown
 import stillwater.mission.DraftField
 import stillwater.mission.MissionDraft
@@ -72,6 +74,10 @@ class SetupTest {
         press(R.id.drop_corner)
         press(R.id.area_done)
         type(R.id.mission_name, "Walked")
+        // Nobody but a person knows which battery it is, and no mission begins before one has said.
+        assertEquals(setOf(DraftField.LOWEST_VOLTS), activity.desk.check?.problems?.keys)
+        assertFalse(activity.view<View>(R.id.use_mission).isEnabled)
+        sayVolts()
         press(R.id.use_mission)
         val spec = MissionSpec.fromJson(window.boat.told.single { it.startsWith("load") }.removePrefix("load "))
         assertEquals("Walked", spec.name)
@@ -79,7 +85,7 @@ class SetupTest {
         // A thousandth of a degree east at 45.33 degrees north is 78.4 m, half a one north 55.6 m.
         assertEquals(78.4, spec.area.corners().maxOf { it.x }, 0.1)
         assertEquals(55.6, spec.area.corners().maxOf { it.y }, 0.1)
-        assertEquals(PlannerName.POLYGON_RRT, spec.planner)
+        assertEquals(PlannerName.POLYGON_RRT to 13.2, spec.planner to spec.failsafe.lowestVolts)
         assertTrue(activity.view<View>(R.id.loaded_mission).isShown, "on to the checklist")
     }
 
@@ -237,6 +243,7 @@ class SetupTest {
         press(R.id.area_done)
         type(R.id.mission_name, "Box")
         pick("Planner: ", "lawnmower")
+        sayVolts()
         val spec = assertNotNull(activity.desk.check?.spec, "${activity.desk.check?.problems}")
         assertEquals(PlannerName.LAWNMOWER to 8 * 6, spec.planner to spec.grid.grid().size)
     }
@@ -300,6 +307,15 @@ class SetupTest {
 
     private fun type(id: Int, text: String) {
         activity.view<EditText>(id).setText(text)
+        window.settle()
+    }
+
+    private fun sayVolts() {
+        val field =
+            activity.shown().filterIsInstance<EditText>().single { edit ->
+                views(edit.parent as View).any { it is TextView && "Low is below" in it.text }
+            }
+        field.setText("13.2")
         window.settle()
     }
 
