@@ -11,7 +11,7 @@ class ProbeWatchTest {
     private fun desk(port: String = "\"port\":1,") = Desk(
         MissionSpec.fromJson(Desk.SMALL.replace("\"port\":1,", port)),
         seed = 61,
-        board = BoardSpec(oxygenPeriod = 1.0, knowsProbe = false),
+        board = BoardSpec(oxygenPeriod = 1.0),
     )
 
     private fun Desk.sail(seconds: Double) = until(seconds) { false }
