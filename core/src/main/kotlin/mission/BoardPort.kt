@@ -205,10 +205,14 @@ public class BoardPort(
         isAsked = false
     }
 
-    /** The master branch has no target "e" at all. */
+    /**
+     * The master branch has no target "e" at all: it says "Unknown command target.", its older versions "Unknown command
+     * entry.". Its reader of JSON cuts up what it reads, so that of the line it got it may echo no more than the target.
+     */
     private fun takeRefusal(refused: Message.Refused) {
         refusals++
-        if (refused.kind != BoardError.TARGET || refused.raw.trim() !in STATE_WORDS) return
+        if (refused.kind != BoardError.TARGET && refused.kind != BoardError.UNKNOWN) return
+        if (refused.raw.firstOrNull { it.isLetter() } != 'e') return
         isStateless = true
         isAsked = false
     }
@@ -236,8 +240,5 @@ public class BoardPort(
 
         /** So that a link that never runs dry can't hold a step up. */
         private const val MOST_READS = 16
-
-        private val STATE_WORDS = listOf(Command.Arm, Command.Disarm, Command.AskState)
-            .map { PlatypusEncoder.encode(it).decodeToString().trim() }
     }
 }

@@ -262,10 +262,10 @@ public class Mission(
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
      * answers may not arrive: so it is told in every step until it says that it is disarmed, and then once a second. A
-     * board of the master branch cannot be disarmed: it is told to rest for as long as its motors have power.
+     * board of the master branch cannot be disarmed, and runs for as long as it is told anything: it is told to rest.
      */
     private fun leaveDisarmed() {
-        if (port.isRunning) port.tell(now, Drive.NONE, isCalm = true)
+        if (!port.isDisarmed) port.tell(now, Drive.NONE, isCalm = true)
         val isTold = port.isDisarmed || port.armsItself
         if (!isTold || now.seconds - disarmedAt >= BoardPort.PATIENCE) {
             disarmedAt = now.seconds

@@ -1,5 +1,6 @@
 package stillwater.mission
 
+import stillwater.model.BoatTime
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.Firmware
 import stillwater.wire.ByteLink
@@ -231,6 +232,23 @@ class FirmwareTest {
             repeat(200) {
                 desk.step()
                 assertFalse(desk.isDriven())
+            }
+        }
+    }
+
+    /** Whatever the next process says keeps the board's watchdog quiet, and it does not hear that motors run. */
+    @Test
+    fun aBoardLeftRunningAndNotHeardIsTakenToRest() {
+        for (board in boards) {
+            val desk = desk(board)
+            desk.begin()
+            assertTrue(desk.until(20.0) { desk.isDriven() })
+            between.isDeaf = true
+            val next = Mission(desk.spec, between, desk.log)
+            repeat(40) { step ->
+                next.step(BoatTime(desk.boat.time.seconds + 1))
+                desk.boat.advance(0.1)
+                if (step > 1) assertFalse(desk.isDriven(), "$board")
             }
         }
     }
