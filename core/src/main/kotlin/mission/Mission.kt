@@ -87,6 +87,9 @@ public class Mission(
     private var now = BoatTime(Double.NaN)
     private var armedAt = Double.NEGATIVE_INFINITY
     private var disarmedAt = Double.NEGATIVE_INFINITY
+
+    /** Since when the board is not to be armed, s: the mission's begin or its end. */
+    private var leftAt = Double.NaN
     private var stopWanted = false
     private var logLost = false
 
@@ -203,6 +206,7 @@ public class Mission(
 
     private fun begin(time: BoatTime): Double {
         probe.begin(time)
+        leftAt = time.seconds
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
@@ -242,6 +246,7 @@ public class Mission(
             MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
                 if (before !is MissionState.Stopped) {
+                    leftAt = now.seconds
                     port.tell(now, Drive.NONE)
                     // What it said of itself before it was told so does not count.
                     port.order(Command.Disarm)
@@ -263,8 +268,16 @@ public class Mission(
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
      * answers may not arrive: so it is told in every step until it says that it is disarmed, and then once a second. A
      * board of the master branch cannot be disarmed, and runs for as long as it is told anything: it is told to rest.
+     * One that is not heard is best left to its watchdog, which a word now and then does not keep quiet: rests can be
+     * spoilt on the way and become drives.
      */
     private fun leaveDisarmed() {
+        if (minOf(port.silence(now), now.seconds - leftAt) > BoardPort.RESTING) {
+            if (now.seconds - disarmedAt < SELDOM) return
+            disarmedAt = now.seconds
+            port.order(Command.Disarm)
+            return port.askState(now)
+        }
         if (!port.isDisarmed) port.tell(now, Drive.NONE, isCalm = true)
         val isTold = port.isDisarmed || port.armsItself
         if (!isTold || now.seconds - disarmedAt >= BoardPort.PATIENCE) {
@@ -317,5 +330,8 @@ public class Mission(
 
         /** A board that is not heard for so long while it arms is left to its watchdog, s: six answers were lost. */
         const val LONGEST_QUIET = 2.0
+
+        /** Time between words to a board that is not heard, s: more than the longest watchdog, 3 s. */
+        const val SELDOM = 5.0
     }
 }
