@@ -120,15 +120,14 @@ public class BoardPort(
 
     /**
      * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. Where
-     * [isCalm] a rest that the board has obeyed for a while is only repeated before it disarms itself: each line may be
-     * spoilt on the way and become a drive.
+     * [isCalm] a rest is not repeated for as long as the board says that its motors rest: each line may be spoilt on the
+     * way and become a drive. Questions keep the board awake meanwhile.
      */
     public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false) {
         val actuation = mixing.mix(drive)
         val isNewRest = actuation.isAtRest && !sent.isAtRest
         restedFrom = if (actuation.isAtRest) minOf(restedFrom, now.seconds) else Double.POSITIVE_INFINITY
-        val pause = if (isCalm && isRestKept(now)) REMINDER else HEARTBEAT
-        if (!isNewRest && now.seconds - toldAt < pause) return
+        if (!isNewRest && (now.seconds - toldAt < HEARTBEAT || (isCalm && isRestKept(now)))) return
         toldAt = now.seconds
         sent = actuation
         // A line that is hit on the way is not heard, and of a first rest that must not happen.
@@ -229,9 +228,6 @@ public class BoardPort(
 
         /** Time between questions that keep a board awake to which no drives are said, s: within the watchdog of 0.5 s. */
         public const val KEEPING: Double = 0.3 - 1e-6
-
-        /** Time between rests that are kept, s; questions keep the watchdog quiet meanwhile. */
-        private const val REMINDER = 2.0
 
         /** Boards say ten times a second what their motors get; older than this it is not known, s. */
         private const val ECHO = 0.35
