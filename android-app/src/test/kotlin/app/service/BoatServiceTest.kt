@@ -119,7 +119,7 @@ class BoatServiceTest {
         link.state = LinkState.CONNECTED
         link.arriving += "{\"e\":{\"type\":\"state\",\"data\":\"standby\"}}\r\n".toByteArray()
         settle()
-        assertEquals(BoardState.CONNECTED, service.snapshot.board.state)
+        assertEquals(BoardState.STANDBY, service.snapshot.board.state)
         assertEquals(1L, service.snapshot.board.malformed)
     }
 
