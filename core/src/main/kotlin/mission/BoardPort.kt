@@ -4,6 +4,7 @@ import stillwater.control.Mixing
 import stillwater.model.Actuation
 import stillwater.model.BoatTime
 import stillwater.model.Drive
+import stillwater.wire.BoardError
 import stillwater.wire.BoardState
 import stillwater.wire.ByteLink
 import stillwater.wire.Command
@@ -20,7 +21,12 @@ import stillwater.wire.PlatypusEncoder
  * The board as the mission sees it: what it said last, how long it has been silent, and what it is told.
  *
  * [hear] reads all that has arrived and hands messages on; [tell] sends at most one drive in [HEARTBEAT] s but
- * for a first rest, and [askState] at most one question in [PATIENCE] s. Never throws on data. Confined to one thread.
+ * for a first rest. Never throws on data. Confined to one thread.
+ *
+ * What it believes of boards was read in the Platypus firmware's source. Both generations, v4.2.0 and the master branch
+ * before it, speak of motors ten times a second exactly while motors have power and obey, so that a motor line is the
+ * one sure sign of a board that runs. Else they speak of their battery every 1 to 5 s, of their probes, and v4.2.0 of its
+ * state when asked and when it changes. v4.2.0 says active from the moment it is told to arm, seconds before it has.
  *
  * @param link to the board. Retained.
  * @param mixing how a drive becomes thrust.
@@ -51,12 +57,26 @@ public class BoardPort(
     private var isAsked = false
     private var isAnswerOld = false
     private var ordered: Command? = null
-    private var hasDriven = false
-    private var idleAnswers = 0
+    private var isStateless = false
 
-    /** What the board last said of itself; null where it has said nothing since it was last told to be otherwise. */
+    /**
+     * What the board last said of itself, a motor line being the word of an active one; null where it has said nothing
+     * since it was last told to be otherwise. Boards of the master branch never say more than that.
+     */
     public var state: BoardState? = null
         private set
+
+    /** Whether the board has spoken of its motors since it was told to arm, and has not said since that it rests. */
+    public val isRunning: Boolean get() = echoedAt > Double.NEGATIVE_INFINITY
+
+    /**
+     * Whether the board has said that it has to be armed before it drives. v4.2.0 is connected after it was told to disarm,
+     * after its watchdog and after a reset; in none of these a drive makes it go on.
+     */
+    public val isDisarmed: Boolean get() = state != null && state != BoardState.ACTIVE
+
+    /** Whether the board is of the master branch: it refuses all words of states, arms itself and cannot be disarmed. */
+    public val armsItself: Boolean get() = isStateless
 
     /** Battery, V; NaN before it was heard of. */
     public var volts: Double = Double.NaN
@@ -84,6 +104,9 @@ public class BoardPort(
     /** Time since the board was last understood, s; infinite before. */
     public fun silence(now: BoatTime): Double = now.seconds - heardAt
 
+    /** Time since the board last spoke of its motors, s; infinite where it has not since it was armed, or rests. */
+    public fun motorSilence(now: BoatTime): Double = now.seconds - echoedAt
+
     /** Reads all that has arrived by [now]. */
     public fun hear(now: BoatTime) {
         this.now = now
@@ -97,30 +120,30 @@ public class BoardPort(
 
     /**
      * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. Where
-     * [isCalm] a rest that the board has obeyed for a while is only repeated before it disarms itself: each line may be
-     * spoilt on the way and become a drive.
+     * [isCalm] a rest is not repeated for as long as the board says that its motors rest: each line may be spoilt on the
+     * way and become a drive. Questions keep the board awake meanwhile.
      */
     public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false) {
         val actuation = mixing.mix(drive)
         val isNewRest = actuation.isAtRest && !sent.isAtRest
         restedFrom = if (actuation.isAtRest) minOf(restedFrom, now.seconds) else Double.POSITIVE_INFINITY
-        val pause = if (isCalm && isRestKept(now)) REMINDER else HEARTBEAT
-        if (!isNewRest && now.seconds - toldAt < pause) return
+        if (!isNewRest && (now.seconds - toldAt < HEARTBEAT || (isCalm && isRestKept(now)))) return
         toldAt = now.seconds
         sent = actuation
-        if (!actuation.isAtRest) hasDriven = true
         // A line that is hit on the way is not heard, and of a first rest that must not happen.
         repeat(if (isNewRest) REST_COPIES else 1) { send(Command.Move(actuation)) }
     }
 
-    /**
-     * Whether the board has said [ASLEEP] times on end that it rests for want of commands though it was told to drive
-     * before each: one that does not go on by itself needs arming.
-     */
-    public val isAsleep: Boolean get() = idleAnswers >= ASLEEP
+    /** Says rest at once, as often as a first rest, whatever was said before. */
+    public fun rest(now: BoatTime) {
+        sent = mixing.mix(Drive.NONE)
+        restedFrom = minOf(restedFrom, now.seconds)
+        toldAt = now.seconds
+        repeat(REST_COPIES) { send(Command.Move(sent)) }
+    }
 
     /** Whether rest was said for long enough, and the board says that its motors rest. */
-    private fun isRestKept(now: BoatTime) = now.seconds - restedFrom >= RESTING &&
+    public fun isRestKept(now: BoatTime): Boolean = now.seconds - restedFrom >= RESTING &&
         now.seconds - echoedAt < ECHO &&
         now.seconds - ranAt > ECHO
 
@@ -131,20 +154,22 @@ public class BoardPort(
     public fun order(command: Command) {
         if (command == Command.Arm || (command == Command.Disarm && ordered != Command.Disarm)) {
             state = null
+            echoedAt = Double.NEGATIVE_INFINITY
             isAnswerOld = isAsked
         }
-        if (command == Command.Arm) idleAnswers = 0
-        ordered = command
+        if (command == Command.Arm || command == Command.Disarm) ordered = command
         send(command)
     }
 
-    /** Asks the board for its state, unless that was done less than [PATIENCE] s ago. Answers whether it was asked. */
-    public fun askState(now: BoatTime): Boolean {
-        if (now.seconds - askedAt < PATIENCE) return false
+    /**
+     * Asks the board for its state, unless that was done less than [pause] s ago, or less than [PATIENCE] s and it has not
+     * answered yet: which question an answer is to must not be in doubt.
+     */
+    public fun askState(now: BoatTime, pause: Double = PATIENCE) {
+        if (now.seconds - askedAt < if (isAsked) PATIENCE else pause) return
         askedAt = now.seconds
         isAsked = true
         send(Command.AskState)
-        return true
     }
 
     private fun send(command: Command) {
@@ -157,9 +182,10 @@ public class BoardPort(
         when (message) {
             is Message.State -> takeState(message.state)
             is Message.Battery -> volts = message.volts
-            is Message.Refused -> refusals++
+            is Message.Refused -> takeRefusal(message)
             is Message.Motor -> {
                 echoedAt = now.seconds
+                state = BoardState.ACTIVE
                 if (message.velocity != 0.0) ranAt = now.seconds
             }
             else -> Unit
@@ -169,14 +195,24 @@ public class BoardPort(
 
     /** Where the old answer was lost on the way a new one is passed over in its place, and the next one counts. */
     private fun takeState(said: BoardState) {
-        if (!isAnswerOld) state = said
-        if (said != BoardState.CONNECTED) {
-            idleAnswers = 0
-        } else if (hasDriven) {
-            idleAnswers++
+        isStateless = false
+        if (!isAnswerOld) {
+            state = said
+            if (said != BoardState.ACTIVE) echoedAt = Double.NEGATIVE_INFINITY
         }
-        hasDriven = false
         isAnswerOld = false
+        isAsked = false
+    }
+
+    /**
+     * The master branch has no target "e" at all: it says "Unknown command target.", its older versions "Unknown command
+     * entry.". Its reader of JSON cuts up what it reads, so that of the line it got it may echo no more than the target.
+     */
+    private fun takeRefusal(refused: Message.Refused) {
+        refusals++
+        if (refused.kind != BoardError.TARGET && refused.kind != BoardError.UNKNOWN) return
+        if (refused.raw.firstOrNull { it.isLetter() } != 'e') return
+        isStateless = true
         isAsked = false
     }
 
@@ -184,17 +220,14 @@ public class BoardPort(
         /** Time between drives, s: well within the watchdog of 0.5 s. */
         public const val HEARTBEAT: Double = 0.1 - 1e-6
 
-        /** Time between questions, s. */
+        /** Time between questions that are not answered, s. */
         public const val PATIENCE: Double = 1.0
 
         /** Silence after which nothing more is said of drives, s: rest was said four times. */
         internal const val RESTING: Double = 0.5
 
-        /** Time between rests that are kept, s: boards disarm themselves 5 s after their watchdog. */
-        private const val REMINDER = 2.0
-
-        /** Answers, of which a lost drive may have made one. */
-        private const val ASLEEP = 3
+        /** Time between questions that keep a board awake to which no drives are said, s: within the watchdog of 0.5 s. */
+        public const val KEEPING: Double = 0.3 - 1e-6
 
         /** Boards say ten times a second what their motors get; older than this it is not known, s. */
         private const val ECHO = 0.35

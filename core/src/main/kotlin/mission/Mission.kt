@@ -86,6 +86,10 @@ public class Mission(
     private val situation = Situation()
     private var now = BoatTime(Double.NaN)
     private var armedAt = Double.NEGATIVE_INFINITY
+    private var disarmedAt = Double.NEGATIVE_INFINITY
+
+    /** Since when the board is not to be armed, s: the mission's begin or its end. */
+    private var leftAt = Double.NaN
     private var stopWanted = false
     private var logLost = false
     private var loggedVersion = 0
@@ -210,11 +214,12 @@ public class Mission(
         port.hear(time)
         val ruling = assess()
         val before = state
-        // A board that does not wake by drives is as good as disarmed.
-        val board = if (port.isAsleep) BoardState.STANDBY else port.state
+        // A board says that it is active before its motors are armed.
+        val board = if (port.isRunning) BoardState.ACTIVE else port.state.takeIf { port.isDisarmed }
         state = MissionPhases.next(state, PhaseInput(ruling, board, navigator.isHome, spec.failsafe.rearms))
         if (isUnderWay(state)) use.advance(dt, pose.track.groundSpeed)
         drive = gate.permit(wanted(ruling), situation, ruling)
+        if (probe.isMissed(now)) drive = Drive.NONE
         command(before)
         log.step(record(time))
         return state
@@ -229,6 +234,7 @@ public class Mission(
 
     private fun begin(time: BoatTime): Double {
         probe.begin(time)
+        leftAt = time.seconds
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
@@ -240,7 +246,9 @@ public class Mission(
     private fun assess(): Ruling {
         pose.describe(situation)
         situation.seconds = now.seconds
-        situation.linkAge = port.silence(now)
+        // Under way only motor lines tell that the boat obeys; a board that is not armed has none.
+        val isArmed = state !is MissionState.Preflight && state !is MissionState.Idle
+        situation.linkAge = if (isArmed) port.motorSilence(now) else port.silence(now)
         situation.volts = port.volts
         situation.phonePercent = phonePercent
         situation.operatorStop = stopWanted
@@ -269,47 +277,71 @@ public class Mission(
             MissionState.Idle, is MissionState.Preflight -> leaveDisarmed()
             is MissionState.Stopped -> {
                 if (before !is MissionState.Stopped) {
+                    leftAt = now.seconds
                     port.tell(now, Drive.NONE)
                     // What it said of itself before it was told so does not count.
                     port.order(Command.Disarm)
                 }
                 leaveDisarmed()
             }
-            else -> {
-                if (state == MissionState.Arming) {
-                    arm(before)
-                } else if (probe.isDue(now) && !isDeaf()) {
-                    setProbeUp()
-                }
-                // However long the silence is when it is noticed, rest is said once. After that any line would keep the
-                // watchdog quiet, a question too; the board speaks unasked when it is heard again.
-                if (state != before || !isDeaf()) {
-                    port.tell(now, drive, isCalm = state != MissionState.Arming)
-                    port.askState(now)
-                }
+            MissionState.Arming -> arm(before)
+            // However long the silence is when it is noticed, rest is said once. After that any line would keep the
+            // watchdog quiet, a question too; the board speaks unasked when it is heard again.
+            else -> if (state != before || !isDeaf()) {
+                port.tell(now, drive, isCalm = true)
+                port.askState(now, if (port.sent.isAtRest) BoardPort.KEEPING else BoardPort.PATIENCE)
             }
         }
+        setProbeUp()
     }
 
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
-     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then with every
-     * question.
+     * answers may not arrive: so it is told in every step until it says that it is disarmed, and then once a second. A
+     * board of the master branch cannot be disarmed, and runs for as long as it is told anything: it is told to rest.
+     * One that is not heard is best left to its watchdog, which a word now and then does not keep quiet: rests can be
+     * spoilt on the way and become drives.
      */
     private fun leaveDisarmed() {
-        if (port.state != BoardState.STANDBY || port.askState(now)) port.order(Command.Disarm)
-        port.askState(now)
+        if (minOf(port.silence(now), now.seconds - leftAt) > BoardPort.RESTING) {
+            if (now.seconds - disarmedAt < SELDOM) return
+            disarmedAt = now.seconds
+            port.order(Command.Disarm)
+            return port.askState(now)
+        }
+        if (!port.isDisarmed) port.tell(now, Drive.NONE, isCalm = true)
+        val isTold = port.isDisarmed || port.armsItself
+        if (!isTold || now.seconds - disarmedAt >= BoardPort.PATIENCE) {
+            disarmedAt = now.seconds
+            port.order(Command.Disarm)
+        }
+        port.askState(now, BoardPort.KEEPING)
     }
 
-    /** The slowest motor controllers take 18 s to arm, and being told again may start them over. */
+    /**
+     * Rest is said before the board is told to arm, for what it was told before it goes on: v4.2.0 does not forget a drive
+     * when it arms. Then questions keep its watchdog quiet, which cannot be spoilt on the way and become a drive as rests
+     * can. The slowest pair of motor controllers takes 36 s; a board that is armed already does not begin anew (v4.2.0),
+     * but one that says that it is not was not reached.
+     */
     private fun arm(before: MissionState) {
-        if (before == MissionState.Arming && now.seconds - armedAt < LONGEST_ARMING) return
-        armedAt = now.seconds
-        setProbeUp()
-        port.order(Command.Arm)
+        val since = now.seconds - armedAt
+        val isMissed = port.isDisarmed && since >= BoardPort.PATIENCE
+        if (before != MissionState.Arming || isMissed || since >= LONGEST_ARMING) {
+            armedAt = now.seconds
+            port.rest(now)
+            port.order(Command.Arm)
+        } else if (port.silence(now) <= LONGEST_QUIET) {
+            if (port.silence(now) <= BoardPort.RESTING) port.tell(now, Drive.NONE, isCalm = true)
+            port.askState(now, BoardPort.KEEPING)
+        }
     }
 
+    /** Only a boat at rest is to lose a reading or two; one under way is halted for it. */
     private fun setProbeUp() {
+        if (state == MissionState.Idle || state is MissionState.Stopped || port.silence(now) > BoardPort.RESTING) return
+        val isAtRest = !port.isRunning || (port.sent.isAtRest && port.isRestKept(now))
+        if (!isAtRest || !probe.isDue(now)) return
         probe.told(now)
         probe.setUp?.let(port::order)
     }
@@ -321,17 +353,17 @@ public class Mission(
         else -> false
     }
 
-    /**
-     * Rest was said, or the board is only being armed; what is said on to a board that is not heard can only be spoilt
-     * on the way and become a drive.
-     */
-    private fun isDeaf(): Boolean {
-        val isAtRest = state == MissionState.Arming || state == MissionState.Holding(Danger.LINK_LOST)
-        return isAtRest && port.silence(now) > BoardPort.RESTING
-    }
+    /** Rest was said; what is said on to a board that is not heard can only be spoilt on the way and become a drive. */
+    private fun isDeaf() = state == MissionState.Holding(Danger.LINK_LOST) && port.silence(now) > BoardPort.RESTING
 
     private companion object {
-        const val LONGEST_ARMING = 20.0
+        const val LONGEST_ARMING = 40.0
+
+        /** A board that is not heard for so long while it arms is left to its watchdog, s: six answers were lost. */
+        const val LONGEST_QUIET = 2.0
+
+        /** Time between words to a board that is not heard, s: more than the longest watchdog, 3 s. */
+        const val SELDOM = 5.0
 
         /** Ten times what the slowest firmware takes for a reading, s. */
         const val LONGEST_PROBE_SILENCE = 30.0

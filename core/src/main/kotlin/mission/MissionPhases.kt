@@ -5,7 +5,11 @@ import stillwater.control.Failsafe
 import stillwater.control.Ruling
 import stillwater.wire.BoardState
 
-/** What the next state depends on. */
+/**
+ * What the next state depends on.
+ *
+ * @property board what the board is known to be, active only where its motors obey; null where that is not known.
+ */
 internal class PhaseInput(
     val ruling: Ruling,
     val board: BoardState?,
@@ -23,7 +27,7 @@ internal object MissionPhases {
         return when (state) {
             is MissionState.Preflight -> preflight(danger)
             MissionState.Arming -> if (input.board == BoardState.ACTIVE) underWay(input) else state
-            else -> if (input.board == BoardState.STANDBY) disarmed(input) else underWay(input)
+            else -> if (input.board == null || input.board == BoardState.ACTIVE) underWay(input) else disarmed(input)
         }
     }
 

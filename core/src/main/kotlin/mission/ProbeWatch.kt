@@ -7,38 +7,50 @@ import stillwater.wire.PortSensor
 /**
  * Knows what the board is to be told of the probe's port, and keeps watch whether the probe speaks.
  *
- * Firmware v4.2.0 reads a port only once it was told what is there, and forgets it at each reset; older firmware has
- * its probes built in and refuses the words, which does no harm. To be told anew starts a probe over, so it is done
- * when the boat is armed, as it is after each reset, and when nothing was heard for long: the line may have been lost.
- * Confined to one thread.
+ * Firmware v4.2.0 reads a port only once it was told what is there, and forgets it at each reset; a probe whose answer it
+ * missed it waits for for ever, until it is told anew. Older firmware has its probes built in and refuses the words, which
+ * does no harm. To be told anew starts a probe over and costs readings: so the board is told only of a probe that is
+ * silent, [MOST] times until it speaks, and when the boat rests. Confined to one thread.
  */
 internal class ProbeWatch(private val probe: ProbeSpec) {
-    private var since = Double.NaN
+    private var begunAt = Double.NaN
+    private var heardAt = Double.NEGATIVE_INFINITY
     private var toldAt = Double.NEGATIVE_INFINITY
+    private var told = 0
 
     /** What the board is to be told; null where the mission names no port, or one that has no choice. */
     val setUp: Command? = sensor()?.let { Command.SetSensor(checkNotNull(probe.port), it) }
 
     /** The mission begins at [now]. */
     fun begin(now: BoatTime) {
-        since = now.seconds
+        begunAt = now.seconds
     }
 
     /** The probe was heard at [now], whatever became of the reading. */
     fun heard(now: BoatTime) {
-        since = now.seconds
+        heardAt = now.seconds
+        told = 0
     }
 
     /** Time since the probe was heard, or since the mission began, s; NaN before it did. */
-    fun silence(now: BoatTime): Double = now.seconds - since
+    fun silence(now: BoatTime): Double = now.seconds - maxOf(begunAt, heardAt)
 
     /** The board is told at [now]. */
     fun told(now: BoatTime) {
         toldAt = now.seconds
+        told++
     }
 
-    /** Whether the board is to be told once more at [now]. */
-    fun isDue(now: BoatTime): Boolean = silence(now) > LONG && now.seconds - toldAt > LONG
+    /** Whether a board at rest is to be told at [now]. */
+    fun isDue(now: BoatTime): Boolean = isTold(now, SHORT)
+
+    /** Whether a boat under way is to rest at [now] to be told. */
+    fun isMissed(now: BoatTime): Boolean = isTold(now, LONG)
+
+    private fun isTold(now: BoatTime, silence: Double) = setUp != null &&
+        told < MOST &&
+        now.seconds - heardAt > silence &&
+        now.seconds - toldAt > PAUSE
 
     /** Port 0 is the rudder's and has no serial line, ports from 4 on are the board's own. */
     private fun sensor(): PortSensor? = if (probe.port !in FIRST_PORT..LAST_PORT) {
@@ -58,7 +70,16 @@ internal class ProbeWatch(private val probe: ProbeSpec) {
         const val FIRST_PORT = 1
         const val LAST_PORT = 3
 
-        /** Ten times what the slowest firmware takes for a reading, s. */
-        const val LONG = 30.0
+        /** More than the slowest firmware takes for a reading, 3 s. */
+        const val SHORT = 5.0
+
+        /** Three times that. */
+        const val LONG = 10.0
+
+        /** Within which a probe that was told speaks, s: it is asked for its calibration first, 2 s, and then every 3 s. */
+        const val PAUSE = 10.0
+
+        /** Lines may be lost; a probe that was told three times is dead. */
+        const val MOST = 3
     }
 }

@@ -6,46 +6,6 @@ import stillwater.wire.LineFramer
 import kotlin.math.abs
 import kotlin.math.roundToInt
 
-/**
- * The electronics of a virtual boat.
- *
- * @property watchdog without a command for so long the motors go to zero, s: 3 on firmware v4.2.0, 0.5 on the master.
- * @property standby without a command for so much longer the motors need arming again, s.
- * @property arming time that arming takes, s; 2 to 18 by the motor controllers' type.
- * @property booting time after a reset in which nothing is heard or said, s.
- * @property sendsCurrent whether motor lines have the current, as the older boards' do.
- * @property oxygenPeriod time between readings of the probe on port 1, s: about 3, on older boards 0.5.
- * @property volts of the battery, V.
- * @property knowsProbe whether port 1 has its probe built in; else it is silent until it was told, as on firmware v4.2.0,
- *   and again after each reset.
- * @property wakesByDrives whether a drive ends the rest that the watchdog began; else the motors need arming again.
- * @throws IllegalArgumentException if a number is out of its range.
- */
-public data class BoardSpec(
-    val watchdog: Double = 0.5,
-    val standby: Double = 5.0,
-    val arming: Double = 2.0,
-    val booting: Double = 1.5,
-    val sendsCurrent: Boolean = true,
-    val oxygenPeriod: Double = 3.0,
-    val volts: Double = 15.3,
-    val knowsProbe: Boolean = true,
-    val wakesByDrives: Boolean = true,
-) {
-    init {
-        for ((name, value) in listOf(
-            "watchdog (s)" to watchdog,
-            "standby (s)" to standby,
-            "arming (s)" to arming,
-            "booting (s)" to booting,
-            "oxygenPeriod (s)" to oxygenPeriod,
-            "volts (V)" to volts,
-        )) {
-            require(value > 0 && value.isFinite()) { "$name ($value) must be above 0 and finite" }
-        }
-    }
-}
-
 /** The truth that the probe on the board shows at a moment, sensor units. */
 public fun interface Probe {
     /** What the probe says at [time], [dt] s after it was last asked; NaN where it gives nothing. */
@@ -59,13 +19,19 @@ public fun interface BoardOutput {
 }
 
 /**
- * The Arduino's side of the wire: Platypus firmware with its watchdog, arming delay, error lines and sensor rates.
+ * The Arduino's side of the wire: Platypus firmware of either generation, as silent as it is in each mode.
  *
  * Moves nothing itself: [actuation] is what its motors get. Differential boats only have m0 and m1; s0's position is the
  * rudder's of a vectored one. Driven by [advance] in virtual time; pure and deterministic. Confined to one thread.
  *
- * Source: Platypus firmware v4.2.0, as in the project's notes on serial protocols. Differs: the JSON reader knows only the
- * objects the phone sends.
+ * The firmware's one task for motors sleeps 0.1 s between its rounds. A drive is believed whatever the mode is, and taken
+ * back by the next round of a board that is not to run: one that is connected and told to drive ten times a second
+ * twitches. While it arms that task does nothing else, so nothing takes a drive back, and the first motor runs by it
+ * before the second is armed.
+ *
+ * Source: [Firmware]. Differs: the JSON reader knows only the objects the phone sends; motors reach what they are told at
+ * once, where the firmware ramps them within some ms; of two lines that come as one the accessory line of the master
+ * branch reads only the first.
  *
  * @property spec its times and voltages.
  * @param probe the dissolved-oxygen probe on port 1. Retained.
@@ -78,21 +44,28 @@ public class VirtualBoard(
     private val probe: Probe,
     private val output: BoardOutput,
 ) {
-    private enum class Mode { BOOTING, STANDBY, ARMING, ACTIVE, CONNECTED }
+    /** The master branch has no standby while its cable is plugged in, and calls active running. */
+    private enum class Mode { BOOTING, STANDBY, CONNECTED, ACTIVE }
 
+    private enum class Power { OFF, ARMING, ON }
+
+    private val isNewer = spec.firmware == Firmware.V4_2
     private val framer = LineFramer(
         { bytes, start, end -> command(String(bytes, start, end - start, Charsets.ISO_8859_1)) },
         longest = 512,
     )
     private var mode = Mode.BOOTING
+    private var power = Power.OFF
     private var now = 0.0
-    private var since = 0.0
-    private var lastCommand = Double.NEGATIVE_INFINITY
-    private var motorLine = 0.0
+    private var bootedAt = 0.0
+    private var armedFrom = 0.0
+    private var heardAt = 0.0
+    private var motorRound = 0.0
     private var batteryLine = 0.0
     private var probeLine = 0.0
     private var first = 0.0
     private var second = 0.0
+    private var rudder = 0.0
     private var isProbeNamed = spec.knowsProbe
 
     /** Volts, V; may be set to let the battery sag. */
@@ -102,17 +75,23 @@ public class VirtualBoard(
     public var readings: Long = 0
         private set
 
-    /** What the motors get: nothing unless armed and fed with commands. */
+    /** What the motors get: nothing unless they have power and were told to run. */
     public val actuation: Actuation
-        get() = when {
-            mode != Mode.ACTIVE -> if (vectored) Actuation.Vectored(0.0, 0.0) else Actuation.Differential(0.0, 0.0)
-            vectored -> Actuation.Vectored(first, -second)
-            else -> Actuation.Differential(first, second)
+        get() {
+            val left = if (firstHasPower()) first else 0.0
+            val right = if (power == Power.ON) second else 0.0
+            return if (vectored) Actuation.Vectored(left, -rudder) else Actuation.Differential(left, right)
         }
 
     /** Starts the board anew, as opening its port does: disarmed, and silent while it boots. */
     public fun reset() {
-        enter(Mode.BOOTING)
+        mode = Mode.BOOTING
+        power = Power.OFF
+        bootedAt = now
+        heardAt = now
+        first = 0.0
+        second = 0.0
+        rudder = 0.0
         forgetProbe()
         framer.reset()
     }
@@ -124,42 +103,74 @@ public class VirtualBoard(
 
     /** Takes bytes from the phone. Not modified, not retained. */
     public fun receive(bytes: ByteArray, offset: Int = 0, length: Int = bytes.size - offset) {
-        if (mode != Mode.BOOTING) framer.accept(bytes, offset, length)
+        if (mode == Mode.BOOTING || length == 0) return
+        heardAt = now
+        watch()
+        framer.accept(bytes, offset, length)
     }
 
     /** Lets [dt] s pass, at most 0.1 for the rates to hold; not above 0 or not finite passes none. */
     public fun advance(dt: Double) {
         if (!(dt > 0 && dt.isFinite())) return
         now += dt
-        val inMode = now - since
-        when (mode) {
-            Mode.BOOTING -> if (inMode < spec.booting) return else enter(Mode.STANDBY)
-            Mode.ARMING -> if (inMode >= spec.arming) enter(Mode.ACTIVE)
-            Mode.ACTIVE -> if (now - lastCommand > spec.watchdog) enter(Mode.CONNECTED)
-            Mode.CONNECTED -> if (inMode > spec.standby) enter(Mode.STANDBY)
-            Mode.STANDBY -> Unit
+        if (mode == Mode.BOOTING) {
+            if (now - bootedAt < spec.booting) return
+            mode = Mode.STANDBY
+        }
+        watch()
+        if (now - motorRound >= MOTOR_PERIOD) {
+            motorRound = now
+            motors()
         }
         speak()
     }
 
-    private fun enter(next: Mode) {
-        mode = next
-        since = now
-        if (next == Mode.ACTIVE) lastCommand = now
-        if (next != Mode.ACTIVE) {
-            first = 0.0
-            second = 0.0
+    /** What the time since the last byte makes of the mode. */
+    private fun watch() {
+        val silence = now - heardAt
+        when {
+            mode == Mode.ACTIVE -> if (silence >= spec.watchdog) enter(Mode.CONNECTED)
+            !isNewer -> mode = if (silence < spec.watchdog) Mode.ACTIVE else Mode.CONNECTED
+            mode == Mode.CONNECTED -> if (silence >= spec.standby) enter(Mode.STANDBY)
+            mode == Mode.STANDBY -> if (silence < spec.standby) enter(Mode.CONNECTED)
         }
     }
 
-    private fun speak() {
-        if (now - motorLine >= MOTOR_PERIOD) {
-            motorLine = now
-            output.line("{\"m0\":{${motor(first)}}" + (if (vectored) "" else ",\"m1\":{${motor(second)}}") + "}\r\n")
+    private fun enter(next: Mode) {
+        mode = next
+        // On the accessory line the master branch does not tell.
+        if (isNewer) output.line("STATE: ${next.name}\r\n")
+    }
+
+    /** A round of the task for motors; there is none while it arms. */
+    private fun motors() {
+        if (power == Power.ARMING) {
+            if (now - armedFrom < spec.arming) return
+            power = Power.ON
         }
-        if (now - batteryLine >= BATTERY_PERIOD) {
+        if (mode == Mode.STANDBY) {
+            power = Power.OFF
+            return
+        }
+        if (mode == Mode.CONNECTED) {
+            first = 0.0
+            second = 0.0
+        }
+        if (power == Power.OFF && (mode == Mode.ACTIVE || !isNewer)) {
+            power = Power.ARMING
+            armedFrom = now
+        } else if (mode == Mode.ACTIVE) {
+            output.line("{\"m0\":{${motor(first)}},\"m1\":{${motor(second)}}}\r\n")
+        }
+    }
+
+    private fun firstHasPower() =
+        power == Power.ON || (power == Power.ARMING && now - armedFrom >= spec.arming / 2)
+
+    private fun speak() {
+        if (now - batteryLine >= spec.batteryPeriod) {
             batteryLine = now
-            output.line("{\"s4\":{\"type\":\"battery\",\"data\":\"${fixed(volts, 1000)} 0.000000 0.000000\"}}\r\n")
+            output.line("{\"s4\":{\"type\":\"battery\",\"data\":\"${fixed(volts, 1000)} 0.000000 0\"}}\r\n")
         }
         if (now - probeLine >= spec.oxygenPeriod) {
             val value = probe.read(BoatTime(now), now - probeLine)
@@ -171,35 +182,40 @@ public class VirtualBoard(
         }
     }
 
-    private fun motor(share: Double) =
-        "\"v\":${fixed(share, 1000)}000" + if (spec.sendsCurrent) ",\"c\":0.000000" else ""
+    private fun motor(share: Double) = "\"v\":${fixed(share, 1000)}000" + if (isNewer) "" else ",\"c\":0.000000"
 
     private fun command(line: String) {
-        lastCommand = now
         val move = if (vectored) VECTORED.matchEntire(line) else DIFFERENTIAL.matchEntire(line)
+        val port = SENSOR.matchEntire(line)
         when {
             move != null -> move(move)
-            line == """{"e":{"cmd":"arm"}}""" -> {
-                if (mode != Mode.ACTIVE) enter(Mode.ARMING)
-                output.line("Arming motor 0...\r\n")
+            isNewer && port != null -> setUp(port)
+            isNewer && line == """{"e":{"cmd":"arm"}}""" -> {
+                output.line("Arming Boat\r\n")
+                enter(Mode.ACTIVE)
             }
-            line == """{"e":{"cmd":"disarm"}}""" -> enter(Mode.STANDBY)
-            line == """{"e":{"info":"state"}}""" -> {
-                val word = if (mode == Mode.ARMING) "standby" else mode.name.lowercase()
-                output.line("{\"e\":{\"type\":\"state\",\"data\":\"$word\"}}\r\n")
+            isNewer && line == """{"e":{"cmd":"disarm"}}""" -> {
+                output.line("Disarming Boat\r\n")
+                enter(Mode.CONNECTED)
             }
-            line == """{"e":{"s1":"AtlasDO"}}""" -> isProbeNamed = true
+            isNewer && line == """{"e":{"info":"state"}}""" ->
+                output.line("{\"e\":{\"type\":\"state\",\"data\":\"${mode.name.lowercase()}\"}}\r\n")
             SETTING.matches(line) -> Unit
             !line.startsWith("{") || !line.endsWith("}") -> error("Failed to parse JSON command.", line)
             else -> error("Unknown command target.", line)
         }
     }
 
+    /** Whoever is told what is on its port starts it over: the next reading comes a whole period later. */
+    private fun setUp(match: MatchResult) {
+        if (match.groupValues[1] != "1") return
+        isProbeNamed = match.groupValues[2] == "AtlasDO"
+        probeLine = now
+    }
+
     private fun move(match: MatchResult) {
-        if (mode == Mode.CONNECTED && spec.wakesByDrives) enter(Mode.ACTIVE)
-        if (mode != Mode.ACTIVE) return
         first = share(match.groupValues[1])
-        second = share(match.groupValues[2])
+        if (vectored) rudder = share(match.groupValues[2]) else second = share(match.groupValues[2])
     }
 
     private fun share(text: String) = (text.toDoubleOrNull() ?: 0.0).coerceIn(-1.0, 1.0)
@@ -217,9 +233,9 @@ public class VirtualBoard(
 
     private companion object {
         const val MOTOR_PERIOD = 0.1 - 1e-9
-        const val BATTERY_PERIOD = 1.0
         val DIFFERENTIAL = Regex("""\{"m0":\{"v":(-?[0-9.]+)},"m1":\{"v":(-?[0-9.]+)}}""")
         val VECTORED = Regex("""\{"m0":\{"v":(-?[0-9.]+)},"s0":\{"p":(-?[0-9.]+)}}""")
-        val SETTING = Regex("""\{"(e":\{"s\d":"\w+"|s\d":\{"(temp|ec)":"[-0-9.]+"|s\d":\{"sample":true)}}""")
+        val SENSOR = Regex("""\{"e":\{"s(\d)":"(\w+)"}}""")
+        val SETTING = Regex("""\{"s\d":(\{"(temp|ec)":"[-0-9.]+"|\{"sample":true)}}""")
     }
 }

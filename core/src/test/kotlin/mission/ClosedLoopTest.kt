@@ -6,7 +6,6 @@ import stillwater.estimate.update
 import stillwater.model.BoatTime
 import stillwater.model.Position
 import stillwater.virtual.LinkSpec
-import stillwater.wire.BoardState
 import kotlin.math.hypot
 import kotlin.math.roundToInt
 import kotlin.random.Random
@@ -98,7 +97,7 @@ class ClosedLoopTest {
             repeat(2) { desk.step() }
             assertTrue(desk.boat.board.actuation.isAtRest)
             assertEquals(MissionState.Stopped(StopReason.OPERATOR), desk.mission.state)
-            assertTrue(desk.until(5.0) { desk.mission.board.state == BoardState.STANDBY }, "disarmed")
+            assertTrue(desk.until(5.0) { desk.mission.board.isDisarmed }, "disarmed")
             desk.mission.start()
             assertIs<MissionState.Stopped>(desk.step())
         }
@@ -109,7 +108,7 @@ class ClosedLoopTest {
         val desk = Desk(Desk.small(), 335)
         desk.mission.wish = Wish.WAIT
         desk.mission.start()
-        assertTrue(desk.until(20.0) { it == MissionState.Holding(Danger.OPERATOR_WAIT) })
+        assertTrue(desk.until(30.0) { it == MissionState.Holding(Danger.OPERATOR_WAIT) }, "${desk.mission.state}")
         assertFalse(desk.until(10.0) { !desk.boat.board.actuation.isAtRest }, "armed, its motors rest")
         assertEquals(0.0, desk.mission.used, "waiting to be sent off costs none of the budget")
         desk.mission.wish = Wish.GO_ON
@@ -123,7 +122,7 @@ class ClosedLoopTest {
         assertTrue(hypot(desk.boat.dynamics.x - x, desk.boat.dynamics.y - y) < 8.0, "it stays")
         desk.mission.wish = Wish.RETURN
         assertEquals(MissionState.Returning(Danger.OPERATOR_RETURN), desk.step())
-        assertTrue(desk.until(200.0) { it == MissionState.Stopped(StopReason.OPERATOR) })
+        assertTrue(desk.until(200.0) { it == MissionState.Stopped(StopReason.OPERATOR) }, "${desk.mission.state}")
         assertTrue(hypot(desk.boat.dynamics.x - 5, desk.boat.dynamics.y - 5) < 8.0, "home")
     }
 

@@ -2,7 +2,6 @@ package stillwater.mission
 
 import stillwater.control.Danger
 import stillwater.model.Position
-import stillwater.wire.BoardState
 import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.test.Test
@@ -71,7 +70,7 @@ class HeldUpTest {
         assertTrue(desk.until(900.0) { it is MissionState.Returning }, "${desk.mission.state}")
         assertTrue(desk.until(900.0) { it is MissionState.Stopped }, "${desk.mission.state}")
         assertEquals(MissionState.Stopped(StopReason.STRANDED), desk.mission.state)
-        assertTrue(desk.until(5.0) { desk.mission.board.state == BoardState.STANDBY }, "disarmed")
+        assertTrue(desk.until(5.0) { desk.mission.board.isDisarmed }, "disarmed")
         assertTrue(desk.boat.board.actuation.isAtRest)
     }
 

@@ -2,7 +2,6 @@ package stillwater.mission
 
 import stillwater.control.Danger
 import stillwater.model.Position
-import stillwater.wire.BoardState
 import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.test.Test
@@ -141,7 +140,7 @@ class ReefTest {
         assertTrue(desk.until(600.0) { it == MissionState.Returning(Danger.BUDGET_SPENT) }, "${desk.mission.state}")
         assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "${desk.mission.state}")
         assertEquals(MissionState.Stopped(StopReason.STRANDED), desk.mission.state)
-        assertTrue(desk.until(5.0) { desk.mission.board.state == BoardState.STANDBY }, "disarmed")
+        assertTrue(desk.until(5.0) { desk.mission.board.isDisarmed }, "disarmed")
         assertTrue(desk.boat.board.actuation.isAtRest)
         assertTrue(desk.lines.any { "\"why\":\"stranded\"" in it }, "the log says so")
     }

@@ -51,7 +51,7 @@ class VirtualLinkTest {
         for (seed in 501..540) {
             val random = Random(seed)
             val link = VirtualLink(LinkSpec(loss = 1e-3, corruption = 1e-3), random)
-            val board = VirtualBoard(BoardSpec(), false, { _, _ -> 7.5 }) { link.board.write(it.encodeToByteArray()) }
+            val board = VirtualBoard(SPEC, false, { _, _ -> 7.5 }) { link.board.write(it.encodeToByteArray()) }
             var heard = 0
             val framer = LineFramer(PlatypusCodec { if (it is Message.Motor) heard++ })
             val cutAt = random.nextInt(1000, 2000)
@@ -71,14 +71,15 @@ class VirtualLinkTest {
                 if (tick >= cutAt && restedAt < 0 && board.actuation.isAtRest) restedAt = tick
             }
             assertTrue(restedAt >= 0 && (restedAt - cutAt) * 0.01 <= 0.6, "seed $seed: ${restedAt - cutAt} ticks")
-            // At 10 Hz and two motors a line for 8.5 s at least; one line in ten is hit.
-            assertTrue(heard > 130, "seed $seed: $heard motors heard of")
+            // At 10 Hz and two motors a line from 4.1 s to 10 s at least; one line in ten is hit.
+            assertTrue(heard > 90 || restedAt == cutAt, "seed $seed: $heard motors heard of")
         }
         // A cut meets a few boards while they still arm.
         assertTrue(driven >= 30, "$driven of 40 were under way")
     }
 
     private companion object {
+        val SPEC = BoardSpec(watchdog = 0.5, arming = 2.0, booting = 1.5)
         val AHEAD = Actuation.Differential(0.5, 0.5)
     }
 }

@@ -77,9 +77,9 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         metavar = "P",
         help = "probability that a byte is changed (0)",
     ).number("a number within 0..1") { it in 0.0..1.0 }
-    private val watchdog by option("--watchdog", metavar = "S", help = "of the board, s (0.5; 3 on firmware 4.2.0)")
+    private val watchdog by option("--watchdog", metavar = "S", help = "of the board, s (3, as on firmware 4.2.0)")
         .number("a number above 0") { it > 0 }
-    private val arming by option("--arming", metavar = "S", help = "time that the board takes to arm, s (2)")
+    private val arming by option("--arming", metavar = "S", help = "time that the board takes to arm, s (4.2)")
         .number("a number above 0") { it > 0 }
     private val volts by option("--battery-volts", metavar = "V", help = "of the full battery, V (15.3)")
         .number("a number above 0") { it > 0 }

@@ -7,7 +7,6 @@ import stillwater.mission.StopReason
 import stillwater.model.BoatTime
 import stillwater.model.Drive
 import stillwater.report.OutputException
-import stillwater.wire.BoardState
 import stillwater.wire.Command
 import stillwater.wire.PlatypusEncoder
 
@@ -88,7 +87,7 @@ internal class DriveRun(
             val stopped = state is MissionState.Stopped || (state == MissionState.Idle && stopTold)
             if (stopped && over.isNaN()) over = time.seconds
             if (!stopped) continue
-            val disarmed = wire.isOpen && mission.board.state == BoardState.STANDBY
+            val disarmed = wire.isOpen && mission.board.isDisarmed
             if (disarmed || time.seconds - over > PARTING) {
                 isParted = true
                 return (state as? MissionState.Stopped)?.reason

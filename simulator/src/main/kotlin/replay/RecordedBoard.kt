@@ -14,8 +14,10 @@ internal class RecordedBoard {
     /** The wire to it. */
     val link = RecordedLink(::told)
 
-    /** Lets a tenth of a second's motor line be heard. */
-    fun beat() = link.say("""{"m0":{"v":0.000000},"m1":{"v":0.000000}}""")
+    /** Lets a tenth of a second's motor line be heard; boards that are not armed have none. */
+    fun beat() {
+        if (state == BoardState.ACTIVE) link.say("""{"m0":{"v":0.000000},"m1":{"v":0.000000}}""")
+    }
 
     /** Says what [sensor] said; answers whether there are words for it. */
     fun say(sensor: PlatypusEntry.Sensor): Boolean {

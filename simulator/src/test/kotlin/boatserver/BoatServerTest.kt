@@ -66,7 +66,7 @@ class BoatServerTest {
         for ((index, flood) in floods.withIndex()) {
             val board = Wire(flood)
             serve(board, phone, world.time.seconds + 2)
-            assertTrue("\"m0\"" in board.written, "flood $index: the board still speaks")
+            assertTrue("STATE: " in board.written, "flood $index: the board still speaks")
             assertTrue(world.boat.board.actuation.isAtRest, "flood $index: its motors rest")
         }
     }

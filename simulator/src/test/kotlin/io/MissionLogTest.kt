@@ -30,7 +30,7 @@ class MissionLogTest {
         """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-73.6},
             "area":{"south_west":{"x_m":-20,"y_m":-20},"north_east":{"x_m":80,"y_m":80}},
             "grid":{"south_west":{"x_m":0,"y_m":0},"columns":6,"rows":6,"cell_m":10},
-            "probe":{"quantity":"dissolved-oxygen","lowest":0,"highest":15},
+            "probe":{"quantity":"dissolved-oxygen","port":1,"lowest":0,"highest":15},
             "planner":"lawnmower","budget":{"seconds":900},"home":{"x_m":5,"y_m":5}}""",
     )
 

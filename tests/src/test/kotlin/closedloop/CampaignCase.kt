@@ -8,6 +8,7 @@ import stillwater.mission.PlannerName
 import stillwater.model.Position
 import stillwater.sensor.SensorSpec
 import stillwater.virtual.BoardSpec
+import stillwater.virtual.Firmware
 import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 import stillwater.virtual.VirtualBoatSpec
@@ -28,7 +29,7 @@ internal class CampaignCase(val seed: Long) {
     private val cell = random.nextInt(7, 11)
     private val wide = columns * cell
 
-    /** One board in five is of the newer firmware, which waits 3 s for a command. */
+    /** One board in five is of firmware v4.2.0 as it is, which waits 3 s for a command; the others are quicker. */
     val watchdog = if (random.nextInt(5) == 0) 3.0 else 0.5
     val mixing: Mixing = if (random.nextBoolean()) Mixing.DIFFERENTIAL else Mixing.VECTORED
     private val planner = PlannerName.entries.random(random)
@@ -53,13 +54,26 @@ internal class CampaignCase(val seed: Long) {
                 """{"type":"first-order-lag","time_constant_s":${random.nextDouble(2.0, 10.0)}},""" +
                 """{"type":"noise","standard_deviation":0.02}]}""",
         ),
-        board = BoardSpec(oxygenPeriod = 1.0, watchdog = watchdog, arming = random.nextDouble(2.0, 6.0)),
+        board = board(random.nextDouble(2.0, 6.0)),
         link = LinkSpec(delay = random.nextDouble(0.0, 0.05)),
         pose = PoseSpec(compassOffset = random.nextDouble(-0.05, 0.05)),
         vectored = mixing == Mixing.VECTORED,
         start = spec.home.let { Position(it.x, it.y) },
         heading = random.nextDouble(-PI, PI),
     )
+
+    /** Of the quick ones one in two is of the master branch, drawn from the seed apart so that the rest stays as it was. */
+    private fun board(arming: Double): BoardSpec {
+        val other = Random(seed * 31 + 11)
+        val firmware = if (watchdog < Firmware.V4_2.watchdog && other.nextBoolean()) Firmware.MASTER else Firmware.V4_2
+        return BoardSpec(
+            firmware,
+            watchdog,
+            arming = arming,
+            oxygenPeriod = 1.0,
+            batteryPeriod = other.nextDouble(1.0, 5.0),
+        )
+    }
 
     fun currentX(seconds: Double) = currentSpeed * cos(currentAngle + currentTurn * seconds)
 

@@ -10,7 +10,6 @@ import stillwater.mission.MissionState
 import stillwater.mission.Wish
 import stillwater.model.BoatTime
 import stillwater.model.Reading
-import stillwater.wire.BoardState
 import java.time.Instant
 
 /**
@@ -55,7 +54,7 @@ internal class MissionRun(
     /** Whether it has ended, and the board has said so or had the time to. */
     val isOver: Boolean
         get() = stoppedAt.isFinite() &&
-            (mission.board.state == BoardState.STANDBY || now - stoppedAt > LONGEST_DISARMING)
+            (mission.board.isDisarmed || now - stoppedAt > LONGEST_DISARMING)
 
     /** What a person wants. */
     var wish: Wish by mission::wish

@@ -280,7 +280,7 @@ internal class BoatLoop(
         val state = held.ears.report.state
         // A question alone would keep the watchdog of a board quiet that runs and is not heard.
         val isUnheard = state == null && isAnswerDue
-        if (isUnheard || (state != null && state != BoardState.STANDBY)) standStill()
+        if (isUnheard || state == BoardState.ACTIVE) standStill()
         isAnswerDue = true
     }
 

@@ -96,7 +96,7 @@ class MissionServiceTest {
         assertTrue(desk.until(10.0) { it.mission?.isOver == true })
         desk.pass(1.0)
         assertTrue(desk.report.used <= desk.report.budget, "${desk.report.used} s of ${desk.report.budget} s")
-        assertEquals("standby", desk.snapshot.board.state?.word)
+        assertEquals("connected", desk.snapshot.board.state?.word)
     }
 
     /** Eleven kilometres from here. */
@@ -210,10 +210,8 @@ class MissionServiceTest {
     fun aBoardThatIsArmedWithoutAMissionIsDisarmed() {
         val told = desk.told.length
         desk.boat.phone.write("{\"e\":{\"cmd\":\"arm\"}}\n".toByteArray())
-        desk.pass(1.5)
-        assertFalse(DISARM in desk.told.substring(told), "while it arms it says standby")
         assertTrue(desk.until(5.0) { DISARM in desk.told.substring(told) })
-        assertTrue(desk.until(2.0) { it.board.state?.word == "standby" })
+        assertTrue(desk.until(2.0) { it.board.state?.word == "connected" })
     }
 
     @Test

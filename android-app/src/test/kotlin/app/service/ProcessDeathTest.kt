@@ -233,7 +233,7 @@ class ProcessDeathTest {
         assertTrue(DISARM in desk.told.substring(told), "disarmed")
         assertFalse("arm\"" in desk.told.substring(told).replace(DISARM, ""), "and not armed")
         assertTrue(desk.boat.board.actuation.isAtRest)
-        assertEquals("standby", desk.snapshot.board.state?.word)
+        assertEquals("connected", desk.snapshot.board.state?.word)
         assertEquals(listOf(file.name), logs().map { it.name })
         return file
     }

@@ -55,7 +55,7 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
         VirtualBoat(
             VirtualBoatSpec(
                 PROBE,
-                board = BoardSpec(oxygenPeriod = 1.0),
+                board = ELECTRONICS,
                 start = Position(mission.home.x, mission.home.y),
             ),
             PlumeWater(Position(25.0, 15.0)),
@@ -186,6 +186,9 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
     }
 
     companion object {
+        private val ELECTRONICS =
+            BoardSpec(watchdog = 0.5, arming = 2.0, oxygenPeriod = 1.0, batteryPeriod = 1.0, knowsProbe = true)
+
         val BOARD = LinkChoice.Bluetooth("00:11:22:33:AA:BB", "Boat 3")
 
         /** Four by three cells of 10 m in a rectangle 15 m larger all round. */

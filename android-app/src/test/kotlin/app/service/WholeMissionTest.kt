@@ -57,7 +57,7 @@ class WholeMissionTest {
         val (dx, dy) = desk.boat.dynamics.x - 5.0 to desk.boat.dynamics.y - 5.0
         assertTrue(hypot(dx, dy) < 8.0, "home, but ($dx, $dy) m off")
         desk.pass(2.0)
-        assertEquals("standby", desk.snapshot.board.state?.word, "disarmed")
+        assertEquals("connected", desk.snapshot.board.state?.word, "disarmed")
         everyReadingIsAccountedFor(desk.said.substring(armed, over))
         theLogIsTheMission()
     }
