@@ -139,6 +139,5 @@ class WaitingCallsTest {
                 "android/hardware/usb/UsbManager" to setOf("openDevice"),
                 "com/hoho/android/usbserial/driver/UsbSerialPort" to setOf("open", "read", "write"),
             )
-
     }
 }

@@ -50,7 +50,8 @@ class BlindLimitsTest {
         val random = Random(3)
         fun jittering(way: DoubleArray) = DoubleArray(n) { way[it] + random.nextDouble(-0.5, 0.5) }
         val result = Diagnosis(MeasuredSeries(times, jittering(x), jittering(y), values, null)).run()
-        assertTrue(sets(result.verdict).any { Cause.DEAD_TIME in it && Cause.TIME_CONSTANT !in it }, "${result.verdict}")
+        val isTold = sets(result.verdict).any { Cause.DEAD_TIME in it && Cause.TIME_CONSTANT !in it }
+        assertTrue(isTold, "${result.verdict}")
         val delay = checkNotNull(result.extended).parameters.first { it.name == "dead_time_s" }
         // The sensor holds its input over a step, which is half a step less of a delay.
         assertEquals(5.5, delay.value, 0.5)

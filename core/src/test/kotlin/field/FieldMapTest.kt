@@ -4,9 +4,9 @@ import org.junit.jupiter.api.Test
 import stillwater.model.Grid
 import stillwater.model.Interval
 import kotlin.test.assertEquals
-import kotlin.test.assertTrue
 import kotlin.test.assertFalse
 import kotlin.test.assertSame
+import kotlin.test.assertTrue
 
 class FieldMapTest {
     private val grid = Grid.unit(3, 2)

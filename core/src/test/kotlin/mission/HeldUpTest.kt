@@ -31,12 +31,12 @@ class HeldUpTest {
     @Test
     fun theBudgetBringsABoatHomeThatDoesNotReachItsWaypoint() {
         // Less than the minute after which a waypoint is given up is left when the boat comes to the bar.
-        val spec = spec { it.replace("900", "105") }.copy(home = PlaceSpec(5.0, 55.0))
+        val spec = spec { it.replace("900", "75") }.copy(home = PlaceSpec(5.0, 55.0))
         val desk = barred(spec, 491, 9.0)
         assertTrue(desk.until(300.0) { it == MissionState.Returning(Danger.BUDGET_SPENT) }, "${desk.mission.state}")
-        assertTrue(desk.mission.used < 105, "used ${desk.mission.used}")
+        assertTrue(desk.mission.used < 75, "used ${desk.mission.used}")
         assertTrue(desk.until(100.0) { it == MissionState.Stopped(StopReason.COMPLETED) }, "${desk.mission.state}")
-        assertTrue(desk.mission.used < 105, "used ${desk.mission.used} s of 105")
+        assertTrue(desk.mission.used < 75, "used ${desk.mission.used} s of 75")
         assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
     }
 

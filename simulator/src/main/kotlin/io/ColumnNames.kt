@@ -13,7 +13,14 @@ internal object ColumnNames {
     )
     private val DATES = setOf("date", "utc_date", "date_utc", "local_date", "gps_date")
     private val LATITUDES = setOf(
-        "latitude", "lat", "gps_latitude", "gps_lat", "latitude_deg", "latitude_degrees", "lat_degrees", "lat_dd",
+        "latitude",
+        "lat",
+        "gps_latitude",
+        "gps_lat",
+        "latitude_deg",
+        "latitude_degrees",
+        "lat_degrees",
+        "lat_dd",
     )
     private val LONGITUDES = setOf(
         "longitude", "lon", "long", "lng", "gps_longitude", "gps_lon", "gps_long", "gps_lng", "longitude_deg",

@@ -37,6 +37,7 @@ data class LogChoice(
     init {
         require(maxPoseAge > 0 && maxPoseAge.isFinite()) { "maxPoseAge ($maxPoseAge s) must be above 0 and finite" }
     }
+
     /** Names of all columns that it names. */
     internal val named: Set<String>
         get() = listOfNotNull(time, date, latitude, longitude, x, y, value).toSet() + conditions.values
