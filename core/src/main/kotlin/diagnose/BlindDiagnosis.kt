@@ -294,7 +294,7 @@ internal class BlindDiagnosis(
          * that where the water changed between two passes both changed. Speed and heading are the boat's.
          */
         fun mayBeWaters(term: Term): Boolean = term.cause in SLOW ||
-            term.cause == Cause.CROSS_SENSITIVITY && term.condition !in setOf(Conditions.SPEED, Conditions.HEADING)
+            (term.cause == Cause.CROSS_SENSITIVITY && term.condition !in setOf(Conditions.SPEED, Conditions.HEADING))
 
         /**
          * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:

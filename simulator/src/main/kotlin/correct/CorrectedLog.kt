@@ -143,13 +143,8 @@ class CorrectedLog internal constructor(
                 scan.take(time, x, y, value, seen)
             }
             if (pass.readings < FEWEST) {
-                throw LogProblem(
-                    log.file,
-                    null,
-                    null,
-                    "at least $FEWEST readings of ${log.quantity}",
-                    "${pass.readings}",
-                )
+                val expected = "at least $FEWEST readings of ${log.quantity}"
+                throw LogProblem(log.file, null, null, expected, "${pass.readings}")
             }
             val series = rows.series()
             SquareReach.require(log, series.values, rows.references())

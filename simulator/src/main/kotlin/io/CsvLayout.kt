@@ -188,7 +188,7 @@ internal class CsvLayout(
         /** Numbers or times, and little else but what is missing. */
         private fun isData(row: List<String>): Boolean {
             val numbers = row.count { isNumber(it) || CellText.isTime(it) }
-            return numbers > 1 || numbers > 0 && 2 * (numbers + row.count { CellText.isMissing(it) }) >= row.size
+            return numbers > 1 || (numbers > 0 && 2 * (numbers + row.count { CellText.isMissing(it) }) >= row.size)
         }
 
         private fun known(row: List<String>) = row.count { it in wanted || ColumnNames.isKnown(it) }

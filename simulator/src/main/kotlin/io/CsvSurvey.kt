@@ -172,7 +172,7 @@ internal class CsvSurvey private constructor(
         }
 
         private fun isEmpty(row: CsvRow, vararg used: Int) =
-            used.all { it == CsvColumns.NONE || row.isUnreadable(it) && row.textOf(it).isBlank() }
+            used.all { it == CsvColumns.NONE || (row.isUnreadable(it) && row.textOf(it).isBlank()) }
 
         private fun isMissing(row: CsvRow, column: Int, slot: Int) = column != CsvColumns.NONE &&
             row.numbers[slot].isNaN() && CellText.isMissing(row.textOf(column))

@@ -59,7 +59,9 @@ internal object DateText {
     /** The date that [text] begins with, or null where it begins with none. */
     fun parts(text: String): Parts? {
         val match = DATE.matchEntire(text) ?: return null
-        val (first, _, second, third, rest) = match.destructured
+        val groups = match.groupValues.drop(1)
+        val (first, _, second) = groups
+        val (third, rest) = groups.takeLast(2)
         val month = MONTHS.indexOf(second.take(3).lowercase()) + 1
         if (month == 0 && !second[0].isDigit()) return null
         val b = if (month > 0) month else second.toInt()
@@ -83,7 +85,8 @@ internal object DateText {
     /** Seconds since midnight of the time of day that [text] is, or NaN where it is none. */
     fun ofDay(text: String): Double {
         val match = TIME.matchEntire(text) ?: return Double.NaN
-        val (hour, minute, second, half) = match.destructured
+        val (hour, minute, second) = match.groupValues.drop(1)
+        val half = match.groupValues.last()
         val seconds = if (second.isEmpty()) 0.0 else second.replace(',', '.').toDouble()
         var hours = hour.toInt()
         if (half.isNotEmpty()) {

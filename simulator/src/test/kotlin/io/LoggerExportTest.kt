@@ -90,7 +90,7 @@ class LoggerExportTest {
         private const val AT_EIGHT = 28_800.0
         private val WINDOWS = Charset.forName("windows-1252")
 
-        private val MISSING = "time_s,x_m,y_m,v\n0,0,0,8.1\n10,0,0,\n20,0,0,NaN\n30,0,0,n/a\n40,0,0,---\n" +
+        private const val MISSING = "time_s,x_m,y_m,v\n0,0,0,8.1\n10,0,0,\n20,0,0,NaN\n30,0,0,n/a\n40,0,0,---\n" +
             "50,0,0,NULL\n60,1,0,8.2\n70,1,0,-9999\n120,2,0,8.3\n"
 
         @JvmStatic
