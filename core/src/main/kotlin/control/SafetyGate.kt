@@ -24,7 +24,7 @@ public enum class Danger {
     /** A person said so. */
     OPERATOR_STOP,
 
-    /** Nothing was heard from the board for too long. */
+    /** The board did not say for too long that it obeys: its motor lines under way, anything before. */
     LINK_LOST,
 
     /** No fix for too long, or not yet long enough that they agree. */
@@ -67,7 +67,7 @@ public enum class Danger {
 /**
  * Limits and answers of a [SafetyGate].
  *
- * @property longestSilence of the board, s, above 0; it speaks at about 10 Hz. With two steps of 0.1 s, of which a line
+ * @property longestSilence of the board, s, above 0; while its motors have power it speaks at about 10 Hz. With two steps of 0.1 s, of which a line
  *   that is hit on the way takes one, motors rest within 0.6 s of a lost link.
  * @property oldestFix s, above 0.
  * @property mostJumps fixes refused in a row that are borne, at least 0.
@@ -133,7 +133,7 @@ public class Situation {
     /** Now, s, on the boat's clock. */
     public var seconds: Double = 0.0
 
-    /** Time since the board was last understood, s. */
+    /** Time since the board last said that it obeys, or, before it is armed, was last understood, s. */
     public var linkAge: Double = Double.POSITIVE_INFINITY
 
     /** Time since a fix was last used, s; infinite while fixes have not agreed for long enough to be believed. */

@@ -121,13 +121,14 @@ public class BoardPort(
     /**
      * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. Where
      * [isCalm] a rest is not repeated for as long as the board says that its motors rest: each line may be spoilt on the
-     * way and become a drive. Questions keep the board awake meanwhile.
+     * way and become a drive. Questions keep the board awake meanwhile; where one is not answered at once, rests do.
      */
     public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false) {
         val actuation = mixing.mix(drive)
         val isNewRest = actuation.isAtRest && !sent.isAtRest
         restedFrom = if (actuation.isAtRest) minOf(restedFrom, now.seconds) else Double.POSITIVE_INFINITY
-        if (!isNewRest && (now.seconds - toldAt < HEARTBEAT || (isCalm && isRestKept(now)))) return
+        val isSpared = isCalm && isRestKept(now) && !(isAsked && now.seconds - askedAt > KEEPING)
+        if (!isNewRest && (now.seconds - toldAt < HEARTBEAT || isSpared)) return
         toldAt = now.seconds
         sent = actuation
         // A line that is hit on the way is not heard, and of a first rest that must not happen.
@@ -226,8 +227,8 @@ public class BoardPort(
         /** Silence after which nothing more is said of drives, s: rest was said four times. */
         internal const val RESTING: Double = 0.5
 
-        /** Time between questions that keep a board awake to which no drives are said, s: within the watchdog of 0.5 s. */
-        public const val KEEPING: Double = 0.3 - 1e-6
+        /** Time between questions that keep a board awake to which no drives are said, s: twice is within the watchdog of 0.5 s. */
+        public const val KEEPING: Double = 0.2 - 1e-6
 
         /** Boards say ten times a second what their motors get; older than this it is not known, s. */
         private const val ECHO = 0.35

@@ -6,18 +6,29 @@ import kotlin.math.hypot
 import kotlin.math.sqrt
 
 /**
- * How much longer a leg takes in the drift that [track] believes in, for a boat of [cruise] m/s through the water.
+ * How much longer a leg takes in the drift that [track] believed in at the last [look], for a boat of [cruise] m/s through
+ * the water.
  *
  * Over ground v = c∥ + √(u² − c⊥²), c the drift and u the cruise speed. A drift in the boat's favour may have turned by
- * then and is not reckoned with, nor is one below [LEAST].
+ * then and is not reckoned with, nor is one below [LEAST]. A boat that is held up seems to drift as fast as it drives:
+ * it is looked at while it gets on.
  */
 internal class DriftPace(private val track: TrackEstimator, private val cruise: Double) : Pace {
+    private var driftX = 0.0
+    private var driftY = 0.0
+
+    /** What drifts now is reckoned with from now on. */
+    fun look() {
+        driftX = track.driftX
+        driftY = track.driftY
+    }
+
     override fun of(east: Double, north: Double): Double {
-        val drift = hypot(track.driftX, track.driftY)
+        val drift = hypot(driftX, driftY)
         val length = hypot(east, north)
         if (!(drift >= LEAST) || !(length > 0)) return 1.0
-        val along = (track.driftX * east + track.driftY * north) / length
-        val across = (track.driftX * north - track.driftY * east) / length
+        val along = (driftX * east + driftY * north) / length
+        val across = (driftX * north - driftY * east) / length
         val speed = along + sqrt(maxOf(0.0, cruise * cruise - across * across))
         return maxOf(1.0, cruise / maxOf(speed, SLOWEST * cruise))
     }

@@ -16,7 +16,7 @@ internal class HoldUps(private val closed: ClosedCells, private val apart: Doubl
     private val places = ArrayDeque<Position>()
     private var onEnd = 0
     private var blindOnEnd = 0
-    private var isTest = false
+    private var test: Position? = null
     private var heldAt: Position? = null
 
     /** Waypoints that were given up. */
@@ -36,7 +36,7 @@ internal class HoldUps(private val closed: ClosedCells, private val apart: Doubl
     fun arrived(here: Position, goal: Position) {
         if (closed.offMiddle(goal.x, goal.y) < MIDST) closed.reached(closed.at(goal.x, goal.y))
         remember(here)
-        isTest = false
+        test = null
         // One that is where it was has not moved.
         if (heldAt?.let { it.distanceTo(here) > apart } != false) {
             heldAt = null
@@ -51,18 +51,20 @@ internal class HoldUps(private val closed: ClosedCells, private val apart: Doubl
     fun giveUp(now: Double, here: Position, goal: Position): Position? {
         count++
         if (heldAt == null) heldAt = here
-        isHeld = isTest
+        // Where something else came in between, the boat has not been on its way back.
+        isHeld = goal == test
+        test = null
         if (isHeld) return null
         val cell = closed.ahead(here.x, here.y, goal.x, goal.y)
         if (cell == Grid.OUTSIDE || closed.isClosed(cell)) blindOnEnd++ else closed.close(cell, now)
         onEnd++
         if (onEnd < MOST_ON_END) return null
         onEnd = 0
-        val test = places.lastOrNull { it.distanceTo(here) > apart }
+        val back = places.lastOrNull { it.distanceTo(here) > apart }
         // Where no cell can be closed, as off the map, the planner would say the same for ever.
-        isHeld = test == null || blindOnEnd >= MOST_ON_END
-        isTest = !isHeld
-        return test.takeIf { isTest }
+        isHeld = back == null || blindOnEnd >= MOST_ON_END
+        test = back.takeIf { !isHeld }
+        return test
     }
 
     private fun remember(here: Position) {

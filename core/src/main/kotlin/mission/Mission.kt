@@ -249,8 +249,10 @@ public class Mission(
         // Under way only motor lines tell that the boat obeys; a board that is not armed has none.
         val isArmed = state !is MissionState.Preflight && state !is MissionState.Idle
         situation.linkAge = if (isArmed) port.motorSilence(now) else port.silence(now)
-        situation.volts = port.volts
-        situation.phonePercent = phonePercent
+        // What is low stays low: a battery that is not connected yet does not count.
+        val isIdle = state == MissionState.Idle
+        situation.volts = if (isIdle) Double.NaN else port.volts
+        situation.phonePercent = if (isIdle) Double.NaN else phonePercent
         situation.operatorStop = stopWanted
         situation.operatorWish = wish.danger
         situation.logLost = logLost
@@ -340,6 +342,8 @@ public class Mission(
     /** Only a boat at rest is to lose a reading or two; one under way is halted for it. */
     private fun setProbeUp() {
         if (state == MissionState.Idle || state is MissionState.Stopped || port.silence(now) > BoardPort.RESTING) return
+        // Who waits to be armed may wait for long: what is left of the words is for a probe that is plugged in later.
+        if (state is MissionState.Preflight && probe.isTold) return
         val isAtRest = !port.isRunning || (port.sent.isAtRest && port.isRestKept(now))
         if (!isAtRest || !probe.isDue(now)) return
         probe.told(now)

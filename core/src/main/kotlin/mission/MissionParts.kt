@@ -203,11 +203,14 @@ internal val AreaSpec.isOpen: Boolean get() = shore == null && keepOuts.isEmpty(
 /** What ways keep from land on the mission's water, m. */
 internal val BoatSpec.wayMargin: Double get() = arrival / 2
 
+/** Where no land is in the way, points beyond which ways round closed cells become coarser: one look at all is a step's. */
+private const val OPEN_POINTS = 20_000
+
 /** The ways over [water] that [spec]'s boat may take, round [closed] cells. */
 internal fun ways(spec: MissionSpec, water: WaterArea, closed: ClosedCells) = DetourWays(
     water,
     spec.boat.wayMargin,
-    WaterRoutes.resolution(water, spec.grid.cell / 2),
+    WaterRoutes.resolution(water, spec.grid.cell / 2, if (spec.area.isOpen) OPEN_POINTS else WaterRoutes.MAX_POINTS),
     spec.area.isOpen,
     closed,
     spec.home.position,

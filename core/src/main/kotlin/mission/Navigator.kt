@@ -57,6 +57,7 @@ internal class Navigator(
     private val closed = ClosedCells(spec.grid.grid(), water, spec.boat.arrival)
     private val ways = ways(spec, water, closed)
     private val follower = WaypointFollower(spec.boat.follower().copy(turnThrust = mixing.turnThrust))
+    private val drift = DriftPace(track, spec.boat.cruise)
     private val planner = BudgetedPlanner(
         EntryPlanner(
             DetourPlanner(spec.planner.build(spec, water, Random(spec.seed)), closed, ways),
@@ -70,7 +71,7 @@ internal class Navigator(
         wayHome = ways,
         home = home,
         reserve = spec.budget.reserve,
-        pace = if (spec.budget.metres != null) Pace.STILL else DriftPace(track, spec.boat.cruise),
+        pace = if (spec.budget.metres != null) Pace.STILL else drift,
     )
     private val plan = Plan()
     private var next = 0
@@ -149,6 +150,7 @@ internal class Navigator(
         } else {
             val goal = waypoint(next - 1)
             val isNear = isNear(goal)
+            if (progress.isGettingOn) drift.look()
             if (!isHeldUp(now, here.distanceTo(goal), isNear && goal == nearGoal, isNear)) return
             if (isNear) {
                 nearGoal = goal

@@ -4,6 +4,27 @@ import stillwater.model.BoatTime
 import stillwater.wire.Command
 import stillwater.wire.PortSensor
 
+/** Port 0 is the rudder's and has no serial line, ports from 4 on are the board's own. */
+private val SERIAL_PORTS = 1..3
+
+/**
+ * What a board is to be told of the probe's port before it reads it; null where the mission names no port, or one that has
+ * no choice.
+ */
+public val ProbeSpec.setUp: Command?
+    get() = if (port !in SERIAL_PORTS) {
+        null
+    } else {
+        when (quantity) {
+            Quantity.DISSOLVED_OXYGEN -> PortSensor.ATLAS_DO
+            Quantity.ACIDITY -> PortSensor.ATLAS_PH
+            Quantity.CONDUCTIVITY -> PortSensor.ES2
+            Quantity.DEPTH -> PortSensor.HDS
+            // Two kinds of sensor have it.
+            Quantity.TEMPERATURE -> null
+        }?.let { Command.SetSensor(checkNotNull(port), it) }
+    }
+
 /**
  * Knows what the board is to be told of the probe's port, and keeps watch whether the probe speaks.
  *
@@ -12,14 +33,14 @@ import stillwater.wire.PortSensor
  * does no harm. To be told anew starts a probe over and costs readings: so the board is told only of a probe that is
  * silent, [MOST] times until it speaks, and when the boat rests. Confined to one thread.
  */
-internal class ProbeWatch(private val probe: ProbeSpec) {
+internal class ProbeWatch(probe: ProbeSpec) {
     private var begunAt = Double.NaN
     private var heardAt = Double.NEGATIVE_INFINITY
     private var toldAt = Double.NEGATIVE_INFINITY
     private var told = 0
 
-    /** What the board is to be told; null where the mission names no port, or one that has no choice. */
-    val setUp: Command? = sensor()?.let { Command.SetSensor(checkNotNull(probe.port), it) }
+    /** What the board is to be told, see [ProbeSpec.setUp]. */
+    val setUp: Command? = probe.setUp
 
     /** The mission begins at [now]. */
     fun begin(now: BoatTime) {
@@ -41,35 +62,21 @@ internal class ProbeWatch(private val probe: ProbeSpec) {
         told++
     }
 
+    /** Whether the board was told since the probe last spoke. */
+    val isTold: Boolean get() = told > 0
+
     /** Whether a board at rest is to be told at [now]. */
-    fun isDue(now: BoatTime): Boolean = isTold(now, SHORT)
+    fun isDue(now: BoatTime): Boolean = isSilent(now, SHORT)
 
     /** Whether a boat under way is to rest at [now] to be told. */
-    fun isMissed(now: BoatTime): Boolean = isTold(now, LONG)
+    fun isMissed(now: BoatTime): Boolean = isSilent(now, LONG)
 
-    private fun isTold(now: BoatTime, silence: Double) = setUp != null &&
+    private fun isSilent(now: BoatTime, silence: Double) = setUp != null &&
         told < MOST &&
         now.seconds - heardAt > silence &&
         now.seconds - toldAt > PAUSE
 
-    /** Port 0 is the rudder's and has no serial line, ports from 4 on are the board's own. */
-    private fun sensor(): PortSensor? = if (probe.port !in FIRST_PORT..LAST_PORT) {
-        null
-    } else {
-        when (probe.quantity) {
-            Quantity.DISSOLVED_OXYGEN -> PortSensor.ATLAS_DO
-            Quantity.ACIDITY -> PortSensor.ATLAS_PH
-            Quantity.CONDUCTIVITY -> PortSensor.ES2
-            Quantity.DEPTH -> PortSensor.HDS
-            // Two kinds of sensor have it.
-            Quantity.TEMPERATURE -> null
-        }
-    }
-
     private companion object {
-        const val FIRST_PORT = 1
-        const val LAST_PORT = 3
-
         /** More than the slowest firmware takes for a reading, 3 s. */
         const val SHORT = 5.0
 

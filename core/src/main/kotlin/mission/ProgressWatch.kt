@@ -6,12 +6,17 @@ internal class ProgressWatch(private val least: Double) {
     private var last = Double.NaN
     private var at = Double.NaN
     private var idle = 0.0
+    private var steps = 0
+
+    /** Whether the boat came nearer [RECENT] s ago at the most, not counting how far it was at first. */
+    val isGettingOn: Boolean get() = steps > 1 && idle < RECENT
 
     /** Another place is gone for. */
     fun begin() {
         nearest = Double.POSITIVE_INFINITY
         last = Double.NaN
         idle = 0.0
+        steps = 0
     }
 
     /** The same place is gone for again, now [distance] m off: after a drift, or by another way. */
@@ -29,6 +34,7 @@ internal class ProgressWatch(private val least: Double) {
         if (distance < nearest - least) {
             nearest = distance
             idle = 0.0
+            steps++
         }
         return idle
     }
@@ -36,5 +42,8 @@ internal class ProgressWatch(private val least: Double) {
     private companion object {
         /** Farther apart looks are not of one way, s. */
         const val LONGEST_STEP = 1.0
+
+        /** s. */
+        const val RECENT = 5.0
     }
 }

@@ -208,11 +208,11 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
 
         /**
          * The least distance of a lattice's points over [area], m, that is at least [wanted] m and needs no more points than
-         * [MAX_POINTS]. Passages narrower than some two of it may not be found.
+         * [most]. Passages narrower than some two of it may not be found.
          */
-        public fun resolution(area: WaterArea, wanted: Double): Double {
+        public fun resolution(area: WaterArea, wanted: Double, most: Int = MAX_POINTS): Double {
             var resolution = wanted
-            while (RouteLattice.points(area, resolution) > MAX_POINTS) resolution *= COARSER
+            while (RouteLattice.points(area, resolution) > most) resolution *= COARSER
             return resolution
         }
 

@@ -137,8 +137,11 @@ internal class DriveRun(
     }
 
     companion object {
-        /** How long the board is waited for to say that it is disarmed, s on the boat's clock. */
-        const val PARTING = 5.0
+        /**
+         * How long the board is waited for to say that it is disarmed, s on the boat's clock: one that is not heard is told
+         * every 5 s.
+         */
+        const val PARTING = 6.0
 
         /**
          * A board resets when its port is opened, and what it said just before may still arrive: the mission is not

@@ -43,9 +43,9 @@ internal object Waiting {
         else -> null
     }
 
-    private fun board(state: BoardState?) = "the board was told to arm, which takes 2 to 18 s, and " +
+    private fun board(state: BoardState?) = "the board was told to arm, which takes 2 to 36 s, and " +
         if (state == null) "has not answered yet" else "says that it is ${state.name.lowercase()}"
 
-    /** A board speaks ten times a second, s. */
-    private const val LONGEST_SILENCE = 1.0
+    /** A board at rest is asked again after 1 s where an answer was lost; two lost ones are a silence. s. */
+    private const val LONGEST_SILENCE = 2.0
 }

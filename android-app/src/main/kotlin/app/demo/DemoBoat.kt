@@ -107,7 +107,7 @@ internal class DemoBoat(name: String, mission: MissionSpec?) {
 
     private companion object {
         /** Quick to arm, and its probe was set up before, so that the checklist hears it. */
-        val BOARD = BoardSpec(watchdog = 0.5, arming = 2.0, oxygenPeriod = 1.0, batteryPeriod = 1.0, knowsProbe = true)
+        val BOARD = BoardSpec(watchdog = 0.5, arming = 2.0, oxygenPeriod = 1.0, batteryPeriod = 1.0)
 
         /** A probe as slow as the real ones of its kind, s; noise in mg/L. */
         val PROBE =

@@ -142,7 +142,7 @@ internal class MissionRun(
     private companion object {
         const val SECONDS_PER_NANO = 1e-9
 
-        /** A board that is told to disarm every second has been told often enough, s. */
-        const val LONGEST_DISARMING = 5.0
+        /** A board that is not heard is told to disarm every 5 s; twice is enough, s. */
+        const val LONGEST_DISARMING = 6.0
     }
 }

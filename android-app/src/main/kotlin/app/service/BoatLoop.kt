@@ -17,6 +17,8 @@ import stillwater.app.pose.PhonePose
 import stillwater.app.pose.Pose
 import stillwater.app.pose.PoseProblem
 import stillwater.mission.MissionSpec
+import stillwater.mission.ProbeSpec
+import stillwater.mission.setUp
 import stillwater.mission.Wish
 import stillwater.model.Actuation
 import stillwater.wire.BoardState
@@ -58,6 +60,9 @@ internal class BoatLoop(
 
     /** Whether the board was asked since the link came about. */
     private var isAnswerDue = false
+    private var named: ProbeSpec? = null
+    private var namedTimes = 0
+    private var namedAt = Double.NEGATIVE_INFINITY
 
     /** What the service is about, to be shown; any thread. */
     @Volatile var activity = BoatActivity.IDLE
@@ -269,6 +274,7 @@ internal class BoatLoop(
         if (!missions.isUnderWay) standStill()
         disarmed = connects
         isAnswerDue = false
+        named = null
     }
 
     /** No mission listens. A question a second keeps a link alive that is cut when idle; no board is to be armed. */
@@ -282,6 +288,18 @@ internal class BoatLoop(
         val isUnheard = state == null && isAnswerDue
         if (isUnheard || state == BoardState.ACTIVE) standStill()
         isAnswerDue = true
+        nameProbe(now)
+    }
+
+    /** Firmware v4.2.0 reads no port that it was not told of: a silent probe is named to it, so that the checklist knows. */
+    private fun nameProbe(now: Double) {
+        val probe = missions.spec?.takeUnless(::isHeard)?.probe ?: return
+        if (probe != named) namedTimes = 0
+        if (namedTimes >= MOST_NAMINGS || now - namedAt < NAMING_SECONDS) return
+        named = probe
+        namedTimes++
+        namedAt = now
+        probe.setUp?.let { held.write(PlatypusEncoder.encode(it)) }
     }
 
     private fun standStill() {
@@ -369,6 +387,10 @@ internal class BoatLoop(
 
         /** A second: no more of a log is lost with the process. */
         const val FLUSH_TICKS = 10L
+        const val MOST_NAMINGS = 3
+
+        /** A probe that was named speaks within, s. */
+        const val NAMING_SECONDS = 10.0
         const val QUESTION_SECONDS = 1.0
 
         /** A sensor speaks fifty times a second, s. */

@@ -251,8 +251,8 @@ internal class Preflight(private val context: Context) {
         /** From a car park to the jetty it may be so far, m; a mission of last week's lake is farther. */
         const val FARTHEST_WATER = 1_000.0
 
-        /** A board speaks ten times a second, s. */
-        private const val LONGEST_SILENCE = 2.0
+        /** A board at rest answers a question a second; three lost answers are a silence. s. */
+        private const val LONGEST_SILENCE = 3.5
         private const val FULL_PERCENT = 100
 
         /** Two hours with the screen on, by the rule of thumb of 15 % an hour. */

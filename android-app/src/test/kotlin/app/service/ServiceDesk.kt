@@ -187,7 +187,7 @@ internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long =
 
     companion object {
         private val ELECTRONICS =
-            BoardSpec(watchdog = 0.5, arming = 2.0, oxygenPeriod = 1.0, batteryPeriod = 1.0, knowsProbe = true)
+            BoardSpec(watchdog = 0.5, arming = 2.0, oxygenPeriod = 1.0, batteryPeriod = 1.0)
 
         val BOARD = LinkChoice.Bluetooth("00:11:22:33:AA:BB", "Boat 3")
 
