@@ -121,13 +121,15 @@ public class BoardPort(
     /**
      * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. Where
      * [isCalm] a rest is not repeated for as long as the board says that its motors rest: each line may be spoilt on the
-     * way and become a drive. Questions keep the board awake meanwhile; where one is not answered at once, rests do.
+     * way and become a drive. Questions keep the board awake meanwhile; where one is not answered at once and the board is
+     * to stay armed, [staysArmed], rests do.
      */
-    public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false) {
+    public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false, staysArmed: Boolean = false) {
         val actuation = mixing.mix(drive)
         val isNewRest = actuation.isAtRest && !sent.isAtRest
         restedFrom = if (actuation.isAtRest) minOf(restedFrom, now.seconds) else Double.POSITIVE_INFINITY
-        val isSpared = isCalm && isRestKept(now) && !(isAsked && now.seconds - askedAt > KEEPING)
+        val isLate = staysArmed && isAsked && now.seconds - askedAt > KEEPING
+        val isSpared = isCalm && isRestKept(now) && !isLate
         if (!isNewRest && (now.seconds - toldAt < HEARTBEAT || isSpared)) return
         toldAt = now.seconds
         sent = actuation

@@ -290,7 +290,7 @@ public class Mission(
             // However long the silence is when it is noticed, rest is said once. After that any line would keep the
             // watchdog quiet, a question too; the board speaks unasked when it is heard again.
             else -> if (state != before || !isDeaf()) {
-                port.tell(now, drive, isCalm = true)
+                port.tell(now, drive, isCalm = true, staysArmed = true)
                 port.askState(now, if (port.sent.isAtRest) BoardPort.KEEPING else BoardPort.PATIENCE)
             }
         }

@@ -126,6 +126,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
         val kept = random.nextInt(maxOf(flushed, text.indexOf("\n") + 1), text.length + 1)
         for (gone in step - FLUSHED..step) goneSteps.add(gone)
         text.setLength(kept)
+        lengths.replaceAll { minOf(it, kept) }
         val lines = text.count { it == '\n' } + if (text.endsWith('\n')) 0 else 1
         while (lineSteps.size > lines) lineSteps.removeAt(lineSteps.size - 1)
         deadUntil = now + random.nextDouble(0.2, 20.0)

@@ -288,7 +288,7 @@ internal class BoatLoop(
         val isUnheard = state == null && isAnswerDue
         if (isUnheard || state == BoardState.ACTIVE) standStill()
         isAnswerDue = true
-        nameProbe(now)
+        if (state != null) nameProbe(now)
     }
 
     /** Firmware v4.2.0 reads no port that it was not told of: a silent probe is named to it, so that the checklist knows. */

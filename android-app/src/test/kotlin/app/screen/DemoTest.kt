@@ -72,7 +72,7 @@ class DemoTest {
         activity.go(ScreenName.MISSION)
         pass(1.0)
         activity.view<View>(R.id.use_mission).performClick()
-        pass(5.0)
+        pass(8.0)
         val words = activity.wordsShown()
         assertTrue("All in order" in words, "$words")
         activity.view<View>(R.id.start).performClick()

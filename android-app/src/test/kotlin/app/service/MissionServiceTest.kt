@@ -131,7 +131,7 @@ class MissionServiceTest {
     @Test
     fun theWrongProbeIsNotedBeforeTheStart() {
         fun note() = desk.snapshot.preflight.single { it.check == PreflightCheck.PROBE }.note
-        desk.pass(2.0)
+        desk.pass(8.0)
         assertNull(note())
         for (other in listOf("\"quantity\":\"acidity\",\"port\":1", "\"quantity\":\"dissolved-oxygen\",\"port\":3")) {
             val spec = ServiceDesk.POND.replace("\"quantity\":\"dissolved-oxygen\",\"port\":1", other)

@@ -39,7 +39,7 @@ class PreflightTest {
         val link = PreflightCheck.LINK
         assertEquals(mapOf(link to PreflightReason.NO_LINK), red(boat(hasLink = false)))
         assertEquals(mapOf(link to PreflightReason.NOT_CONNECTED), red(boat(state = LinkState.WAITING)))
-        assertEquals(mapOf(link to PreflightReason.BOARD_SILENT), red(boat(silence = 2.5)))
+        assertEquals(mapOf(link to PreflightReason.BOARD_SILENT), red(boat(silence = 4.0)))
         val charge = PreflightCheck.BOAT_BATTERY
         assertEquals(mapOf(charge to PreflightReason.NOT_REPORTED), red(boat(volts = null)))
         assertEquals(mapOf(charge to PreflightReason.LOW_CHARGE), red(boat(volts = 10.9)))
