@@ -229,7 +229,10 @@ public class BoardPort(
         /** Silence after which nothing more is said of drives, s: rest was said four times. */
         internal const val RESTING: Double = 0.5
 
-        /** Time between questions that keep a board awake to which no drives are said, s: twice is within the watchdog of 0.5 s. */
+        /**
+         * Time between questions that keep a board awake to which no drives are said, s: twice that is within the watchdog
+         * of 0.5 s.
+         */
         public const val KEEPING: Double = 0.2 - 1e-6
 
         /** Boards say ten times a second what their motors get; older than this it is not known, s. */
