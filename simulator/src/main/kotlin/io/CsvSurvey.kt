@@ -51,6 +51,9 @@ internal class CsvSurvey private constructor(
     /** Reads the fields of one pass; a log that is written plainly needs none, and is read faster without. */
     internal fun fieldReader() = FieldReader(layout.decimalComma, times.form)
 
+    // Then a word such as Max is the name of something.
+    private val beginsWithWords = layout.sample.firstOrNull().orEmpty().let { it.isNotEmpty() && it[0].isLetter() }
+
     private val isPlain = !layout.decimalComma && times.form.kind == TimeForm.Kind.PLAIN
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
@@ -154,13 +157,14 @@ internal class CsvSurvey private constructor(
         /** Why [row] is right and yet holds no reading; null where it holds one, or is wrong. */
         private fun withoutReading(row: CsvRow): String? = when {
             row.isOpen || row.widestBreak >= 0 -> null
+            row.word.isNotEmpty() && !beginsWithWords && CellText.isSummary(row.word) -> SUMMARY
             row.isWhole && row.fields == columns.names.size -> code(row)
             else -> withoutReading(row, row.textOf(columns.time))
         }
 
         private fun withoutReading(row: CsvRow, time: String): String? = when {
             CellText.isRemark(row.first) -> "remarks"
-            row.numbers[TIME].isNaN() && CellText.isSummary(time) -> "lines that sum up"
+            row.numbers[TIME].isNaN() && CellText.isSummary(time) -> SUMMARY
             row.fields != columns.names.size -> null
             isEmpty(row, columns.time) && isEmpty(row, northColumn, eastColumn, columns.value) -> "empty rows"
             !row.numbers[TIME].isFinite() -> null
@@ -342,6 +346,7 @@ internal class CsvSurvey private constructor(
     companion object {
         private const val LONGEST_FIELD = 1 shl 20
         private const val LARGEST_NUMBER = 1e300
+        private const val SUMMARY = "lines that sum up"
         private const val NO_PLACE = "rows without a position"
         private const val LARGEST_METRES = 1e9
 

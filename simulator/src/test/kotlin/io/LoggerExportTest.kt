@@ -125,6 +125,21 @@ class LoggerExportTest {
                 ),
             ),
             Case(
+                "a summary behind a number of the row",
+                "id,time_s,x_m,y_m,v\n0,0,0,0,8.1\n1,60,1,0,8.2\n2,120,2,0,8.3\nSum,180,3,0,24.6\n",
+                "survey CSV",
+                0.0,
+                LogChoice(value = "v"),
+                mapOf("lines that sum up" to 1),
+            ),
+            Case(
+                "a boat called Max",
+                "boat,time_s,x_m,y_m,v\nAnn,0,0,0,8.1\nMax,60,1,0,8.2\nAnn,120,2,0,8.3\n",
+                "survey CSV",
+                0.0,
+                LogChoice(value = "v"),
+            ),
+            Case(
                 "two columns of one name",
                 "time_s,x_m,y_m,temp,temp\n0,0,0,8.1,1\n60,1,0,8.2,1\n120,2,0,8.3,1\n",
                 "survey CSV",
