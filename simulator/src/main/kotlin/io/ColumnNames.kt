@@ -30,6 +30,7 @@ internal object ColumnNames {
     private val NORTHS = setOf("y", "northing", "northing_m", "y_metres", "y_meters")
     private val OWN = setOf("time_s", "unix_time_s", "lat_deg", "lon_deg", "x_m", "y_m")
     private val COUNTERS = setOf("#", "record", "record_number", "row")
+    private val KNOWN = TIMES.toSet() + DATES + LATITUDES + LONGITUDES + EASTS + NORTHS + COUNTERS
 
     /** Seconds in the unit at the end of a name, as in `unix_ms`, `Time (min)` and `Time, h`. */
     private val UNITS = listOf(
@@ -73,15 +74,11 @@ internal object ColumnNames {
     /** Columns that may hold metres north. */
     fun norths(names: List<String>): List<Int> = metres(names, NORTHS)
 
-    /** Whether [name] is one for metres east or north, whatever unit it states. */
-    fun isOfMetres(name: String): Boolean = plain(name).let { it in EASTS || it in NORTHS }
+    /** Whether [name] is one for metres east or north, but states another unit. */
+    fun isInOtherUnit(name: String): Boolean = plain(name) in EASTS + NORTHS && !isMetres(stated(name))
 
     /** Whether [name] is one of time, place or row number, so that no readings are looked for there. */
-    fun isKnown(name: String): Boolean {
-        val plain = plain(name)
-        return name in OWN || plain in TIMES || plain in DATES || plain in LATITUDES || plain in LONGITUDES || plain in EASTS ||
-            plain in NORTHS || plain in COUNTERS || "fract" in name.lowercase()
-    }
+    fun isKnown(name: String): Boolean = name in OWN || plain(name) in KNOWN || "fract" in name.lowercase()
 
     /** Seconds in the unit that the [name] of a time states; null where it states seconds or none. */
     fun unit(name: String): Double? = UNITS.firstOrNull { it.first.containsMatchIn(name.trim()) }?.second

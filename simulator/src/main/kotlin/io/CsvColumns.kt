@@ -152,7 +152,7 @@ internal data class CsvColumns(
             val inMetres = choice.x != null || choice.y != null
             if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
             val place = (if (inMetres) null else degrees()) ?: metres()
-            val other = names.firstOrNull { ColumnNames.isOfMetres(it) && !ColumnNames.isMetres(ColumnNames.stated(it)) }
+            val other = names.firstOrNull { ColumnNames.isInOtherUnit(it) }
             if (choice.needsPlace && place.columns.all { it == NONE } && other != null) {
                 throw problem(other, "metres, or --x and --y", all)
             }

@@ -8,7 +8,7 @@ package stillwater.io
  * @property separator what stands between fields. @property headerLine physical line of the header, from 1.
  * @property header the header as it stands. @property bodyLine physical line of the first row that may hold readings.
  * @property sample the first such row, or empty. @property decimalComma whether numbers have commas for points.
- * @property units the first line of units below the header, or empty. @property rows the head of the log from there on.
+ * @property units the first line of units below the header, or empty. @property rows the lines of the head below these.
  */
 internal class CsvLayout(
     val separator: Char,

@@ -3,7 +3,11 @@ package stillwater.io
 import java.util.Locale
 
 /** Refuses places that are not in metres or degrees, as far as a log's names, units and numbers show. */
-internal class CsvUnits(private val content: LogContent, private val layout: CsvLayout, private val names: List<String>) {
+internal class CsvUnits(
+    private val content: LogContent,
+    private val layout: CsvLayout,
+    private val names: List<String>,
+) {
     /**
      * Looks at the places that [columns] name.
      *

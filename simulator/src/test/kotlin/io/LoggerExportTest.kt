@@ -209,7 +209,8 @@ class LoggerExportTest {
         private fun stamps() = listOf(
             Case(
                 "rows without readings first, whose times have a T",
-                "Timestamp,x_m,y_m,DO\n" + iso("07:58:00Z", ",,") + iso("07:59:00Z", ",,") + iso("08:00:00Z", "0,0,8.1") +
+                "Timestamp,x_m,y_m,DO\n" + iso("07:58:00Z", ",,") + iso("07:59:00Z", ",,") +
+                    iso("08:00:00Z", "0,0,8.1") +
                     iso("08:01:00Z", "1,0,8.2") + iso("08:02:00Z", "2,0,8.3"),
                 "survey CSV, times from Timestamp",
                 EIGHT,

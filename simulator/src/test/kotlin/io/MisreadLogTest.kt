@@ -112,7 +112,7 @@ class MisreadLogTest {
                 "time_s,X,Y,v\n0,7,45,8.1\n1,7.00002,45,8.2\n2,7.00004,45.00001,8.3\n",
                 "log.csv:1: column X: expected metres, and --x and --y with so small a track",
             ),
-            times("Time", "init", "195.333453", "195.333465", message = "log.csv:2: column Time: expected a unit of time"),
+            times("Time", "init", "195.333453", "195.333465", message = "log.csv:2: column Time: expected a unit"),
             times("Time", null, "195.333453", "195.333465", "195.333477", message = "steps are below a millisecond"),
             times("Time", null, "080000", "080001", message = "column Time: expected a time of day as 08:00:00"),
             times("Time,Date", null, "120000,20250714", "120001,20250714", message = "a time of day as 08:00:00"),
