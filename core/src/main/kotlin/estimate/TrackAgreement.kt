@@ -15,7 +15,8 @@ import kotlin.math.sqrt
  * that all passes share, such as detail that no pass shows, do not show here.
  *
  * @property crossings number of places that were compared.
- * @property ratio mean of (c₁ − c₂)² / (s₁² + s₂²): 1 where the intervals hold; NaN below [FEWEST] crossings.
+ * @property ratio mean of (c₁ − c₂)² / (s₁² + s₂²), each at most [LARGEST]: 1 where the intervals hold; NaN below
+ * [FEWEST] crossings.
  * @property error standard error of [ratio], from groups of crossings that follow each other.
  * @property lateness a, s. @property spread b, sensor units.
  */
@@ -51,13 +52,14 @@ public class TrackAgreement private constructor(
         /** Fewer crossings show nothing. */
         public const val FEWEST: Int = 10
 
+        /** Squares beyond so many times what is expected count as that: one place is not to widen all intervals. */
+        public const val LARGEST: Double = 25.0
+
         private const val TWO_SIDED = 1.96
         private const val SURE = 2.0
         private const val GROUPS = 20
         private const val ROUNDS = 5
 
-        /** Squares beyond so many times what is expected count as that: one place is not to widen all intervals. */
-        private const val LARGEST = 25.0
         private const val SLOPE_ROWS = 2
 
         /** How [track], the correction of [series], agrees with itself. Some milliseconds for 5000 readings. */
@@ -99,8 +101,10 @@ public class TrackAgreement private constructor(
                 allowed[n] = square(one(::spread)) + square(other(::spread))
                 changes[n] = square(one { slopes[it] }) + square(other { slopes[it] })
             }
-            // Two intervals of no width allow nothing, which no division stands.
-            val least = allowed.filter { it > 0 }.minOrNull() ?: Double.MIN_VALUE
+            // Two intervals of no width allow nothing, which no division stands: if none has any, then so little that
+            // passes that differ at all contradict them.
+            val least = allowed.filter { it > 0 }.minOrNull()
+                ?: (squares.average() / LARGEST).takeIf { it > 0 } ?: 1.0
             for (n in allowed.indices) allowed[n] = maxOf(allowed[n], least)
         }
 

@@ -122,6 +122,22 @@ class TrackAgreementTest {
     }
 
     @Test
+    fun intervalsOfNoWidthAreContradictedByPassesThatDiffer() {
+        val series = wound()
+        val agreement = TrackAgreement.of(series, corrected(series, late = 0.0).withoutWidth { it })
+        assertTrue(agreement.isContradicted, "${agreement.ratio} ± ${agreement.error}")
+        assertTrue(agreement.lateness.isFinite() && agreement.spread.isFinite())
+        val level = TrackAgreement.of(series, corrected(series, late = 0.0).withoutWidth { 0.0 })
+        assertEquals(0.0, level.ratio)
+        assertFalse(level.isContradicted)
+    }
+
+    private fun CorrectedTrack.withoutWidth(value: (Double) -> Double): CorrectedTrack {
+        val same = DoubleArray(values.size) { value(values[it]) }
+        return CorrectedTrack(same, same, same, silent, outlying)
+    }
+
+    @Test
     fun fewCrossingsShowNothing() {
         val straight = series(100, { it }, { 0.5 * it })
         val agreement = TrackAgreement.of(straight, corrected(straight, 0.0))

@@ -1,5 +1,6 @@
 package stillwater.correct
 
+import stillwater.estimate.TrackAgreement
 import stillwater.survey.Wording.Companion.digits
 import kotlin.math.sqrt
 
@@ -34,7 +35,9 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     private fun contradicted(): String? {
         if (!agreement.isContradicted) return null
-        val times = digits(sqrt(agreement.ratio), 2)
+        // What differs by more counts as the largest, so that the mean says little near it.
+        val least = if (agreement.ratio > TrackAgreement.LARGEST / 2) "at least " else ""
+        val times = least + digits(sqrt(agreement.ratio), 2)
         val excess = "passes through the same ${places()} differ by $times times what the intervals allow"
         val parts = listOfNotNull(
             "as if times were wrong by ${digits(agreement.lateness, 2)} s".takeIf { agreement.lateness > 0 },

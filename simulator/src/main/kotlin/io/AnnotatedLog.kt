@@ -41,6 +41,8 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
         val reader = survey.fieldReader()
         var next = 0
         var other = 0L
+
+        fun time(fields: List<String>) = reader.time(fields.getOrNull(survey.columns.time).orEmpty())
     }
 
     /**
@@ -87,7 +89,7 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
                         fields.size < width && fields.all { it.isBlank() } -> emptyList()
                         fields.size == width -> places.flatMap { added(it, fields) }
                         // A row of another width or a remark is not made wider: nothing in it would stand in place.
-                        else -> emptyList<String?>().also { places.forEach { it.other++ } }
+                        else -> emptyList<String?>().also { places.forEach { other(it, fields) } }
                     }
                     out.write(records.bytes(records.text))
                     if (isHeader) out.write(header(survey).toByteArray(survey.content.charset))
@@ -114,18 +116,25 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
     }
 
     private fun added(place: Place, fields: List<String>): List<String?> {
-        val isNext = place.next < place.part.times.size && isRow(place, fields)
+        val time = place.time(fields)
+        val isNext = place.next < place.part.times.size && isRow(place, fields, time)
         if (isNext) return place.part.cells(place.next++)
         place.other++
         return place.empty
     }
 
-    private fun isRow(place: Place, fields: List<String>): Boolean {
+    /** Its time is read as the first reading of the log did: a time of day may be what the next ones hang on. */
+    private fun other(place: Place, fields: List<String>) {
+        place.time(fields)
+        place.other++
+    }
+
+    private fun isRow(place: Place, fields: List<String>, ofRow: Double): Boolean {
         val columns = place.survey.columns
         val part = place.part
         fun text(column: Int) = fields.getOrNull(column).orEmpty()
         val day = if (columns.date == CsvColumns.NONE) 0.0 else place.reader.day(text(columns.date))
-        val time = place.reader.time(text(columns.time)) + day
+        val time = ofRow + day
         val value = place.reader.number(text(columns.value))
         return time == part.times[place.next] && value == part.values[place.next] && isPlace(place, fields)
     }
@@ -133,7 +142,8 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
     /** Degrees are compared by being there only: a row left out for its place may be the next one's twin. */
     private fun isPlace(place: Place, fields: List<String>): Boolean {
         val columns = place.survey.columns
-        fun number(column: Int) = fields.getOrNull(column)?.let { place.reader.number(it) } ?: Double.NaN
+        fun number(column: Int) =
+            fields.getOrNull(column)?.let { place.reader.number(it) }?.takeUnless(CellText::isCode) ?: Double.NaN
         if (columns.latitude != CsvColumns.NONE) {
             val latitude = number(columns.latitude)
             val longitude = number(columns.longitude)

@@ -7,13 +7,16 @@ internal object CellText {
         "mean", "average", "avg", "median", "min", "minimum", "max", "maximum", "std", "sd", "stdev", "std dev",
         "standard deviation", "mean value", "total", "sum", "count", "end", "end of file", "end of data", "eof",
     )
-    private val TIME = Regex("""\d{1,4}([-/.])(\d{1,2}|[A-Za-z]{3,9})\1\d{1,4}\b.*|\d{1,2}:\d{2}\b.*""")
+    private val TIME = Regex("""\d{1,4}([-/.])(\d{1,2}|[A-Za-z]{3,9})\1\d{1,4}(?!\d).*|\d{1,2}:\d{2}(?!\d).*""")
 
     /** Whether [text] is what loggers write where they have no reading: nothing, NaN, NA, null, dashes, asterisks. */
     fun isMissing(text: String): Boolean {
         val trimmed = text.trim()
         return trimmed.all { it == '-' || it == '*' || it == '+' } || trimmed.lowercase() in MISSING
     }
+
+    /** Whether loggers write [number] where they have none. */
+    fun isCode(number: Double): Boolean = number == -9999.0 || number == -99_999.0 || number == -999_999.0
 
     /** Whether [text] begins a line that sums up a column, or ends a file: such a line is no reading. */
     fun isSummary(text: String): Boolean = text.trim().trimEnd(':', '.').lowercase() in SUMMARIES

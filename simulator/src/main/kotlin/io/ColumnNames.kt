@@ -28,16 +28,24 @@ internal object ColumnNames {
     )
     private val EASTS = setOf("x", "easting", "easting_m", "x_metres", "x_meters")
     private val NORTHS = setOf("y", "northing", "northing_m", "y_metres", "y_meters")
+    private val OWN = setOf("time_s", "unix_time_s", "lat_deg", "lon_deg", "x_m", "y_m")
     private val COUNTERS = setOf("#", "record", "record_number", "row")
+    private val KNOWN = TIMES.toSet() + DATES + LATITUDES + LONGITUDES + EASTS + NORTHS + COUNTERS
 
-    /** Seconds in the unit at the end of a name, as in `unix_ms` and `Time (min)`. */
+    /** Seconds in the unit at the end of a name, as in `unix_ms`, `Time (min)` and `Time, h`. */
     private val UNITS = listOf(
-        Regex("""(?i)(_ms|[(\[]\s*(ms|msec|milliseconds?)\s*[)\]])$""") to 1e-3,
-        Regex("""(?i)(_min|[(\[]\s*(min|mins|minutes?)\s*[)\]])$""") to 60.0,
-        Regex("""(?i)(_h|_hours?|[(\[]\s*(h|hr|hrs|hours?)\s*[)\]])$""") to 3600.0,
-        Regex("""(?i)(_days?|[(\[]\s*(d|days?)\s*[)\]])$""") to 86_400.0,
+        Regex("""(?i)(^|[^a-z])(ms|msecs?|millis|milliseconds?)\s*[)\]]?$""") to 1e-3,
+        Regex("""(?i)(_|,\s*|[(\[]([^)\]]*\s)?)(min|mins|minutes?)\s*[)\]]?$""") to 60.0,
+        Regex("""(?i)(_|,\s*|[(\[]\s*)(h|hr|hrs|hours?)\s*[)\]]?$""") to 3600.0,
+        Regex("""(?i)(_days?|(,\s*|[(\[]\s*)(d|days?)\s*[)\]]?)$""") to 86_400.0,
     )
-    private val SECONDS = Regex("""(?i)(_s|_sec|_seconds|[(\[]\s*(s|sec|secs|seconds?)\s*[)\]]|unix.*|epoch.*)$""")
+    private val SECONDS =
+        Regex("""(?i)((_|,\s*|[(\[]([^)\]]*\s)?)(s|secs?|seconds?)\s*[)\]]?|unix.*|epoch.*)$""")
+    private val METRES = Regex("""(?i)m|met(er|re)s?""")
+    private val DEGREES =
+        Regex("""(?i)(decimal[ _])?(deg(ree)?s?|dd|[°º])([ _.]*(n|e|north|east|dec|decimal))?\.?""")
+    private val STATED = Regex("""[(\[<](.*?)[)\]>]|,(.*)""")
+    private val ON_GLOBE = Regex("""(lat|lon|long|lng|latitude|longitude)([^a-z].*)?""")
 
     /** [name] in small letters, without units in brackets and what follows a comma, parts joined by `_`. */
     fun plain(name: String): String {
@@ -61,23 +69,44 @@ internal object ColumnNames {
     fun longitudes(names: List<String>): List<Int> = indices(names, LONGITUDES)
 
     /** Columns that may hold metres east. */
-    fun easts(names: List<String>): List<Int> = indices(names, EASTS)
+    fun easts(names: List<String>): List<Int> = metres(names, EASTS)
 
     /** Columns that may hold metres north. */
-    fun norths(names: List<String>): List<Int> = indices(names, NORTHS)
+    fun norths(names: List<String>): List<Int> = metres(names, NORTHS)
+
+    /** Whether [name] is one for metres east or north, but states another unit. */
+    fun isInOtherUnit(name: String): Boolean = plain(name) in EASTS + NORTHS && !isMetres(stated(name))
 
     /** Whether [name] is one of time, place or row number, so that no readings are looked for there. */
-    fun isKnown(name: String): Boolean {
-        val plain = plain(name)
-        return plain in TIMES || plain in DATES || plain in LATITUDES || plain in LONGITUDES || plain in EASTS ||
-            plain in NORTHS || plain in COUNTERS || "fract" in name.lowercase()
-    }
+    fun isKnown(name: String): Boolean = name in OWN || plain(name) in KNOWN || "fract" in name.lowercase()
 
     /** Seconds in the unit that the [name] of a time states; null where it states seconds or none. */
     fun unit(name: String): Double? = UNITS.firstOrNull { it.first.containsMatchIn(name.trim()) }?.second
 
     /** Whether the [name] of a time states that its numbers are seconds. */
     fun statesSeconds(name: String): Boolean = SECONDS.containsMatchIn(name.trim())
+
+    /** What the [name] of a column has in its first brackets or behind its first comma; empty where it has neither. */
+    fun stated(name: String): String {
+        val groups = STATED.find(name)?.groupValues.orEmpty().drop(1)
+        return groups.firstOrNull { it.isNotBlank() }.orEmpty().trim()
+    }
+
+    /** Whether [unit] is metres, or none. */
+    fun isMetres(unit: String): Boolean = isNone(unit) || METRES.matches(unit)
+
+    /** Whether [unit] is degrees with decimals, or none. */
+    fun isDegrees(unit: String): Boolean = isNone(unit) || DEGREES.matches(unit)
+
+    /** Whether [unit] says nothing. */
+    fun isNone(unit: String): Boolean = CellText.isMissing(unit)
+
+    /** A plain x or y beside latitudes or a z may as well be what an accelerometer or a magnetometer measured. */
+    private fun metres(names: List<String>, known: Set<String>): List<Int> {
+        val plain = names.map(::plain)
+        val hasOthers = plain.any { it == "z" || ON_GLOBE.matches(it) }
+        return indices(names, known).filter { isMetres(stated(names[it])) && !(hasOthers && plain[it].length == 1) }
+    }
 
     private fun indices(names: List<String>, known: Set<String>) = names.indices.filter { plain(names[it]) in known }
 }

@@ -152,6 +152,10 @@ internal data class CsvColumns(
             val inMetres = choice.x != null || choice.y != null
             if (inMetres && choice.namesDegrees) throw problem(null, "--lat and --lon or --x and --y", "some of both")
             val place = (if (inMetres) null else degrees()) ?: metres()
+            val other = names.firstOrNull { ColumnNames.isInOtherUnit(it) }
+            if (choice.needsPlace && place.columns.all { it == NONE } && other != null) {
+                throw problem(other, "metres, or --x and --y", all)
+            }
             if (place.suffices(choice)) return place
             throw problem(null, "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x", all)
         }

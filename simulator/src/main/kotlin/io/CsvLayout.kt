@@ -8,6 +8,7 @@ package stillwater.io
  * @property separator what stands between fields. @property headerLine physical line of the header, from 1.
  * @property header the header as it stands. @property bodyLine physical line of the first row that may hold readings.
  * @property sample the first such row, or empty. @property decimalComma whether numbers have commas for points.
+ * @property units the first line of units below the header, or empty. @property rows the lines of the head below these.
  */
 internal class CsvLayout(
     val separator: Char,
@@ -16,7 +17,18 @@ internal class CsvLayout(
     val bodyLine: Int,
     val sample: List<String>,
     val decimalComma: Boolean,
+    val units: List<String>,
+    private val rows: List<String>,
 ) {
+    /** The unit of [column] by the line of units, without brackets; empty where there is none. */
+    fun unit(column: Int): String = units.getOrNull(column).orEmpty().trim(' ', '(', ')', '[', ']', '<', '>')
+
+    /** The numbers that the head of the log has in [column], NaN for others. */
+    fun numbers(column: Int): List<Double> {
+        val reader = FieldReader(decimalComma, TimeForm(TimeForm.Kind.PLAIN))
+        return rows.map { reader.number(fields(it, separator)?.getOrNull(column).orEmpty()) }
+    }
+
     /** What is not plain about it, for people. */
     fun notes(): List<String> = buildList {
         if (headerLine > 1) add("header in line $headerLine")
@@ -29,27 +41,33 @@ internal class CsvLayout(
         /** Separators that are looked for, in the order in which they are preferred. */
         val SEPARATORS = listOf(',', ';', '\t')
         private const val MOST_UNITS = 3
+        private const val LONGEST_ENTRY = 3
         private val STATED = Regex("""(?i)\s*"?sep=(.)"?\s*""")
         private val DECIMAL_COMMA = Regex("""[+-]?\d*,\d+([eE][+-]?\d+)?""")
+        private val THOUSANDS = Regex("""[+-]?[1-9]\d{0,2},\d{3}""")
         private val DECIMAL_POINT = Regex("""[+-]?\d*\.\d+([eE][+-]?\d+)?""")
 
         /**
-         * The layout of the log that begins with the lines [head], not all of them blank.
+         * The layout of [content].
          *
          * @param wanted names of columns that the user gave.
+         * @throws LogProblem if it has two tables, or numbers that may be meant in two ways.
          */
-        fun of(head: List<String>, wanted: Set<String>): CsvLayout {
+        fun of(content: LogContent, wanted: Set<String>): CsvLayout {
+            val head = content.head
             val first = head.indexOfFirst { it.isNotBlank() }
             val stated = STATED.matchEntire(head[first])?.groupValues?.get(1)?.get(0)?.takeIf { it in SEPARATORS }
             val from = if (stated == null) first else first + 1
             val begin = (from until head.size).firstOrNull { head[it].isNotBlank() } ?: first
-            val separator = stated ?: SEPARATORS.maxBy { mark -> head[begin].count { it == mark } }
+            // Where another separates, commas in names stand before their units.
+            val separator = stated ?: listOf(';', '\t', ',').firstOrNull { isPlain(head, begin, it, wanted) }
+                ?: SEPARATORS.maxBy { mark -> head[begin].count { it == mark } }
             val header = if (isPlain(head, begin, separator, wanted)) {
                 Header(begin, separator)
             } else {
-                search(head, begin, stated?.let(::listOf) ?: SEPARATORS, wanted) ?: Header(begin, separator)
+                search(content, begin, stated?.let(::listOf) ?: SEPARATORS, wanted) ?: Header(begin, separator)
             }
-            return layout(head, header)
+            return layout(content, header)
         }
 
         private class Header(val index: Int, val separator: Char)
@@ -59,17 +77,34 @@ internal class CsvLayout(
             if (CellText.isRemark(head[begin])) return false
             val names = fields(head[begin], separator) ?: return false
             if (names.none { it in wanted || ColumnNames.isKnown(it) }) return false
+            if (isEntry(names)) return false
             val last = head.indexOfLast { it.isNotBlank() }
             return names.size > 1 && (last == begin || fields(head[last], separator)?.size == names.size)
         }
 
-        /** The header of the table that reaches farthest: what stands before it is smaller or has other columns. */
-        private fun search(head: List<String>, begin: Int, separators: List<Char>, wanted: Set<String>): Header? =
-            separators.flatMap { Table(head, begin, it, wanted).headers() }
-                .maxWithOrNull(compareBy({ it.end }, { it.known }, { if (it.isRemark) 0 else 1 }, { -it.index }))
-                ?.let { Header(it.index, it.separator) }
+        /** Whether these fields say something about the logger, as `Date,14/07/2025` does. */
+        private fun isEntry(fields: List<String>) = fields.any { CellText.isTime(it) } ||
+            (fields.count { it.isNotEmpty() } <= LONGEST_ENTRY && fields.any { CellText.isNumber(it, comma = true) })
 
-        private fun layout(head: List<String>, header: Header): CsvLayout {
+        /**
+         * The header of the table that reaches farthest: what stands before it is smaller or has other columns.
+         *
+         * @throws LogProblem if a table with known columns stands before it, whose readings would be lost.
+         */
+        private fun search(content: LogContent, begin: Int, separators: List<Char>, wanted: Set<String>): Header? {
+            val all = separators.flatMap { Table(content.head, begin, it, wanted).headers() }
+            val best = all.maxWithOrNull(
+                compareBy({ it.end }, { it.known }, { if (it.isRemark) 0 else 1 }, { -it.index }),
+            ) ?: return null
+            all.firstOrNull { it.separator == best.separator && it.end < best.index && it.isTableBeside(best) }?.let {
+                val found = "a table from line ${it.index + 1} on and another from here on"
+                throw LogProblem(content.file, best.index + 1L, null, "one table", found)
+            }
+            return Header(best.index, best.separator)
+        }
+
+        private fun layout(content: LogContent, header: Header): CsvLayout {
+            val head = content.head
             val table = Table(head, header.index, header.separator, emptySet())
             val units = table.units(header.index)
             val body = header.index + 1 + units
@@ -80,7 +115,14 @@ internal class CsvLayout(
                 head[header.index].let { if (CellText.isRemark(it)) it.trimStart('#', '%', '/', ' ') else it },
                 body + 1,
                 sample?.let { fields(head[it], header.separator) }.orEmpty(),
-                header.separator != ',' && table.hasDecimalCommas(body),
+                header.separator != ',' && table.hasDecimalCommas(body) { line, column ->
+                    val name = fields(head[header.index], header.separator)?.getOrNull(column)
+                    val found = quoted(fields(head[line], header.separator).orEmpty()[column])
+                    val doubt = "$found: this comma, as every other one in the log, may part thousands"
+                    throw LogProblem(content.file, line + 1L, name, "numbers with a decimal point", doubt)
+                },
+                if (units > 0) fields(head[header.index + 1], header.separator).orEmpty() else emptyList(),
+                head.drop(body),
             )
         }
 
@@ -107,14 +149,19 @@ internal class CsvLayout(
         }
     }
 
-    /** A line that may be a header. */
+    /** A line that may be a header, of a table of [width] columns with [rows] rows to the line [end]. */
     private class Candidate(
         val index: Int,
         val separator: Char,
         val isRemark: Boolean,
         val known: Int,
+        val width: Int,
+        val rows: Int,
         val end: Int,
-    )
+    ) {
+        /** Whether it has readings, as the one of [other], and is no block of entries about the logger. */
+        fun isTableBeside(other: Candidate) = known > 0 && !isRemark && (rows > 1 || width == other.width)
+    }
 
     /** The lines [head] from [begin] as a table with one [separator]. */
     private class Table(
@@ -134,21 +181,24 @@ internal class CsvLayout(
             val found = ArrayList<Candidate>()
             for (i in begin until head.size) {
                 if (!isText(row(i)) || row(i)[0] == CAMPBELL) continue
-                val end = end(i)
-                if (end > i) found += Candidate(i, separator, CellText.isRemark(head[i]), known(row(i)), end)
+                candidate(i)?.let { found += it }
             }
             return found
         }
 
-        /** The last row of the table below the header [i]; [i] where there is none. */
-        private fun end(i: Int): Int {
+        /** The header [i] with its table; null where it has no rows. A header that comes again ends no table. */
+        private fun candidate(i: Int): Candidate? {
+            val width = row(i).size
             var end = i
+            var rows = 0
             for (j in i + 1 + units(i) until head.size) {
-                if (isPassed(j)) continue
-                if (row(j).size != row(i).size || !isData(row(j))) break
+                if (isPassed(j) || row(j) == row(i)) continue
+                if (row(j).size != width || !isData(row(j))) break
                 end = j
+                rows++
             }
-            return end
+            if (rows == 0) return null
+            return Candidate(i, separator, CellText.isRemark(head[i]), known(row(i)), width, rows, end)
         }
 
         /** Lines with units right below the header [i]. */
@@ -161,15 +211,20 @@ internal class CsvLayout(
 
         private fun isUnits(j: Int, width: Int) = !isPassed(j) && row(j).size == width && isWords(row(j))
 
-        fun hasDecimalCommas(from: Int): Boolean {
-            var commas = 0
-            for (j in from until head.size) {
-                for (field in row(j)) {
+        /** Whether numbers have decimal commas; [doubt] is told of a line and a column where nothing decides. */
+        fun hasDecimalCommas(from: Int, doubt: (Int, Int) -> Nothing): Boolean {
+            var open: (() -> Nothing)? = null
+            var isSure = false
+            for (j in (from until head.size).filterNot(::isPassed)) {
+                row(j).forEachIndexed { column, field ->
                     if (DECIMAL_POINT.matches(field)) return false
-                    if (DECIMAL_COMMA.matches(field)) commas++
+                    val isThousands = THOUSANDS.matches(field)
+                    if (isThousands && open == null) open = { doubt(j, column) }
+                    if (!isThousands && DECIMAL_COMMA.matches(field)) isSure = true
                 }
             }
-            return commas > 0
+            if (!isSure) open?.invoke()
+            return isSure
         }
 
         /** Whether the line [j] is blank or a remark. */

@@ -55,6 +55,10 @@ internal class CsvRow(
     var first = ' '
         private set
 
+    /** The first field where it begins with a letter and nobody reads its column; empty otherwise. */
+    var word = ""
+        private set
+
     private val hasDate = reader != null && dateSlot in slots
     private val unreadable = HashMap<Int, String>()
 
@@ -67,6 +71,7 @@ internal class CsvRow(
     override fun handleBegin(startingLineNumber: Long) {
         line = startingLineNumber + linesBefore
         first = ' '
+        word = ""
         blank = false
         widestBreak = -1
         isEnd = false
@@ -83,7 +88,10 @@ internal class CsvRow(
             if (len == EndMark.TEXT.length && first == EndMark.TEXT[0]) isEnd = true
         }
         val slot = if (fieldIdx < slots.size) slots[fieldIdx] else CsvColumns.NONE
-        if (slot == CsvColumns.NONE) return
+        if (slot == CsvColumns.NONE) {
+            if (fieldIdx == 0 && len > 0 && buf[offset].isLetter()) word = String(buf, offset, len)
+            return
+        }
         val number = when {
             reader != null -> read(reader, slot, buf, offset, len)
             slot == timeSlot -> IsoTime.ofField(buf, offset, len)

@@ -51,6 +51,9 @@ internal class CsvSurvey private constructor(
     /** Reads the fields of one pass; a log that is written plainly needs none, and is read faster without. */
     internal fun fieldReader() = FieldReader(layout.decimalComma, times.form)
 
+    // Then a word such as Max is the name of something.
+    private val beginsWithWords = layout.sample.firstOrNull().orEmpty().let { it.isNotEmpty() && it[0].isLetter() }
+
     private val isPlain = !layout.decimalComma && times.form.kind == TimeForm.Kind.PLAIN
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
@@ -66,7 +69,7 @@ internal class CsvSurvey private constructor(
             .maxBufferSize(LONGEST_FIELD)
             .build(row, EndMark(content.reader(before, progress)))
         reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
-        return pass.end()
+        return pass.end(fields?.midnights ?: 0)
     }
 
     private inline fun inLogTerms(work: () -> Unit) {
@@ -153,21 +156,28 @@ internal class CsvSurvey private constructor(
 
         /** Why [row] is right and yet holds no reading; null where it holds one, or is wrong. */
         private fun withoutReading(row: CsvRow): String? = when {
-            isMissing(row.numbers[VALUE]) && row.isWhole -> "codes for a missing reading"
-            row.isWhole && row.fields == columns.names.size -> null
             row.isOpen || row.widestBreak >= 0 -> null
+            row.word.isNotEmpty() && !beginsWithWords && CellText.isSummary(row.word) -> SUMMARY
+            row.isWhole && row.fields == columns.names.size -> code(row)
             else -> withoutReading(row, row.textOf(columns.time))
         }
 
         private fun withoutReading(row: CsvRow, time: String): String? = when {
             CellText.isRemark(row.first) -> "remarks"
-            row.numbers[TIME].isNaN() && CellText.isSummary(time) -> "lines that sum up"
+            row.numbers[TIME].isNaN() && CellText.isSummary(time) -> SUMMARY
             row.fields != columns.names.size -> null
             isEmpty(row, columns.time) && isEmpty(row, northColumn, eastColumn, columns.value) -> "empty rows"
             !row.numbers[TIME].isFinite() -> null
-            isMissing(row, northColumn, NORTH) || isMissing(row, eastColumn, EAST) -> "rows without a position"
+            isMissing(row, northColumn, NORTH) || isMissing(row, eastColumn, EAST) -> NO_PLACE
             !isGiven(northColumn, row.numbers[NORTH]) || !isGiven(eastColumn, row.numbers[EAST]) -> null
             isMissing(row, columns.value, VALUE) -> "missing readings"
+            else -> code(row)
+        }
+
+        /** What a number in [row] that stands for nothing leaves it without. */
+        private fun code(row: CsvRow): String? = when {
+            CellText.isCode(row.numbers[NORTH]) || CellText.isCode(row.numbers[EAST]) -> NO_PLACE
+            CellText.isCode(row.numbers[VALUE]) -> "codes for a missing reading"
             else -> null
         }
 
@@ -320,21 +330,24 @@ internal class CsvSurvey private constructor(
             val measured = LinkedHashMap<String, Double>()
             conditionNames.forEachIndexed { i, name ->
                 val number = row.numbers[conditionSlots[i]]
-                if (number.isFinite() && !isMissing(number)) measured[name] = number
+                if (number.isFinite() && !CellText.isCode(number)) measured[name] = number
             }
             return Conditions(measured)
         }
 
-        fun end(): LogPass {
+        fun end(midnights: Int): LogPass {
             if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
             order.end()
-            return LogPass(readings, skips.toMap(), listOfNotNull(order.note))
+            val passed = "times of day pass midnight ${if (midnights == 1) "once" else "$midnights times"}"
+            return LogPass(readings, skips.toMap(), listOfNotNull(order.note, passed.takeIf { midnights > 0 }))
         }
     }
 
     companion object {
         private const val LONGEST_FIELD = 1 shl 20
         private const val LARGEST_NUMBER = 1e300
+        private const val SUMMARY = "lines that sum up"
+        private const val NO_PLACE = "rows without a position"
         private const val LARGEST_METRES = 1e9
 
         /** The year 5138, or 1973 in milliseconds. */
@@ -351,10 +364,8 @@ internal class CsvSurvey private constructor(
         private const val DATE = 4
         private const val SLOTS = 5
 
-        private fun isMissing(value: Double) = value == -9999.0 || value == -99999.0 || value == -999999.0
-
         fun open(content: LogContent, choice: LogChoice): CsvSurvey {
-            val layout = CsvLayout.of(content.head, choice.named)
+            val layout = CsvLayout.of(content, choice.named)
             val line = content.head[layout.headerLine - 1]
             fun problem(column: String?, expected: String, found: String) =
                 LogProblem(content.file, layout.headerLine.toLong(), column, expected, found)
@@ -371,6 +382,7 @@ internal class CsvSurvey private constructor(
                 throw problem(null, "a header without control characters", found)
             }
             val columns = CsvColumns.of(CsvColumns.distinct(header), layout.sample, choice, ::problem)
+            CsvUnits(content, layout, columns.names).check(columns, choice.x != null)
             val times = CsvTimes.of(content, layout, columns, choice)
             return CsvSurvey(content, layout, columns, times, choice.skipBadRows)
         }

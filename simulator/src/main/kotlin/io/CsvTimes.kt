@@ -6,14 +6,18 @@ package stillwater.io
  * @property form how they are written. @property notes what was taken for what, for people.
  * @property expected what a time must be, for messages. @property expectedDate what a date must be, likewise.
  */
-internal class CsvTimes private constructor(
+internal class CsvTimes(
     val form: TimeForm,
     val notes: List<String>,
     val expected: String,
     val expectedDate: String = "",
 ) {
     companion object {
-        private const val PLAIN = "seconds or a time as 2025-06-01T12:00:00Z"
+        /** What a time in seconds or ISO 8601 must be. */
+        const val PLAIN = "seconds or a time as 2025-06-01T12:00:00Z"
+
+        /** Names of times without hours, which are read as hours and minutes if nobody looks. */
+        private val MINUTES = Regex("""(?i)(?<!h:|hh)mm:ss""")
 
         /**
          * Looks at the column's name, the first row and, where dates are written in numbers, as many rows as it takes.
@@ -24,8 +28,14 @@ internal class CsvTimes private constructor(
             val name = columns.names[columns.time]
             val text = layout.sample.getOrNull(columns.time).orEmpty()
             val number = FieldReader(layout.decimalComma, TimeForm(TimeForm.Kind.PLAIN)).number(text)
+            if (choice.date != null && !(number.isNaN() && IsoTime.seconds(text).isNaN())) {
+                throw problem(content, layout, name, "a time of day as 12:00:00 beside --date", quoted(text))
+            }
+            if (MINUTES.containsMatchIn(name) && number.isNaN()) {
+                throw problem(content, layout, name, "times as 08:00:00, or a name without mm:ss", quoted(text))
+            }
             return when {
-                !number.isNaN() -> numbers(name, number)
+                !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number)
                 !IsoTime.seconds(text).isNaN() -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
                 columns.date != CsvColumns.NONE -> {
                     val date = columns.names[columns.date]
@@ -51,25 +61,9 @@ internal class CsvTimes private constructor(
             }
         }
 
-        private fun dates(order: DateOrder?) = "a date as " + (order ?: DateOrder.YEAR_FIRST).words
+        private fun problem(content: LogContent, layout: CsvLayout, name: String, expected: String, found: String) =
+            LogProblem(content.file, layout.bodyLine.toLong(), name, expected, found)
 
-        private fun numbers(name: String, first: Double): CsvTimes {
-            val unit = ColumnNames.unit(name)
-            val isDays = "date" in name.lowercase() && first in ExcelDays.RANGE
-            return when {
-                unit != null -> CsvTimes(
-                    TimeForm(TimeForm.Kind.NUMBER, unit),
-                    listOf("times in units of $unit s, by the column's name"),
-                    "a number",
-                )
-                isDays -> CsvTimes(
-                    TimeForm(TimeForm.Kind.NUMBER, ExcelDays.FACTOR, ExcelDays.ZERO),
-                    listOf("times as a spreadsheet's days"),
-                    "a number of days",
-                )
-                ColumnNames.statesSeconds(name) -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
-                else -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), listOf("times taken for seconds"), PLAIN)
-            }
-        }
+        private fun dates(order: DateOrder?) = "a date as " + (order ?: DateOrder.YEAR_FIRST).words
     }
 }

@@ -10,6 +10,9 @@ internal class FieldReader(private val decimalComma: Boolean, form: TimeForm) {
     private val clock = form.Clock()
     private val withPoint = CharArray(LONGEST_NUMBER)
 
+    /** Midnights that times of day without a date have passed. */
+    val midnights: Int get() = clock.midnights
+
     /** The number in [text] at [offset] of [length] characters, or NaN. */
     fun number(text: CharArray, offset: Int, length: Int): Double {
         if (!decimalComma) return DecimalText.parse(text, offset, length)

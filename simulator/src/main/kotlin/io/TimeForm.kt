@@ -27,14 +27,19 @@ internal class TimeForm(
         /** Times of day, with the date in another column. */
         OF_DAY,
 
-        /** Times of day without a date; one that lies more than half a day back is of the next day. */
+        /** Times of day without a date; from the last quarter of a day to the first the next day begins. */
         OF_ANY_DAY,
     }
 
     /** Reads the times of one pass through a log, in its order: times of day alone need those before them. */
     inner class Clock {
-        private var days = 0.0
         private var last = Double.NaN
+        private var beforeLast = Double.NaN
+        private var beforeMidnight = Double.POSITIVE_INFINITY
+
+        /** Midnights that times of day alone have passed. */
+        var midnights = 0
+            private set
 
         /** Seconds of [text], of which [number] is the number or NaN; NaN where it is no time. */
         fun seconds(text: String, number: Double): Double = when (kind) {
@@ -53,16 +58,31 @@ internal class TimeForm(
             return if (parts.rest.isBlank() || DateText.ofDay(parts.rest) == 0.0) parts.day(order) else Double.NaN
         }
 
+        /**
+         * One wrong stamp must not move all rows after it by a day, nor hide: a time that the rows around it contradict
+         * stays where the order of times is seen to be broken.
+         */
         private fun ofAnyDay(seconds: Double): Double {
             if (seconds.isNaN()) return seconds
-            if (seconds < last - HALF_A_DAY) days += 2 * HALF_A_DAY
+            if (last >= EVENING && seconds <= MORNING && !(seconds > beforeLast)) {
+                midnights++
+                beforeMidnight = last
+            } else if (seconds - last > HALF_A_DAY && seconds >= beforeMidnight) {
+                // The time before it was none of a next day.
+                midnights--
+                beforeMidnight = Double.POSITIVE_INFINITY
+            }
+            if (seconds != last) beforeLast = last
             last = seconds
-            return days + seconds
+            return midnights * DAY + seconds
         }
     }
 
     private companion object {
+        const val DAY = 86_400.0
         const val HALF_A_DAY = 43_200.0
+        const val EVENING = 64_800.0
+        const val MORNING = 21_600.0
     }
 }
 

@@ -116,7 +116,7 @@ class SurveyMap internal constructor(
          * @throws LogProblem if the log cannot be used.
          */
         fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap =
-            runBlocking(Dispatchers.Default) { read(log, settings, progress) }
+            runBlocking { read(log, settings, progress) }
 
         private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
             val look = FirstLook(settings)
@@ -126,7 +126,7 @@ class SurveyMap internal constructor(
             val statistics = look.scan.statistics()
             val track = look.scan.track()
             val legs = LegFinder(statistics).find(track)
-            val mismatch = async { LegComparison(statistics, track).compare(legs) }
+            val mismatch = async(Dispatchers.Default) { LegComparison(statistics, track).compare(legs) }
             val stepSlope = stepSlope(statistics, settings)
             val calibration = look.epsilon.calibration(log)?.atLeast(stepSlope)
             val grid = GridChoice(statistics, track).grid(settings.grid)
@@ -180,7 +180,7 @@ class SurveyMap internal constructor(
             progress: (Long) -> Unit,
         ): LogPass = coroutineScope {
             val blocks = Channel<ReadingBlock>(BLOCKS_AHEAD)
-            val looking = launch { blocks.consumeEach(look::take) }
+            val looking = launch(Dispatchers.Default) { blocks.consumeEach(look::take) }
             var block = ReadingBlock()
             val pass = log.read(settings, progress) { time, x, y, value, _ ->
                 block.add(time.seconds, x, y, value)

@@ -94,7 +94,16 @@ class LoggerExportTest {
             "50,0,0,NULL\n60,1,0,8.2\n70,1,0,-9999\n120,2,0,8.3\n"
 
         @JvmStatic
-        fun cases() = exports() + people() + listOf(
+        fun cases() = exports() + people() + stamps() + listOf(
+            Case(
+                "codes for missing numbers beside an empty condition, and as a place",
+                "time_s,x_m,y_m,v,ref\n0,0,0,8.1,\n30,0,0,-9999,\n40,-9999,0,9,9\n50,0,-9999,9,\n60,1,0,8.2,8\n" +
+                    "120,2,0,8.3,\n",
+                "survey CSV",
+                0.0,
+                LogChoice(value = "v", conditions = mapOf("reference" to "ref")),
+                mapOf("codes for a missing reading" to 1, "rows without a position" to 2),
+            ),
             Case(
                 "missing readings",
                 MISSING,
@@ -114,6 +123,21 @@ class LoggerExportTest {
                     "empty rows" to 1,
                     "lines that sum up" to 1,
                 ),
+            ),
+            Case(
+                "a summary behind a number of the row",
+                "id,time_s,x_m,y_m,v\n0,0,0,0,8.1\n1,60,1,0,8.2\n2,120,2,0,8.3\nSum,180,3,0,24.6\n",
+                "survey CSV",
+                0.0,
+                LogChoice(value = "v"),
+                mapOf("lines that sum up" to 1),
+            ),
+            Case(
+                "a boat called Max",
+                "boat,time_s,x_m,y_m,v\nAnn,0,0,0,8.1\nMax,60,1,0,8.2\nAnn,120,2,0,8.3\n",
+                "survey CSV",
+                0.0,
+                LogChoice(value = "v"),
             ),
             Case(
                 "two columns of one name",
@@ -179,6 +203,45 @@ class LoggerExportTest {
             ),
         )
 
+        private fun iso(time: String, rest: String) = "2025-07-14T$time,$rest\n"
+
+        /** Times of day, some of them wrong, and dates with a T. */
+        private fun stamps() = listOf(
+            Case(
+                "rows without readings first, whose times have a T",
+                "Timestamp,x_m,y_m,DO\n" + iso("07:58:00Z", ",,") + iso("07:59:00Z", ",,") +
+                    iso("08:00:00Z", "0,0,8.1") +
+                    iso("08:01:00Z", "1,0,8.2") + iso("08:02:00Z", "2,0,8.3"),
+                "survey CSV, times from Timestamp",
+                EIGHT,
+                skipped = mapOf("rows without a position" to 2),
+            ),
+            Case(
+                "words beside times with a T",
+                "Device: 7\nTimestamp,Crew,x_m,y_m,DO\n" + iso("08:00:00Z", "Ann,0,0,8.1") +
+                    iso("08:01:00Z", "Ann,1,0,8.2") + iso("08:02:00Z", "Ann,2,0,8.3"),
+                "header in line 2, times from Timestamp",
+                EIGHT,
+                LogChoice(value = "DO"),
+            ),
+            stamp("midnight by day", "08:00:00,0,0,8.1\n00:00:00,1,0,9\n08:01:00,1,0,8.2\n", "times going back"),
+            stamp("midnight in a short row", "08:00:00,0,0,8.1\n00:00:00,1\n08:01:00,1,0,8.2\n", WIDTH),
+            stamp("an evening by night", "08:00:00,0,0,8.1\n23:59:59,1,0,9\n08:01:00,1,0,8.2\n", AHEAD),
+        )
+
+        private const val WIDTH = "rows with a wrong number of fields"
+        private const val AHEAD = "times ahead of the rows around them"
+
+        /** Times of day of which one is wrong: no other row is moved by it. */
+        private fun stamp(name: String, rows: String, reason: String) = Case(
+            name,
+            "time,x_m,y_m,v\n${rows}08:02:00,2,0,8.3\n",
+            "times of day without a date",
+            AT_EIGHT,
+            LogChoice(skipBadRows = true),
+            mapOf(reason to 1),
+        )
+
         /** As people and spreadsheets write. */
         private fun people() = listOf(
             Case(
@@ -189,6 +252,19 @@ class LoggerExportTest {
                 "semicolon separated, header in line 2, decimal commas, dates as day/month/year, as line 3 shows",
                 EIGHT,
                 LogChoice(time = "Datum"),
+            ),
+            Case(
+                "semicolons, decimal commas, names with commas",
+                "Time, s;x, m;y, m;DO, mg/L\n0,0;0,0;0,0;8,1\n60,0;1,0;0,0;8,2\n120,0;2,0;0,0;8,3\n",
+                "semicolon separated, decimal commas",
+                0.0,
+            ),
+            Case(
+                "a date before a table of two columns",
+                "Date,14/07/2025\nLatitude,45.5\nTime (s),DO\n0,8.1\n60,8.2\n120,8.3\n",
+                "header in line 3",
+                0.0,
+                LogChoice(needsPlace = false),
             ),
             Case(
                 "comments, one of them the header",
@@ -237,6 +313,25 @@ class LoggerExportTest {
                 "times in units of 0.001 s, by the column's name",
                 EIGHT,
                 LogChoice(time = "unix_ms"),
+            ),
+            Case(
+                "milliseconds in brackets with more",
+                "Time Stamp (UTC ms),x_m,y_m,v\n0,0,0,8.1\n60000,1,0,8.2\n120000,2,0,8.3\n",
+                "times in units of 0.001 s, by the column's name",
+                0.0,
+            ),
+            Case(
+                "minutes by the line of units",
+                "Time,x,y,DO\nmin,m,m,mg/L\n0,0,0,8.1\n1,1,0,8.2\n2,2,0,8.3\n",
+                "units in line 2, times in units of 60.0 s, by the line of units",
+                0.0,
+            ),
+            Case(
+                "seconds that could be a spreadsheet's days",
+                "update_s,x_m,y_m,v\n25000,0,0,8.1\n25060,1,0,8.2\n25120,2,0,8.3\n",
+                "survey CSV",
+                25_000.0,
+                LogChoice(time = "update_s"),
             ),
             Case(
                 "a spreadsheet's days",

@@ -1,0 +1,129 @@
+package stillwater.io
+
+import org.junit.jupiter.api.assertThrows
+import org.junit.jupiter.api.io.TempDir
+import org.junit.jupiter.params.ParameterizedTest
+import org.junit.jupiter.params.provider.MethodSource
+import java.nio.file.Path
+import kotlin.io.path.writeText
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** Logs that can be read in more than one way, or only in part, are refused where that shows. */
+class MisreadLogTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    /** @property message what the refusal must say. */
+    class Case(
+        private val name: String,
+        val text: String,
+        val message: String,
+        val choice: LogChoice = LogChoice(),
+    ) {
+        override fun toString() = name
+    }
+
+    private fun open(text: String, choice: LogChoice = LogChoice()) =
+        SurveyLog.open(directory.resolve("log.csv").apply { writeText(text) }, choice)
+
+    @ParameterizedTest
+    @MethodSource("cases")
+    fun isRefused(case: Case) {
+        val problem = assertThrows<LogProblem> { open(case.text, case.choice).readings() }
+        assertTrue(case.message in problem.message.orEmpty(), "'${case.message}' is not in '${problem.message}'")
+    }
+
+    /** Receivers without a fix say midnight, once or for a while; a log through the night passes a true one. */
+    @Test
+    fun timesOfDayPassMidnightAtNightOnly() {
+        fun seconds(vararg times: String): List<Double> {
+            val rows = times.joinToString("") { "$it,0,0,1\n" }
+            return open("time,x_m,y_m,v\n$rows", LogChoice(skipBadRows = true)).readings().map { it.time.seconds }
+        }
+        assertEquals(listOf(86_340.0, 86_400.0, 151_200.0), seconds("23:59", "0:00", "18:00"))
+        assertEquals(listOf(82_800.0, 90_000.0, 118_800.0, 158_400.0), seconds("23:00", "1:00", "9:00", "20:00"))
+        assertEquals(listOf(68_400.0, 68_460.0, 68_520.0), seconds("19:00", "0:00", "19:01", "19:02"))
+        assertEquals(listOf(18_000.0, 18_060.0, 18_120.0), seconds("5:00", "23:59", "23:59", "5:01", "5:02"))
+        assertEquals(listOf(50_340.0, 50_400.0, 50_460.0), seconds("13:59", "14:00", "0:00", "0:01", "14:01"))
+    }
+
+    @Test
+    fun saysHowOftenTimesOfDayPassMidnight() {
+        val rows = listOf("23:00", "1:00", "9:00", "20:00", "3:00").joinToString("") { "$it,0,0,1\n" }
+        val pass = open("time,x_m,y_m,v\n$rows").read { _, _, _, _, _ -> }
+        assertEquals(listOf("times of day pass midnight 2 times"), pass.warnings)
+    }
+
+    companion object {
+        private const val TABLE = "Time (s),Latitude,Longitude,DO\n"
+        private const val HEAD = "day,t,x_m,y_m,v\n"
+        private const val ROWS = "0,45,7,8.1\n1,45,7.0001,8.2\n2,45,7.0002,8.3\n"
+
+        private fun metres(head: String, message: String, choice: LogChoice = LogChoice(), more: String = "") =
+            Case(head, "${head}0,0,0,${more}8.1\n1,5,0,${more}8.2\n2,9,0,${more}8.3\n", message, choice)
+
+        private fun times(name: String, unit: String?, vararg times: String, message: String): Case {
+            val units = if (unit == null) "" else "$unit,m,m,mg/L\n"
+            val rows = times.withIndex().joinToString("") { (k, time) -> "$time,$k,0,8.1\n" }
+            return Case("$name as ${times[0]}", "$name,x_m,y_m,v\n$units$rows", message, LogChoice(value = "v"))
+        }
+
+        @JvmStatic
+        fun cases() = listOf(
+            Case(
+                "a date beside seconds",
+                HEAD + "2025-07-14,28800,0,0,8.1\n2025-07-14,28801,1,0,8.2\n",
+                "log.csv:2: column t: expected a time of day as 12:00:00 beside --date, found '28800'",
+                LogChoice(date = "day", time = "t", value = "v"),
+            ),
+            Case(
+                "a header that comes again behind lines about the logger",
+                "Device: 7\n$TABLE${ROWS}Time (s),Latitude,Longitude,DO\n3,45,7,8\n4,45,7.0001,8\n",
+                "log.csv:6: column Time (s): expected seconds",
+            ),
+            Case(
+                "two tables, of which the second begins with an event",
+                "Device: 7\n$TABLE${ROWS}rebooted,no fix,no fix,standby\n3,45,7,8\n4,45,7.0001,8\n",
+                "log.csv:6: expected one table, found a table from line 2 on and another from here on",
+            ),
+            Case(
+                "two tables of different columns",
+                "$TABLE${ROWS}Time (s),Latitude,Longitude,DO,Temp\n3,45,7,8,20\n4,45,7.0001,8,20\n",
+                "log.csv:5: expected one table",
+            ),
+            Case(
+                "no more than thousands parted by commas",
+                "time_s\tx_m\ty_m\tcond\n0\t0\t0\t998\n1\t1\t0\t999\n2\t2\t0\t1,002\n",
+                "log.csv:4: column cond: expected numbers with a decimal point, found '1,002'",
+            ),
+            metres("Time,x,y,DO\ns,km,km,mg/L\n", "log.csv:2: column x: expected metres, found 'km'"),
+            metres("Time,x,y,DO\ninit,init,init,init\n", "log.csv:2: column x: expected metres, found 'init'"),
+            metres("Time,x (km),y (km),DO\n", "log.csv:1: column x (km): expected metres"),
+            metres("Time,\"x, ft\",\"y, ft\",DO\n", "log.csv:1: column x, ft: expected metres"),
+            metres("Time,x (ft),y (ft),DO\n", "x (ft): expected metres", LogChoice(x = "x (ft)", y = "y (ft)")),
+            metres("Time,Lat_1,x,y,DO\n", "expected columns lat_deg and lon_deg", LogChoice(value = "DO"), "45,"),
+            metres("Time,x,y,z,DO\n", "expected columns lat_deg and lon_deg", LogChoice(value = "DO"), "9.8,"),
+            metres("Time,Lat (ddmm.mm),Lon (ddmm.mm),DO\n", "column Lat (ddmm.mm): expected degrees with decimals"),
+            metres("Time,Lat,Lon,DO\ns,ddmm.mm,ddmm.mm,mg/L\n", "column Lat: expected degrees, found 'ddmm.mm'"),
+            Case(
+                "degrees called X and Y",
+                "time_s,X,Y,v\n0,7,45,8.1\n1,7.00002,45,8.2\n2,7.00004,45.00001,8.3\n",
+                "log.csv:1: column X: expected metres, and --x and --y with so small a track",
+            ),
+            times("Time", "init", "195.333453", "195.333465", message = "log.csv:2: column Time: expected a unit"),
+            times("Time", null, "195.333453", "195.333465", "195.333477", message = "steps are below a millisecond"),
+            times("Time", null, "080000", "080001", message = "column Time: expected a time of day as 08:00:00"),
+            times("Time,Date", null, "120000,20250714", "120001,20250714", message = "a time of day as 08:00:00"),
+            times("Time,Date", null, "0.33333,45852", "0.33334,45852", message = "a time of day as 08:00:00"),
+            times("Time (mm:ss)", null, "00:01", "00:02", message = "expected times as 08:00:00, or a name without"),
+            Case(
+                "a date beside dates",
+                HEAD + "2025-07-14,2025-07-14 08:00:00,0,0,8.1\n",
+                "column t: expected a time of day as 12:00:00 beside --date",
+                LogChoice(date = "day", time = "t", value = "v"),
+            ),
+        )
+    }
+}
