@@ -42,9 +42,11 @@ internal object MapCautions {
     /** What to say of a [mission] that [hasSurveyedNothing]; null for others. */
     fun nothing(mission: Mission): String? {
         if (!hasSurveyedNothing(mission)) return null
-        val isHeard = mission.readings.passed + mission.readings.leftOut > 0
-        if (isHeard) return "nothing was surveyed: the budget was spent before the boat came to a second cell; give it more"
-        val advice = if (mission.spec.probe.port == null) "; name its port in the mission's probe: \"port\":1 to 3" else ""
+        if (mission.readings.passed + mission.readings.leftOut > 0) {
+            return "nothing was surveyed: the budget was spent before the boat came to a second cell; give it more"
+        }
+        val isNamed = mission.spec.probe.port != null
+        val advice = if (isNamed) "" else "; name its port in the mission's probe: \"port\":1 to 3"
         return "nothing was surveyed: the probe was never heard$advice"
     }
 

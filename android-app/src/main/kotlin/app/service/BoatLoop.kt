@@ -18,8 +18,8 @@ import stillwater.app.pose.Pose
 import stillwater.app.pose.PoseProblem
 import stillwater.mission.MissionSpec
 import stillwater.mission.ProbeSpec
-import stillwater.mission.setUp
 import stillwater.mission.Wish
+import stillwater.mission.setUp
 import stillwater.model.Actuation
 import stillwater.wire.BoardState
 import stillwater.wire.Command
