@@ -115,7 +115,7 @@ public class BudgetedPlanner(
      * Whether a boat on its way to a waypoint, at ([x], [y]) m, has to turn back: what is left is less than the way
      * home costs from there, or nothing is left where no way home is known. Cheap as long as much is left: the way home
      * is looked for again when an eighth of what was to spare is used up, which a boat needs that goes away from home
-     * at seven times the speed that [cost] reckons with.
+     * at seven times the speed that [cost] reckons with; a drift that sets in meanwhile is reckoned with then.
      */
     public fun mustTurnBack(x: Double, y: Double): Boolean {
         val used = meter.used()

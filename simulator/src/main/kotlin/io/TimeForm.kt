@@ -88,17 +88,16 @@ internal class TimeForm(
 
 /** Days as spreadsheets count them, from 30 December 1899. */
 internal object ExcelDays {
-    private const val DAY_SECONDS = 86_400.0
     private const val UNIX_ZERO = 25_569.0
 
     /** Days from 1954 to 2118: what a number must be in to be taken for one. */
     val RANGE = 20_000.0..80_000.0
 
     /** Seconds in a day. */
-    const val FACTOR = DAY_SECONDS
+    const val FACTOR = 86_400.0
 
     /** Seconds since 1970 of day 0. */
-    const val ZERO = -UNIX_ZERO * DAY_SECONDS
+    const val ZERO = -UNIX_ZERO * FACTOR
 
     /** Seconds since 1970 of [days]. */
     fun seconds(days: Double): Double = days * FACTOR + ZERO

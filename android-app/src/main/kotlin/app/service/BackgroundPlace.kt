@@ -4,8 +4,7 @@ import android.os.Build
 
 /**
  * What Android makes of a service that wants positions and was not started by an app in sight, as after the process
- * died:
- * with the location permission "while in use" they are its only as long as somebody began it from a window.
+ * died: with the location permission "while in use" they are its only as long as somebody began it from a window.
  *
  * Up to Android 10 the foreground with its type `location` is enough. From 11 to 13 the service is let into the
  * foreground, nothing is said, and no position ever comes. From 14 on it is refused by an exception.
