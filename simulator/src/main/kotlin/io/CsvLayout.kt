@@ -54,6 +54,7 @@ internal class CsvLayout(
          * @throws LogProblem if it has two tables, or numbers that may be meant in two ways.
          */
         fun of(content: LogContent, wanted: Set<String>): CsvLayout {
+            content.seaBird?.let { return layout(content, Header(it.endLine - 1, ',')) }
             val head = content.head
             val first = head.indexOfFirst { it.isNotBlank() }
             val stated = STATED.matchEntire(head[first])?.groupValues?.get(1)?.get(0)?.takeIf { it in SEPARATORS }
