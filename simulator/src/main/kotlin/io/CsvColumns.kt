@@ -175,7 +175,7 @@ internal data class CsvColumns(
             return when {
                 x != null && y != null -> " (--x '$x' --y '$y' if these are metres)"
                 depth != null -> " (--x '$depth' for a profile)"
-                else -> ""
+                else -> " (a log without places is for diagnose --reference)"
             }
         }
 

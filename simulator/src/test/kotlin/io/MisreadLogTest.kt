@@ -161,6 +161,12 @@ class MisreadLogTest {
                     "times with an offset tell), found 2025-10-26T02:00:00",
             ),
             Case(
+                "blanks between columns",
+                "Model=made up\n\nDate & Time                  DO\n14-Jul-2025 08:00:00.000    8.1\n" +
+                    "14-Jul-2025 08:01:00.000    8.2\n",
+                "log.csv:5: expected commas, semicolons or tabs between columns, found blanks",
+            ),
+            Case(
                 "times since 1970",
                 "unix_time_s,x_m,y_m,v\n1752480000.5,0,0,8.1\n1752480000.5,1,0,8.2\n",
                 "expected a time after 1752480000.5 s (2025-07-14T08:00:00.5), found 1752480000.5 s",

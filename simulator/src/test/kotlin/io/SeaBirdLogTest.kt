@@ -154,7 +154,7 @@ class SeaBirdLogTest {
         val binary = refusal("* Sea-Bird SBE 9 Data File:\n# name 0 = timeS: Time\n*END*\n\u0000\u0001\u0000")
         assertTrue("binary data: convert it to file_type = ascii" in binary, binary)
         val short = refusal(file(track, scans + "101.0 45.54376"), LogChoice(value = "sbeox0Mg/L"))
-        assertTrue("made_up.cnv:21: expected 7 fields as in the header, found 3" in short, short)
+        assertTrue("made_up.cnv:22: expected 7 fields as in the header, found 3" in short, short)
         val noPlace = refusal(file(listOf("timeS: Time", "depSM: Depth [m]", "v: V"), listOf("0 1 2", "1 1 2")))
         assertTrue("(--x 'depSM' for a profile)" in noPlace, noPlace)
     }
