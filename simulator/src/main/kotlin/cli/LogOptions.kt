@@ -15,8 +15,8 @@ class LogOptions : OptionGroup(
     name = "What to read",
     help = "A CSV survey needs a header line; what a logger writes before it is passed over. Columns time_s or " +
         "unix_time_s, lat_deg and lon_deg, or x_m and y_m, and the names that loggers use (Date Time, Latitude) are " +
-        "recognised; all others are taken by name. docs/logs.md has the whole list. Platypus logs (4.0.0, 4.1.0, " +
-        "4.2.0) are recognised by content.",
+        "recognised; all others are taken by name. docs/logs.md has the whole list. Sea-Bird's .cnv and Platypus " +
+        "logs (4.0.0, 4.1.0, 4.2.0) are recognised by content.",
 ) {
     private val time by option(
         "--time",

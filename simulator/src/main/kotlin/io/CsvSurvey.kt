@@ -16,7 +16,7 @@ import kotlin.math.abs
  * Rows need a time, times that grow, and latitudes and longitudes that exist and lie within 1000 km of the first. A
  * reading or position that is missing, and says so, is no error: such rows are left out and counted. Positions of
  * exactly 0, 0 degrees are a receiver's way of saying that it has no fix. What stands before the table, and how it is
- * written, is found by [CsvLayout] and [CsvTimes].
+ * written, is found by [CsvLayout] and [CsvTimes]. A Sea-Bird `.cnv` is such a table by [SeaBirdTable].
  */
 internal class CsvSurvey internal constructor(
     internal val content: LogContent,
@@ -26,10 +26,7 @@ internal class CsvSurvey internal constructor(
     private val skipBadRows: Boolean,
 ) : SurveyLog {
     override val file: Path get() = content.file
-    override val format = (
-        content.seaBird?.let { listOf("Sea-Bird .cnv") + it.notes() }
-            ?: (listOf("survey CSV" + SEPARATORS.getValue(layout.separator)) + layout.notes())
-        )
+    override val format = kind()
         .plus(listOfNotNull("text in Windows-1252".takeIf { content.isOneByte }))
         .plus(times.notes)
         .plus(columns.notes())
@@ -49,6 +46,11 @@ internal class CsvSurvey internal constructor(
     // A condition taken from a column that serves otherwise too is found in that one's slot.
     private val conditionSlots = IntArray(conditionNames.size) { i ->
         slots[columns.conditions.getValue(conditionNames[i])]
+    }
+
+    private fun kind(): List<String> {
+        val table = listOf("survey CSV" + SEPARATORS.getValue(layout.separator)) + layout.notes()
+        return content.seaBird?.let { listOf("Sea-Bird .cnv") + it.notes() } ?: table
     }
 
     /** Reads the fields of one pass; a log that is written plainly needs none, and is read faster without. */

@@ -76,10 +76,7 @@ internal class LogContent private constructor(
                 bytes.startsWith(byteArrayOf(0xFE.toByte(), 0xFF.toByte())) -> Charsets.UTF_16BE to 2
                 else -> (if (bytes.isUtf8()) Charsets.UTF_8 else WINDOWS_1252) to 0
             }
-            if (mark != 2 && 0.toByte() in bytes) {
-                val remedy = ": convert it to file_type = ascii".takeIf { bytes.startsWith(SEA_BIRD) }.orEmpty()
-                throw problem("a text log", "binary data$remedy")
-            }
+            if (mark != 2 && 0.toByte() in bytes) throw problem("a text log", "binary data" + remedy(bytes))
             val text = String(bytes, mark, bytes.size - mark, charset)
             val lines = text.lineSequence().map { it.trimEnd('\r') }.toList()
             // The last line of the head may be cut.
@@ -89,14 +86,18 @@ internal class LogContent private constructor(
                 throw LogProblem(file, lines.size.toLong(), null, "a header within $HEAD_BYTES bytes", "a longer one")
             }
             if (head.all { it.isBlank() }) throw problem("a log", "nothing but blank lines")
-            val seaBird = if (mark == 2) {
-                null
-            } else {
-                SeaBirdHeader.of(head) { line, expected, found ->
-                    LogProblem(file, line?.toLong(), null, expected, found)
-                }
+            return LogContent(file, charset, mark, head, seaBird(file, charset, head))
+        }
+
+        private fun remedy(bytes: ByteArray) =
+            if (bytes.startsWith(SEA_BIRD)) ": convert it to file_type = ascii" else ""
+
+        /** Its table is made byte by byte. */
+        private fun seaBird(file: Path, charset: Charset, head: List<String>): SeaBirdHeader? {
+            if (charset != Charsets.UTF_8 && charset != WINDOWS_1252) return null
+            return SeaBirdHeader.of(head) { line, expected, found ->
+                LogProblem(file, line?.toLong(), null, expected, found)
             }
-            return LogContent(file, charset, mark, head, seaBird)
         }
 
         private fun firstBytes(file: Path): ByteArray {

@@ -40,11 +40,11 @@ class SeaBirdLogTest {
         start: String? = "Oct 08 2023 12:26:20 [NMEA time, first data scan]",
         end: String = "\r\n",
     ): Path {
-        val lines = listOf("* Sea-Bird SBE 9 Data File:", "* FileName = C:\\made_up.hex", "** Ship: none") +
-            names.mapIndexed { i, name -> "# name $i = $name" } + "# interval = $interval   " +
-            listOfNotNull(start?.let { "# start_time = $it" }) +
-            listOf("# bad_flag = -9.990e-29", "# <Sensors count=\"1\" >", "# </Sensors>", "# file_type = ascii", "*END*")
-        val text = (lines + rows).joinToString("") { it + end }
+        val first = listOf("* Sea-Bird SBE 9 Data File:", "* FileName = C:\\made_up.hex", "** Ship: none")
+        val columns = names.mapIndexed { i, name -> "# name $i = $name" }
+        val times = listOfNotNull("# interval = $interval   ", start?.let { "# start_time = $it" })
+        val last = listOf("# bad_flag = -9.990e-29", "# <Sensors count=\"1\" >", "# </Sensors>", "# file_type = ascii")
+        val text = (first + columns + times + last + "*END*" + rows).joinToString("") { it + end }
         return directory.resolve("made_up.cnv").apply { writeBytes(text.toByteArray(Charsets.ISO_8859_1)) }
     }
 

@@ -68,8 +68,9 @@ class ExperimentTest {
 
     @Test
     fun moreBoatsLeaveTheCurveOfOneAsItWas() {
-        val one = alone.curves.map { it.summaries }
-        val fleets = run(settings.copy(boats = listOf(3, 1)))
+        val few = settings.copy(filters = listOf(FilterKind.BOUNDED, FilterKind.AVERAGING), environments = 2)
+        val one = run(few).curves.map { it.summaries }
+        val fleets = run(few.copy(boats = listOf(3, 1)))
         assertEquals(one, fleets.curves.filter { it.boats == 1 }.map { it.summaries })
         assertNotEquals(one, fleets.curves.filter { it.boats == 3 }.map { it.summaries })
     }
@@ -78,10 +79,9 @@ class ExperimentTest {
     fun moreEnvironmentsLeaveTheFirstOnesAsTheyWere() {
         val fields = ConcurrentLinkedQueue<CellField>()
         val kind = RandomField { grid, random -> UniformField.draw(grid, random).also { fields += it } }
-        val few = settings.copy(filters = listOf(FilterKind.AVERAGING), moves = 1, checkpoints = listOf(1))
         fun drawn(environments: Int): List<Double> {
             fields.clear()
-            run(few.copy(fields = mapOf("uniform" to kind), environments = environments))
+            run(short.copy(fields = mapOf("uniform" to kind), environments = environments))
             return fields.take(environments).map { it.truth(0) }
         }
         assertEquals(drawn(2), drawn(3).take(2))
@@ -93,9 +93,8 @@ class ExperimentTest {
         val kind = RandomField { grid, random ->
             UniformField.draw(grid, random).also { field -> fields += List(grid.size) { field.truth(it) } }
         }
-        val few = settings.copy(filters = listOf(FilterKind.AVERAGING), moves = 1, checkpoints = listOf(1))
         for (planner in PlannerKind.entries) {
-            run(few.copy(fields = mapOf("uniform" to kind), planners = listOf(planner)))
+            run(short.copy(fields = mapOf("uniform" to kind), planners = listOf(planner)))
         }
         assertEquals(settings.environments, fields.toSet().size)
     }
@@ -151,7 +150,7 @@ class ExperimentTest {
     @Test
     fun everyPieceOfWorkIsReportedOnce() {
         val done = AtomicInteger()
-        val experiment = Experiment(settings)
+        val experiment = Experiment(short)
         runBlocking { experiment.run(2) { done.incrementAndGet() } }
         assertEquals(2 * settings.environments, experiment.size)
         assertEquals(experiment.size, done.get())
@@ -195,6 +194,9 @@ class ExperimentTest {
             moves = 60,
             checkpoints = listOf(1, 20, 60),
         )
+
+        /** Where it matters only which work is done. */
+        val short = settings.copy(filters = listOf(FilterKind.AVERAGING), moves = 1, checkpoints = listOf(1))
 
         /** What they come to on one thread. */
         val alone by lazy { run(settings) }
