@@ -340,7 +340,11 @@ internal class CsvSurvey internal constructor(
             val measured = LinkedHashMap<String, Double>()
             conditionNames.forEachIndexed { i, name ->
                 val number = row.numbers[conditionSlots[i]]
-                if (CellText.isCode(number)) codes.count(i) else if (number.isFinite()) measured[name] = number
+                if (CellText.isCode(number)) {
+                    codes.count(i)
+                } else if (number.isFinite()) {
+                    measured[name] = number
+                }
             }
             return Conditions(measured)
         }

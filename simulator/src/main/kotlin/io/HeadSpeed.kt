@@ -6,8 +6,13 @@ import kotlin.math.hypot
 /** How fast the boat goes in the first rows of a log, if its times are seconds. */
 internal object HeadSpeed {
     private const val METRES_A_DEGREE = 111_195.0
+    private const val FEWEST_STRETCHES = 5
+    private const val LONGEST_STRETCH = 20
 
-    /** The median of the speeds between rows that differ in place and grow in time, m/s; 0 where there are none. */
+    /**
+     * The median of the speeds over stretches of rows whose times grow, m/s; 0 where there are none. Stretches, because
+     * a fix of few decimals stands for many rows and then jumps.
+     */
     fun of(layout: CsvLayout, columns: CsvColumns): Double {
         val inDegrees = columns.latitude != CsvColumns.NONE
         if (!inDegrees && columns.y == CsvColumns.NONE) return 0.0
@@ -15,7 +20,9 @@ internal object HeadSpeed {
         val norths = layout.numbers(if (inDegrees) columns.latitude else columns.y)
         val easts = layout.numbers(if (inDegrees) columns.longitude else columns.x)
         val rows = times.indices.filter { times[it].isFinite() && isPlace(easts[it], norths[it], inDegrees) }
-        val speeds = rows.zipWithNext { a, b ->
+        val stretch = (rows.size / FEWEST_STRETCHES).coerceIn(1, LONGEST_STRETCH)
+        val ends = rows.filterIndexed { k, _ -> k % stretch == 0 }
+        val speeds = ends.zipWithNext { a, b ->
             val north = norths[b] - norths[a]
             val east = easts[b] - easts[a]
             val metres = if (inDegrees) {
@@ -24,7 +31,7 @@ internal object HeadSpeed {
                 hypot(north, east)
             }
             metres / (times[b] - times[a])
-        }.filter { it > 0 && it.isFinite() }.sorted()
+        }.filter { it >= 0 && it.isFinite() }.sorted()
         return if (speeds.isEmpty()) 0.0 else speeds[speeds.size / 2]
     }
 

@@ -105,7 +105,8 @@ internal class SeaBirdHeader private constructor(
          */
         private fun isSeaBird(head: List<String>): Boolean {
             val isNamed = head[0].startsWith("* Sea-Bird") || head.any { NAME.matches(it) }
-            return isNamed && (head.any { it.trim() == END } || head.all { it.isBlank() || it[0] == '*' || it[0] == '#' })
+            return isNamed &&
+                (head.any { it.trim() == END } || head.all { it.isBlank() || it[0] == '*' || it[0] == '#' })
         }
 
         /**

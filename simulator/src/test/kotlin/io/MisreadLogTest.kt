@@ -74,6 +74,13 @@ class MisreadLogTest {
         assertTrue(expected in refused, refused)
     }
 
+    /** A fix of four decimals: 0 for 20 rows, then 11 m, at 5 m/s all along. */
+    @Test
+    fun coarseFixesAreNoFlight() {
+        val rows = (0 until 200).joinToString("") { "${it * 0.1},${45 + it / 20 * 1e-4},7,1\n" }
+        assertEquals(200, open("Time,Latitude,Longitude,v\n$rows").readings().size)
+    }
+
     @Test
     fun codesInAConditionAreCounted() {
         val choice = LogChoice(value = "v", conditions = mapOf("temperature" to "t"))
