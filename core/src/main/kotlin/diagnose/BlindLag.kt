@@ -51,19 +51,8 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     val both: BlindState by lazy {
         // Of what both share the likelier kind alone has most of it; a lag alone may be far too long.
         val half = (if (deadTime.score > timeConstant.score) delay else timeConstant.timeConstant) / 2
-        val best = climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
+        val best = search.climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
         if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
-    }
-
-    private fun climbed(state: BlindState): BlindState {
-        var best = state
-        repeat(MORE) {
-            val next = search.improved(best)
-            val gain = next.score - best.score
-            if (gain > 0) best = next
-            if (!(gain > BlindSearch.ENOUGH)) return best
-        }
-        return best
     }
 
     /**
@@ -136,7 +125,6 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         const val SURE = 2.8
         const val STEPS = 6
         const val REFINEMENTS = 8
-        const val MORE = 5
         val STARTS = listOf(0.5, 1.0)
     }
 }
