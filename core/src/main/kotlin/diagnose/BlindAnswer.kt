@@ -114,7 +114,8 @@ internal class BlindAnswer(
         }
         add(
             "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
-                "${three(search.modes.finest)} m; a gain or an offset cannot be seen.",
+                "${three(search.modes.finest)} m; a gain or an offset cannot be seen. Errors on held-out blocks are " +
+                "those of a forecast from other passes and the rows before.",
         )
         if (lag.isSeen) {
             add(

@@ -60,8 +60,8 @@ internal class BlindDiagnosis(
         private val stillTries = BlindTrials(search, still)
 
         /**
-         * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other responses
-         * are then begun far from what the wrong water makes of them.
+         * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other
+         * responses are then begun far from what the wrong water makes of them.
          */
         private val isBlurred = !state.isResolved
 
@@ -89,13 +89,14 @@ internal class BlindDiagnosis(
         /** Whether [trial] may be worth water and noise of its own. */
         private fun isLikely(trial: BlindTrial): Boolean {
             val isSlow = trial.term?.cause in SLOW
-            return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
+            val isBelow = isSlow && trial.ratio * trial.inflation < changing / 2 && trial.pValue > settings.level
+            return trial.ratio > LIKELY && !isBelow
         }
 
         /**
-         * [trial] on top of a model whose finest waves are strong. It counts where no finer ones are missing beside it: what
-         * they would do, passes over the same water that contradict each other, a wrong response does, too. Else it counts
-         * where it explains more than missing waves could be taken for.
+         * [trial] on top of a model whose finest waves are strong. It counts where no finer ones are missing beside it:
+         * what they would do, passes over the same water that contradict each other, a wrong response does, too. Else
+         * it counts where it explains more than missing waves could be taken for.
          */
         private fun resolved(trial: BlindTrial): BlindTrial {
             val settled = settled(trial)
@@ -129,8 +130,9 @@ internal class BlindDiagnosis(
             val trying = tries.settled(trial, found, best, searched)
             return when {
                 found.score > rest -> trying.among(best - rest)
-                // Something changed with time, be it the sensor or the water: both are in the answer.
-                without !== state && trying.pValue < settings.level -> trying.beside(search.climbed(with(state, trying)))
+                // It explains most of what water that changes does: something changed, and both are in the answer.
+                without !== state && found.score - best > (rest - best) / 2 && trying.pValue < settings.level ->
+                    trying.beside(search.climbed(with(state, trying)))
                 else -> trying.instead(best - rest)
             }
         }
@@ -180,8 +182,8 @@ internal class BlindDiagnosis(
         if (!isShapeOpen && isLagSeen) {
             add(Term(Cause.SECOND_ORDER_RESPONSE))
             add(Term(Cause.TWO_PATH_RESPONSE))
+            add(Term(Cause.DEAD_TIME))
         }
-        if (!isShapeOpen) add(Term(Cause.DEAD_TIME))
         add(Term(Cause.SLEW_LIMIT))
         val scales = search.scales
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
@@ -196,7 +198,7 @@ internal class BlindDiagnosis(
         val noise = sqrt(search.lastVariance)
         if (scales.resolution > COARSE * noise) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
-        if (spread > EVEN && !isShapeOpen) add(Term(Cause.POSITION_OFFSET))
+        if (spread > EVEN && !isShapeOpen && isLagSeen) add(Term(Cause.POSITION_OFFSET))
     }
 
     private fun forward(first: Round): List<BlindStep> {

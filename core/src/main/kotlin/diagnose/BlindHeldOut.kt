@@ -15,9 +15,9 @@ internal object BlindHeldOut {
     private const val STRETCHES = 16
 
     /**
-     * The score of [state]. Its errors are those with which a row is foretold by other passes and by the rows before it in
-     * its stretch, of all rows the geometric mean: an error where no other pass comes near counts by how little could be
-     * foretold there, and models with other noise or rougher water are measured alike.
+     * The score of [state]. Its errors are those with which a row is foretold by other passes and by the rows before
+     * it in its stretch, of all rows the geometric mean: an error where no other pass comes near counts by how little
+     * could be foretold there, and models with other noise or rougher water are measured alike.
      */
     fun score(state: BlindState): HeldOutScore {
         val fit = state.fit

@@ -18,11 +18,10 @@ internal class BlindOutliers(state: BlindState) {
     private val inside = 2 * REACH until series.size - 2 * REACH
 
     /** Readings less what a parabola through the rows beside them says, in robust deviations of those about them. */
-    private val off = evened(
-        DoubleArray(series.size) {
-            if (it in REACH until series.size - REACH) series.values[it] - Neighbours.foretold(series.values, it) else 0.0
-        },
-    )
+    private val off = series.values.let { values ->
+        val hasSides = REACH until values.size - REACH
+        evened(DoubleArray(values.size) { if (it in hasSides) values[it] - Neighbours.foretold(values, it) else 0.0 })
+    }
 
     /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */
     val rows: List<Int> =
@@ -58,14 +57,16 @@ internal class BlindOutliers(state: BlindState) {
     }
 
     /**
-     * Noise with single wrong readings against noise without, of the readings about the rows beside them and of what the
-     * model leaves, whichever shows less; null where noise with heavy tails is likelier than either, or where the far ones
-     * are gathered where the noise is larger.
+     * Noise with single wrong readings against noise without, of the readings about the rows beside them and of what
+     * the model leaves, whichever shows less; null where noise with heavy tails is likelier than either, or where the
+     * far ones are gathered where the noise is larger.
      */
     private val mixture: Mixture? = listOf(off, evened(z)).map { column ->
         val rows = DoubleArray(maxOf(inside.last - inside.first + 1, 1)) { column[inside.first + it] }
         Spikes.ratio(rows).takeIf { it.ratio > Spikes.tails(rows) }
-    }.let { both -> if (both.any { it == null } || isGathered(state)) null else both.filterNotNull().minBy { it.ratio } }
+    }.let { both ->
+        if (both.any { it == null } || isGathered(state)) null else both.filterNotNull().minBy { it.ratio }
+    }
 
     private fun isGathered(state: BlindState): Boolean {
         val free = BooleanArray(state.numbers.size)
@@ -74,8 +75,8 @@ internal class BlindOutliers(state: BlindState) {
     }
 
     /**
-     * Of there being as many far ones, or such tails: less sure than it seems by [DOUBT], because the spread about a row is
-     * told by few rows.
+     * Of there being as many far ones, or such tails: less sure than it seems by [DOUBT], because the spread about a
+     * row is told by few rows.
      */
     val pValue: Double = minOf(
         Evidence.poissonTail(rows.size, series.size * BEYOND),

@@ -264,7 +264,7 @@ internal class BlindSearch(
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             if (round < rounds) {
-                bands = variances(fit, residuals(model, at), modes)
+                bands = WaterVariances.next(fit, residuals(model, at), modes)
                 hidden = RangeEnd.beyond(model, at)
                 fit = BlindFit(designed(columns, hidden, noise), precisions(bands, modes), heights)
             }
@@ -342,23 +342,6 @@ internal class BlindSearch(
 
     private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
         if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, MOST)
-    }
-
-    /** MacKay's fixed point: what the waves of a band have been found to be over how well they are determined. */
-    private fun variances(fit: BlindFit, residuals: DoubleArray, modes: WaterModes): DoubleArray {
-        val squares = DoubleArray(modes.bands)
-        val known = DoubleArray(modes.bands)
-        val spreads = fit.spreads()
-        val variance = fit.left(residuals) / fit.rows
-        for (k in 0 until modes.size) {
-            val band = modes.band[k]
-            squares[band] += fit.heights[k] * fit.heights[k] / variance
-            known[band] += (1 - fit.precisions[k] * spreads[k]).coerceIn(0.0, 1.0)
-        }
-        return DoubleArray(modes.bands) {
-            val isOff = 1 / fit.precisions[modes.band.indexOf(it)] <= LEAST && it > 0
-            if (isOff) LEAST else (squares[it] / maxOf(known[it], 1e-6)).coerceIn(LEAST, MOST)
-        }
     }
 
     companion object {

@@ -3,6 +3,7 @@ package stillwater.diagnose
 import kotlin.math.PI
 import kotlin.math.cos
 import kotlin.math.sin
+import kotlin.math.sqrt
 
 /**
  * Whether the water has waves finer than those that a model of it was given: a score test for the variance of waves of
@@ -15,8 +16,12 @@ internal object FinerWaves {
     private const val WAVES = 32
 
     /** The golden angle, by which directions are spread evenly however many there are. */
-    private val TURN = PI * (3 - kotlin.math.sqrt(5.0))
+    private val TURN = PI * (3 - sqrt(5.0))
+
+    /** How many times shorter the shortest of them is than the model's. */
     private const val SHORTER = 1.6
+
+    /** Power of missing waves over the noise's that is not more than the noise. */
     private const val NOISE = 1.0
 
     /** Whether such waves hold no more than the noise does. */

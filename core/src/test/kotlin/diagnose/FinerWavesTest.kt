@@ -34,9 +34,9 @@ class FinerWavesTest {
     @Test
     fun wavesThatTheModelHasNotAreSeenMissing() {
         val coarse = state(shortest = 15.0)
-        assertFalse(FinerWaves.isNone(coarse, search), "${FinerWaves.excess(coarse, search)} at ${coarse.modes.shortest}")
+        assertFalse(FinerWaves.isNone(coarse, search), "${FinerWaves.excess(coarse, search)}")
         val fine = state(shortest = 9.0)
-        assertTrue(FinerWaves.isNone(fine, search), "${FinerWaves.excess(fine, search)} at ${fine.modes.shortest}")
+        assertTrue(FinerWaves.isNone(fine, search), "${FinerWaves.excess(fine, search)}")
     }
 
     /** How noise is scaled between its spread and its variance is nobody's concern. */

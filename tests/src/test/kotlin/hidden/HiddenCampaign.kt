@@ -23,10 +23,10 @@ internal object HiddenCampaign {
         }
 
     /**
-     * What the true model would leave held out of a log without a reference, where the water is unknown to it as well: what
-     * the base leaves of the same log without the effect, noise and fixes the same. NaN where that is not asked for: of
-     * weak effects, and of those that no model of the reading foretells (outliers; rounding, whose phase the unknown
-     * water and the fixes hide).
+     * What the true model would leave held out of a log without a reference, where the water is unknown to it as well:
+     * what the base leaves of the same log without the effect, noise and fixes the same. NaN where that is not asked
+     * for: of weak effects, and of those that no model of the reading foretells (outliers; rounding, whose phase the
+     * unknown water and the fixes hide).
      */
     private fun leftWithoutEffect(seed: Long, truth: HiddenTruth, directory: Path): Double {
         if (!truth.isStrong || truth.effects.keys.single() in UNFORESEEN) return Double.NaN
