@@ -283,13 +283,14 @@ internal class BlindDiagnosis(
     }
 
     /**
-     * Whether stretches of the log agree that [own] is likelier than [rival]: noise that is not what its model says makes
-     * differences of likelihood of itself.
+     * Whether [own] is far likelier than [rival], or stretches of the log agree that it is likelier: noise that is not
+     * what its model says makes differences of likelihood of itself.
      */
     private fun isBehind(rival: BlindTrial, own: BlindTrial): Boolean {
         val worse = rival.state ?: return true
         val better = own.state ?: return true
-        return BlindEvidence.between(worse, better) > AGREED
+        return (own.likelier - rival.likelier) / own.inflation > BlindLag.MUCH ||
+            BlindEvidence.between(worse, better) > AGREED
     }
 
     /** The model with all that was chosen but the [left]-th. */
