@@ -284,9 +284,11 @@ internal class BlindDiagnosis(
 
     /**
      * Whether [own] is far likelier than [rival], or stretches of the log agree that it is likelier: noise that is not
-     * what its model says makes differences of likelihood of itself.
+     * what its model says makes differences of likelihood of itself. What acts at one moment, as a jump does, differs
+     * from the rest in few stretches, so that they are not asked about changes with time.
      */
     private fun isBehind(rival: BlindTrial, own: BlindTrial): Boolean {
+        if (own.term?.cause in SLOW) return true
         val worse = rival.state ?: return true
         val better = own.state ?: return true
         return (own.likelier - rival.likelier) / own.inflation > BlindLag.MUCH ||
