@@ -40,8 +40,9 @@ internal class BlindAnswer(
         )
         val verdict = verdict(all, left.first(), chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
-        // Where nothing was chosen a lag of either kind was named, which the base stands for.
-        val shown = asFit(if (chosen.isEmpty()) base else last)
+        // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
+        val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
+        val shown = asFit(named)
         val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded)
         val extended = sensor.spec("extended").takeIf { isNamed }
         val tried = candidates(first)
@@ -49,7 +50,7 @@ internal class BlindAnswer(
         bounds.clear()
         val lagging = assessment(base)
         val baseline = given?.state?.let { assessment(it) } ?: lagging
-        val after = if (chosen.isEmpty()) lagging else assessment(last)
+        val after = if (named === base) lagging else assessment(named)
         return DiagnosisResult(
             verdict,
             tried,
@@ -113,7 +114,8 @@ internal class BlindAnswer(
         }
         add(
             "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
-                "${three(search.modes.finest)} m; a gain or an offset cannot be seen.",
+                "${three(search.modes.finest)} m; a gain or an offset cannot be seen. Errors on held-out blocks are " +
+                "those of a forecast from other passes and the rows before.",
         )
         if (lag.isSeen) {
             add(
@@ -214,7 +216,7 @@ internal class BlindAnswer(
     private fun assessment(state: BlindState): ModelAssessment {
         val spread = sqrt(maxOf(state.variance, 1e-300))
         val noise = state.fit.design.noise.noise
-        val heldOut = BlindHeldOut.score(state)
+        val heldOut = heldOut(state)
         return ModelAssessment(
             estimates(state.model, state.numbers, errors(state), state.model.terms),
             rmse(state.residuals),
@@ -227,6 +229,10 @@ internal class BlindAnswer(
             DoubleArray(n) { state.whitened[it] / spread },
         )
     }
+
+    private val scores = HashMap<BlindState, HeldOutScore>()
+
+    private fun heldOut(state: BlindState) = scores.getOrPut(state) { BlindHeldOut.score(state) }
 
     private fun candidates(first: BlindDiagnosis.Round): List<Candidate> {
         val state = first.state

@@ -59,7 +59,10 @@ internal class BlindDiagnosis(
         private val still = search.still(state)
         private val stillTries = BlindTrials(search, still)
 
-        /** Whether the water has waves finer than those it was given: what is missing looks like another response. */
+        /**
+         * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other
+         * responses are then begun far from what the wrong water makes of them.
+         */
         private val isBlurred = !state.isResolved
 
         /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
@@ -86,18 +89,19 @@ internal class BlindDiagnosis(
         /** Whether [trial] may be worth water and noise of its own. */
         private fun isLikely(trial: BlindTrial): Boolean {
             val isSlow = trial.term?.cause in SLOW
-            return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
+            val isBelow = isSlow && trial.ratio * trial.inflation < changing / 2 && trial.pValue > settings.level
+            return trial.ratio > LIKELY && !isBelow
         }
 
         /**
-         * [trial] on top of a model whose water has waves finer than those it was given: that is so where there are,
-         * but also where a wrong response makes passes over the same water contradict each other. It counts where it leaves
-         * no such waves, or explains more than missing ones could be taken for.
+         * [trial] on top of a model whose finest waves are strong. It counts where no finer ones are missing beside it:
+         * what they would do, passes over the same water that contradict each other, a wrong response does, too. Else
+         * it counts where it explains more than missing waves could be taken for.
          */
         private fun resolved(trial: BlindTrial): BlindTrial {
             val settled = settled(trial)
             val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
-            val isClear = settled.state?.isResolved == true || goesWithMore
+            val isClear = goesWithMore || settled.state?.let { it.isResolved || FinerWaves.isNone(it, search) } == true
             return if (isClear) settled else settled.atMost(0.0)
         }
 
@@ -124,7 +128,13 @@ internal class BlindDiagnosis(
             val best = maxOf(without.score, likewise(without, found))
             val rest = if (without === state) best else maxOf(state.score, likewise(state, found))
             val trying = tries.settled(trial, found, best, searched)
-            return if (found.score > rest) trying.among(best - rest) else trying.instead(best - rest)
+            return when {
+                found.score > rest -> trying.among(best - rest)
+                // It explains most of what water that changes does: something changed, and both are in the answer.
+                without !== state && found.score - best > (rest - best) / 2 && trying.pValue < settings.level ->
+                    trying.beside(search.climbed(with(state, trying)))
+                else -> trying.instead(best - rest)
+            }
         }
 
         /** The likeliest of [trial] and of other beginnings of [term], far from what the wrong water makes of it. */
@@ -172,8 +182,8 @@ internal class BlindDiagnosis(
         if (!isShapeOpen && isLagSeen) {
             add(Term(Cause.SECOND_ORDER_RESPONSE))
             add(Term(Cause.TWO_PATH_RESPONSE))
+            add(Term(Cause.DEAD_TIME))
         }
-        if (!isShapeOpen) add(Term(Cause.DEAD_TIME))
         add(Term(Cause.SLEW_LIMIT))
         val scales = search.scales
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
@@ -188,7 +198,7 @@ internal class BlindDiagnosis(
         val noise = sqrt(search.lastVariance)
         if (scales.resolution > COARSE * noise) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
-        if (spread > EVEN && !isShapeOpen) add(Term(Cause.POSITION_OFFSET))
+        if (spread > EVEN && !isShapeOpen && isLagSeen) add(Term(Cause.POSITION_OFFSET))
     }
 
     private fun forward(first: Round): List<BlindStep> {
@@ -215,7 +225,8 @@ internal class BlindDiagnosis(
         if (chosen.size < 2) return chosen
         val full = chosen.last().state
         for (i in 0 until chosen.size - 1) {
-            val without = search.improved(search.requieted(without(chosen.first().round.state, chosen, i)))
+            val others = search.improved(search.requieted(without(chosen.first().round.state, chosen, i)))
+            val without = if (chosen[i].trial.term?.cause in SLOW) search.improved(search.still(others)) else others
             val lost = (full.score - without.score) / chosen[i].trial.inflation
             if (lost > NEEDLESS) continue
             val rest = chosen.filterIndexed { k, _ -> k != i }
@@ -237,7 +248,7 @@ internal class BlindDiagnosis(
 
     private fun added(state: BlindState, trial: BlindTrial): BlindState {
         val next = trial.state ?: search.improved(with(state, trial))
-        return search.improved(search.evened(next))
+        return search.climbed(search.improved(search.evened(next)))
     }
 
     /** For each chosen cause those that explain as much in its place. */
@@ -265,10 +276,23 @@ internal class BlindDiagnosis(
         var covered = 1.0
         val set = ArrayList<Cause>()
         others.forEachIndexed { i, rival ->
-            if (covered < settings.setProbability * total) set += checkNotNull(rival.term).cause
+            if (covered < settings.setProbability * total || !isBehind(rival, own)) set += checkNotNull(rival.term).cause
             covered += odds[i]
         }
         return set
+    }
+
+    /**
+     * Whether [own] is far likelier than [rival], or stretches of the log agree that it is likelier: noise that is not
+     * what its model says makes differences of likelihood of itself. What acts at one moment, as a jump does, differs
+     * from the rest in few stretches, so that they are not asked about changes with time.
+     */
+    private fun isBehind(rival: BlindTrial, own: BlindTrial): Boolean {
+        if (own.term?.cause in SLOW) return true
+        val worse = rival.state ?: return true
+        val better = own.state ?: return true
+        return (own.likelier - rival.likelier) / own.inflation > BlindLag.MUCH ||
+            BlindEvidence.between(worse, better) > AGREED
     }
 
     /** The model with all that was chosen but the [left]-th. */
@@ -323,6 +347,9 @@ internal class BlindDiagnosis(
         /** Causes that water which changes in time can imitate. */
         val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
         private const val EVEN = 0.03
+
+        /** Student's t with 23 degrees of freedom, one-sided 5 %. */
+        private const val AGREED = 1.71
         private const val LEAST_WARMTH = 0.05
         private const val COARSE = 0.3
 

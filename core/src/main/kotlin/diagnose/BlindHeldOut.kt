@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.PI
+import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
 
@@ -14,8 +15,9 @@ internal object BlindHeldOut {
     private const val STRETCHES = 16
 
     /**
-     * The score of [state]. Its errors are in noise's measure: what the rows before tell is taken off, and an error
-     * where no other pass comes near counts by how little could be foretold there.
+     * The score of [state]. Its errors are those with which a row is foretold by other passes and by the rows before
+     * it in its stretch, of all rows the geometric mean: an error where no other pass comes near counts by how little
+     * could be foretold there, and models with other noise or rougher water are measured alike.
      */
     fun score(state: BlindState): HeldOutScore {
         val fit = state.fit
@@ -23,6 +25,7 @@ internal object BlindHeldOut {
         val variance = maxOf(state.variance, 1e-300)
         var errors = 0.0
         var twice = 0.0
+        var spread = fit.design.noise.logDeterminant
         for (stretch in 0 until STRETCHES) {
             val from = (stretch.toLong() * z.size / STRETCHES).toInt()
             val to = ((stretch + 1).toLong() * z.size / STRETCHES).toInt()
@@ -34,8 +37,10 @@ internal object BlindHeldOut {
             val factor = Cholesky(left)
             val half = factor.half(DoubleArray(count) { z[from + it] })
             errors += squares(half)
-            twice += squares(half) / variance - factor.logDeterminant + count * ln(2 * PI * variance)
+            twice += squares(half) / variance + count * ln(2 * PI * variance)
+            spread -= factor.logDeterminant
         }
-        return HeldOutScore(sqrt(errors / maxOf(fit.rows, 1)), -(twice + fit.design.noise.logDeterminant) / 2)
+        val rows = maxOf(fit.rows, 1)
+        return HeldOutScore(sqrt(errors / rows) * exp(spread / (2 * rows)), -(twice + spread) / 2)
     }
 }

@@ -51,19 +51,8 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     val both: BlindState by lazy {
         // Of what both share the likelier kind alone has most of it; a lag alone may be far too long.
         val half = (if (deadTime.score > timeConstant.score) delay else timeConstant.timeConstant) / 2
-        val best = climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
+        val best = search.climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
         if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
-    }
-
-    private fun climbed(state: BlindState): BlindState {
-        var best = state
-        repeat(MORE) {
-            val next = search.improved(best)
-            val gain = next.score - best.score
-            if (gain > 0) best = next
-            if (!(gain > BlindSearch.ENOUGH)) return best
-        }
-        return best
     }
 
     /**
@@ -125,18 +114,16 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     fun channel(name: String): ChannelLag =
         if (isSeen) ChannelLag(name, delay, delayError) else ChannelLag(name, Double.NaN, Double.NaN)
 
-    private companion object {
-        const val LAG_SEEN = 12.0
-        const val WORTH = 4.0
-
+    companion object {
         /** Twice the gain in log-likelihood over inflation of a second number, at 0.01 %. */
         const val MUCH = 15.0
+        private const val LAG_SEEN = 12.0
+        private const val WORTH = 4.0
 
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
-        const val SURE = 2.8
-        const val STEPS = 6
-        const val REFINEMENTS = 8
-        const val MORE = 5
-        val STARTS = listOf(0.5, 1.0)
+        private const val SURE = 2.8
+        private const val STEPS = 6
+        private const val REFINEMENTS = 8
+        private val STARTS = listOf(0.5, 1.0)
     }
 }

@@ -15,6 +15,13 @@ internal class BlindOutliers(state: BlindState) {
     }
     private val residuals = state.residuals
     private val resolution = state.model.scales.resolution
+    private val inside = 2 * REACH until series.size - 2 * REACH
+
+    /** Readings less what a parabola through the rows beside them says, in robust deviations of those about them. */
+    private val off = series.values.let { values ->
+        val hasSides = REACH until values.size - REACH
+        evened(DoubleArray(values.size) { if (it in hasSides) values[it] - Neighbours.foretold(values, it) else 0.0 })
+    }
 
     /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */
     val rows: List<Int> =
@@ -24,15 +31,7 @@ internal class BlindOutliers(state: BlindState) {
      * The rows that stick out of the readings themselves: a parabola through the rows beside them foretells them badly.
      * Fixes that jitter do no harm here.
      */
-    private fun sharp(): List<Int> {
-        val values = series.values
-        val inside = REACH until values.size - REACH
-        val off = DoubleArray(values.size) { if (it in inside) values[it] - Neighbours.foretold(values, it) else 0.0 }
-        return inside.filter { i ->
-            val about = (maxOf(REACH, i - NEAR)..minOf(values.size - 1 - REACH, i + NEAR)).filter { it != i }
-            abs(off[i]) > FAR * NORMAL * median(DoubleArray(about.size) { abs(off[about[it]]) })
-        }
-    }
+    private fun sharp(): List<Int> = inside.filter { abs(off[it]) > FAR }
 
     /** After a jump the next reading stays; after an outlier it comes back. */
     private fun isSingle(i: Int): Boolean {
@@ -48,11 +47,45 @@ internal class BlindOutliers(state: BlindState) {
         return bend(i) > ALONE * median(DoubleArray(about.size) { bend(about[it]) })
     }
 
-    /** Of there being as many: tails of other residuals say nothing, because water that is not resolved has them too. */
-    val pValue: Double = Evidence.poissonTail(rows.size, series.size * BEYOND)
+    /** [column] over the robust deviation of the rows about each, rounding's at least. */
+    private fun evened(column: DoubleArray): DoubleArray {
+        val least = resolution * sqrt(Neighbours.errorVariance / ROUNDED)
+        return DoubleArray(column.size) { i ->
+            val about = (maxOf(0, i - NEAR)..minOf(column.size - 1, i + NEAR)).filter { it != i }
+            column[i] / maxOf(NORMAL * median(DoubleArray(about.size) { abs(column[about[it]]) }), least, TINY)
+        }
+    }
+
+    /**
+     * Noise with single wrong readings against noise without, of the readings about the rows beside them and of what
+     * the model leaves, whichever shows less; null where noise with heavy tails is likelier than either, or where the
+     * far ones are gathered where the noise is larger.
+     */
+    private val mixture: Mixture? = listOf(off, evened(z)).map { column ->
+        val rows = DoubleArray(maxOf(inside.last - inside.first + 1, 1)) { column[inside.first + it] }
+        Spikes.ratio(rows).takeIf { it.ratio > Spikes.tails(rows) }
+    }.let { both ->
+        if (both.any { it == null } || isGathered(state)) null else both.filterNotNull().minBy { it.ratio }
+    }
+
+    private fun isGathered(state: BlindState): Boolean {
+        val free = BooleanArray(state.numbers.size)
+        val fit = ModelFit(state.model, state.numbers, free, noise.noise, state.residuals, z, state.score)
+        return LocalSpread.isConcentrated(fit, inside.filter { abs(off[it]) > TAIL })
+    }
+
+    /**
+     * Of there being as many far ones, or such tails: less sure than it seems by [DOUBT], because the spread about a
+     * row is told by few rows.
+     */
+    val pValue: Double = minOf(
+        Evidence.poissonTail(rows.size, series.size * BEYOND),
+        mixture?.let { minOf(1.0, DOUBT * Evidence.pValue(it.ratio, MIXED)) } ?: 1.0,
+    )
 
     /** How many and how far; null where there are none. */
-    fun size(): SpikeSize? = SpikeSize.of(rows, residuals, spread)
+    fun size(): SpikeSize? =
+        SpikeSize.of(rows, residuals, spread) ?: mixture?.let { SpikeSize(it.share, it.size * spread) }
 
     private companion object {
         /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
@@ -62,6 +95,15 @@ internal class BlindOutliers(state: BlindState) {
         const val NEAR = 30
         const val FAR = 5.0
         const val NORMAL = 1.4826
+        const val ROUNDED = 12.0
+        const val TINY = 1e-290
+        const val DOUBT = 10.0
+
+        /** Numbers of a mixture: share, size and spread. */
+        const val MIXED = 3
+
+        /** Of these only one in two thousand is no outlier. */
+        const val TAIL = 3.5
 
         /** Seven median bends are 4.7 normal standard deviations. */
         const val ALONE = 7.0

@@ -201,6 +201,18 @@ internal class BlindSearch(
         return settled(state.model.terms, found.numbers, state.fit.design.noise, state.variances, before = state)
     }
 
+    /** [state] with the numbers that fit better and the water for them, in turn, as long as that makes it likelier. */
+    fun climbed(state: BlindState): BlindState {
+        var best = state
+        repeat(MOST_CLIMBS) {
+            val next = improved(best)
+            val gain = next.score - best.score
+            if (gain > 0) best = next
+            if (!(gain > ENOUGH)) return best
+        }
+        return best
+    }
+
     /** [state] with water that does not change in time. */
     fun still(state: BlindState): BlindState {
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) LEAST else state.variances[it] }
@@ -252,7 +264,7 @@ internal class BlindSearch(
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             if (round < rounds) {
-                bands = variances(fit, residuals(model, at), modes)
+                bands = WaterVariances.next(fit, residuals(model, at), modes)
                 hidden = RangeEnd.beyond(model, at)
                 fit = BlindFit(designed(columns, hidden, noise), precisions(bands, modes), heights)
             }
@@ -273,7 +285,8 @@ internal class BlindSearch(
         val last = shownLast
         val isSame = shownAs != null && shownAs == Triple(terms, numbers.toList(), modes)
         if (last != null && isSame) return last
-        return seen(terms, numbers, modes).also {
+        val fading = DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / numbers[ResponseModel.TIME_CONSTANT]) }
+        return (seen(terms, numbers, modes.columns) + fading).also {
             shownLast = it
             shownAs = Triple(terms, numbers.toList(), modes)
         }
@@ -303,46 +316,32 @@ internal class BlindSearch(
     private var designOf: Array<DoubleArray>? = null
     private var designHidden: BooleanArray? = null
 
-    private fun seen(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
-        val whole = ResponseModel(series.withReference(modes.columns[0]), terms, held, scales)
+    /** [waters] along the track as the linear parts of the sensor show them. */
+    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> {
+        val whole = ResponseModel(series.withReference(waters[0]), terms, held, scales)
         val linear = terms.filter { it.cause in LINEAR }
         val own = base(numbers[ResponseModel.TIME_CONSTANT]) + linear.flatMap { term ->
             List(whole.width(term)) { numbers[whole.slot(term) + it] }
         }
-        val columns = arrayOfNulls<DoubleArray>(modes.size)
+        val columns = arrayOfNulls<DoubleArray>(waters.size)
         // A model has working space of its own, which tasks cannot share.
         loops.each(PARTS) { part ->
             val truth = DoubleArray(n)
             val model = ResponseModel(series.withReference(truth), linear, held, scales)
-            for (k in part until modes.size step PARTS) {
-                modes.columns[k].copyInto(truth)
+            for (k in part until waters.size step PARTS) {
+                waters[k].copyInto(truth)
                 model.truthChanged()
                 columns[k] = DoubleArray(n).also { model.predict(own, it) }
             }
         }
-        val fading = DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / own[0]) }
-        return columns.requireNoNulls() + fading
+        return columns.requireNoNulls()
     }
+
+    /** The phase along the track of a wave with [east] and [north] radians per metre, length n. */
+    fun phases(east: Double, north: Double) = DoubleArray(n) { east * track.x[it] + north * track.y[it] }
 
     private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
         if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, MOST)
-    }
-
-    /** MacKay's fixed point: what the waves of a band have been found to be over how well they are determined. */
-    private fun variances(fit: BlindFit, residuals: DoubleArray, modes: WaterModes): DoubleArray {
-        val squares = DoubleArray(modes.bands)
-        val known = DoubleArray(modes.bands)
-        val spreads = fit.spreads()
-        val variance = fit.left(residuals) / fit.rows
-        for (k in 0 until modes.size) {
-            val band = modes.band[k]
-            squares[band] += fit.heights[k] * fit.heights[k] / variance
-            known[band] += (1 - fit.precisions[k] * spreads[k]).coerceIn(0.0, 1.0)
-        }
-        return DoubleArray(modes.bands) {
-            val isOff = 1 / fit.precisions[modes.band.indexOf(it)] <= LEAST && it > 0
-            if (isOff) LEAST else (squares[it] / maxOf(known[it], 1e-6)).coerceIn(LEAST, MOST)
-        }
     }
 
     companion object {
@@ -383,6 +382,7 @@ internal class BlindSearch(
         val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95)
         val TIMES = doubleArrayOf(3.0, 10.0, 35.0)
         const val CLIMBS = 3
+        const val MOST_CLIMBS = 5
         val UNEVEN = listOf(0.0, 0.3, 1.0, 3.0, 10.0, 100.0)
 
         /** Causes that show a sum of waters as the sum of what they show of each. */

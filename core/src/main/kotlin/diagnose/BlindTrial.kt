@@ -47,7 +47,10 @@ internal class BlindTrial(
     /** This trial where its p-value is too small by [times]. */
     fun lessSure(times: Double) = changed(ratio, minOf(1.0, times * pValue))
 
-    private fun changed(ratio: Double, pValue: Double) =
+    /** This trial, as sure as it is, in the model [other]. */
+    fun beside(other: BlindState) = changed(ratio, pValue, other)
+
+    private fun changed(ratio: Double, pValue: Double, state: BlindState? = this.state) =
         BlindTrial(term, name, model, point, change, ratio, inflation, degrees, pValue, state, halves)
 
     /** This trial where its ratio is [most] at most. */

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.hipparchus.special.Gamma
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.exp
@@ -11,6 +12,8 @@ internal object Spikes {
     private const val HALF_WINDOW = 3
     private const val TIMES_SPREAD = 5.5
     private const val NORMAL = 1.4826
+    private val FREEDOMS = doubleArrayOf(3.0, 5.0, 8.0, 15.0, 30.0).toList()
+    private val WIDTHS = doubleArrayOf(0.85, 0.9, 0.95, 1.0, 1.05).toList()
 
     /** Of the way there the way back, less half: of a single row it is 1, of a jump a half. */
     private const val RETURNED = 0.75
@@ -71,6 +74,23 @@ internal object Spikes {
             }
         }
         return best
+    }
+
+    /** Twice the log-likelihood ratio of noise with Student's tails against normal noise for white [residuals]. */
+    fun tails(residuals: DoubleArray): Double {
+        val n = residuals.size
+        val alone = sqrt(squares(residuals) / maxOf(n, 1))
+        val robust = NORMAL * median(DoubleArray(n) { abs(residuals[it]) })
+        if (!(robust > 0)) return 0.0
+        val plain = -n * ln(alone) - n / 2.0
+        return FREEDOMS.maxOf { freedom ->
+            val height = exp(Gamma.logGamma((freedom + 1) / 2) - Gamma.logGamma(freedom / 2)) * sqrt(2 / freedom)
+            WIDTHS.maxOf { width ->
+                val spread = width * robust
+                val sum = residuals.sumOf { r -> ln(1 + (r / spread) * (r / spread) / freedom) }
+                2 * (n * ln(height / spread) - (freedom + 1) / 2 * sum - plain)
+            }
+        }
     }
 
     private fun mixture(residuals: DoubleArray, spread: Double, share: Double, size: Double): Double {

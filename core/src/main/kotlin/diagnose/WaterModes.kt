@@ -36,6 +36,9 @@ internal class WaterModes(
     var finest: Double = extent
         private set
 
+    /** Length of the shortest wave that these show, m. */
+    val shortest: Double get() = if (lengths.isEmpty()) WAVE * finest else finest
+
     /** The shortest wave of each process, m, infinite of those that change in time; empty where none is of waves. */
     var lengths: List<Double> = emptyList()
         private set

@@ -18,8 +18,24 @@ internal object HiddenCampaign {
             case.write(log)
             val sensor = directory.resolve("believed.json").takeIf { case.writeSensor(it) }
             val answer = Finder.ask(log, withReference, directory.resolve("out"), sensor)
-            ScoredCase(seed, case.truth, answer, case.leftByTruth).also(told)
+            val left = if (withReference) case.leftByTruth else leftWithoutEffect(seed, case.truth, directory)
+            ScoredCase(seed, case.truth, answer, left).also(told)
         }
+
+    /**
+     * What the true model would leave held out of a log without a reference, where the water is unknown to it as well:
+     * what the base leaves of the same log without the effect, noise and fixes the same. NaN where that is not asked
+     * for: of weak effects, and of those that no model of the reading foretells (outliers; rounding, whose phase the
+     * unknown water and the fixes hide).
+     */
+    private fun leftWithoutEffect(seed: Long, truth: HiddenTruth, directory: Path): Double {
+        if (!truth.isStrong || truth.effects.keys.single() in UNFORESEEN) return Double.NaN
+        val log = directory.resolve("twin.csv")
+        HiddenCase(seed, withReference = false, isTwin = true).write(log)
+        return Finder.ask(log, withReference = false, directory.resolve("out-twin")).before
+    }
+
+    private val UNFORESEEN = setOf(HiddenEffect.OUTLIERS, HiddenEffect.QUANTISATION)
 }
 
 /** After so many cases the tables so far are written beside the table of cases. */

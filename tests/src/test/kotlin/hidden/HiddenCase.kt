@@ -35,11 +35,13 @@ internal data class HiddenTruth(
  * causes. Strengths are 0.25 to 4 times the [DetectableSize].
  *
  * @param isDelay whether the sensor has a dead time, [delay], in place of the lag, and no effect.
+ * @param isTwin whether what is hidden is left out of the readings that [write] writes, all else the same.
  */
 internal class HiddenCase(
     seed: Long,
     private val withReference: Boolean,
     private val isDelay: Boolean = false,
+    private val isTwin: Boolean = false,
 ) {
     private val random = Random(seed * 7919 + if (withReference) 1 else 2)
     private val kind = kinds().let { it[random.nextInt(it.size)] }
@@ -185,9 +187,10 @@ internal class HiddenCase(
 
     /** Writes the log into [file]. */
     fun write(file: Path) {
-        val clean = sensor(truth.effects).readings()
+        val effects = if (isTwin) emptyMap() else truth.effects
+        val clean = sensor(effects).readings()
         val values = noise.added(clean, random)
-        val outlying = truth.effects[HiddenEffect.OUTLIERS]
+        val outlying = effects[HiddenEffect.OUTLIERS]
         if (outlying != null) {
             for (i in values.indices) {
                 val share = 2 * random.nextDouble() - 1
@@ -195,11 +198,11 @@ internal class HiddenCase(
             }
         }
         val fine = 10.0.pow(ceil(log10(noise.spread / 30)))
-        val quantum = truth.effects[HiddenEffect.QUANTISATION]?.let { it * noise.spread } ?: fine
+        val quantum = effects[HiddenEffect.QUANTISATION]?.let { it * noise.spread } ?: fine
         leftByTruth = left(clean, values, quantum, outlying != null)
         val header = "time_s,x_m,y_m,value,speed_mps,temperature_c,salinity,heading_rad" +
             if (withReference) ",reference" else ""
-        val trend = truth.effects[HiddenEffect.TIME_VARYING] ?: 0.0
+        val trend = effects[HiddenEffect.TIME_VARYING] ?: 0.0
         val lines = ArrayList<String>()
         lines += header
         for (row in 0 until rows) {

@@ -4,6 +4,7 @@ import org.junit.jupiter.api.io.TempDir
 import java.nio.file.Path
 import kotlin.test.Test
 import kotlin.test.assertEquals
+import kotlin.test.assertNotEquals
 import kotlin.test.assertTrue
 
 /** A fixed small set of the campaign whose results are in docs/diagnosis.md. */
@@ -28,6 +29,21 @@ class HiddenEffectsTest {
         val cases = HiddenCampaign.run(listOf(80_198L, 81_047L), withReference = true, directory)
         assertEquals(listOf(HiddenEffect.SLEW, HiddenEffect.SATURATION), cases.map { it.truth.effects.keys.single() })
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
+    /** Seed 150128 hides a dead time, 150120 nothing. */
+    @Test
+    fun aTwinIsTheSameLogWithoutTheEffect() {
+        fun text(seed: Long, isTwin: Boolean): List<String> = directory.resolve("log-$seed-$isTwin.csv")
+            .also { HiddenCase(seed, withReference = false, isTwin = isTwin).write(it) }.toFile().readLines()
+
+        /** All columns but the reading's. */
+        fun rest(lines: List<String>) = lines.map { line -> line.split(",").filterIndexed { i, _ -> i != 3 } }
+        assertEquals(text(150_120, isTwin = false), text(150_120, isTwin = true))
+        val log = text(150_128, isTwin = false)
+        val twin = text(150_128, isTwin = true)
+        assertNotEquals(log, twin)
+        assertEquals(rest(log), rest(twin))
     }
 
     @Test

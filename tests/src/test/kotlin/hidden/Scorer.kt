@@ -59,7 +59,7 @@ internal class ScoredCase(
             (answer.before * answer.before - answer.after * answer.after) / (truth.noise * truth.noise)
         }
 
-    /** What a model with the true numbers gains on the same readings, in the same units; NaN for outliers. */
+    /** What a model with the true numbers gains on the same readings, in the same units; NaN where none is asked for. */
     val possibleGain: Double
         get() = (answer.before * answer.before - leftByTruth * leftByTruth) / (truth.noise * truth.noise)
 

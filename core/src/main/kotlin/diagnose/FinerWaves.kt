@@ -1,0 +1,48 @@
+package stillwater.diagnose
+
+import kotlin.math.PI
+import kotlin.math.cos
+import kotlin.math.sin
+import kotlin.math.sqrt
+
+/**
+ * Whether the water has waves finer than those that a model of it was given: a score test for the variance of waves of
+ * all directions just shorter than its shortest, seen through the sensor.
+ *
+ * Of whitened residuals z with a part c of such a wave that the water's own cannot show, (c·z)² is σ²|c|² on average
+ * where nothing is missing, and more by what such waves hold.
+ */
+internal object FinerWaves {
+    private const val WAVES = 32
+
+    /** The golden angle, by which directions are spread evenly however many there are. */
+    private val TURN = PI * (3 - sqrt(5.0))
+
+    /** How many times shorter the shortest of them is than the model's. */
+    private const val SHORTER = 1.6
+
+    /** Power of missing waves over the noise's that is not more than the noise. */
+    private const val NOISE = 1.0
+
+    /** Whether such waves hold no more than the noise does. */
+    fun isNone(state: BlindState, search: BlindSearch): Boolean = excess(state, search) < 1 + NOISE
+
+    /** Power of what is left of [state] along such waves, over the noise's: 1 where none is missing. */
+    fun excess(state: BlindState, search: BlindSearch): Double {
+        val longest = state.modes.shortest
+        val waves = (0 until WAVES).flatMap { k ->
+            val length = longest * (1 - (1 - 1 / SHORTER) * (k + 0.5) / WAVES)
+            val phase = search.phases(2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
+            listOf(DoubleArray(phase.size) { cos(phase[it]) }, DoubleArray(phase.size) { sin(phase[it]) })
+        }
+        var found = 0.0
+        var expected = 0.0
+        for (wave in search.seen(state.model.terms, state.numbers, waves.toTypedArray())) {
+            val column = state.fit.unlike(wave)
+            val score = dot(column, state.whitened)
+            found += score * score
+            expected += state.variance * squares(column)
+        }
+        return found / expected
+    }
+}

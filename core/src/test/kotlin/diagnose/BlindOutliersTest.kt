@@ -1,0 +1,55 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import kotlin.math.sin
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertTrue
+
+/** Outliers of which few are far enough off to be told by themselves. */
+class BlindOutliersTest {
+    private val n = 900
+    private val times = DoubleArray(n) { it.toDouble() }
+    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
+    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
+    private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) }
+
+    /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them off by up to 0.14. */
+    private fun outliers(every: Int): BlindOutliers {
+        val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(0.02))
+        val sensor = SensorSpec("hidden", stages).build(truth[0], Random(7))
+        val random = Random(8)
+        val values = DoubleArray(n) { i ->
+            val wrong = if (i % every == every / 2) random.nextDouble(-0.14, 0.14) else 0.0
+            sensor.step(truth[i], 1.0, Conditions.NONE) + wrong
+        }
+        val series = MeasuredSeries(times, x, y, values, null)
+        val modes = WaterModes(series, SmoothTrack.of(series), MOST, SHORTEST)
+        val white = CorrelatedNoise(times, 0.0, 10.0, BooleanArray(n) { true })
+        val noise = BlindNoise(white, DoubleArray(n) { 1.0 })
+        val numbers = doubleArrayOf(3.5, 1.0, 0.0, 0.0)
+        return BlindOutliers(BlindSearch(series).settled(emptyList(), numbers, noise, DoubleArray(0), ROUNDS, modes))
+    }
+
+    @Test
+    fun theTailsOfAllReadingsTellOfOutliers() {
+        val found = outliers(every = 30)
+        assertTrue(found.pValue < 1e-6, "${found.pValue} ${found.rows}")
+    }
+
+    @Test
+    fun noiseAloneHasNone() {
+        val none = outliers(every = 10 * n)
+        assertTrue(none.pValue > 0.01, "${none.pValue}")
+    }
+
+    private companion object {
+        const val MOST = 150
+        const val ROUNDS = 5
+
+        /** Below the water's own, of 8π and 10π m. */
+        const val SHORTEST = 15.0
+    }
+}

@@ -1,0 +1,40 @@
+package stillwater.diagnose
+
+import kotlin.math.sqrt
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertTrue
+
+/** Single wrong readings among normal noise, and noise with heavy tails and none. */
+class SpikesTest {
+    private val n = 1200
+
+    /** The sum of twelve even numbers is nearly normal, of variance 1. */
+    private fun Random.normal() = List(12) { nextDouble() }.sum() - 6
+
+    @Test
+    fun outliersAreLikelierThanHeavyTailsWhereThereAreOutliers() {
+        val random = Random(5)
+        val noise = DoubleArray(n) { random.normal() }
+        for (i in 50 until n step 100) noise[i] += random.nextDouble(-9.0, 9.0)
+        val ratio = Spikes.ratio(noise).ratio
+        assertTrue(ratio > 30 && ratio > Spikes.tails(noise), "$ratio against ${Spikes.tails(noise)}")
+    }
+
+    @Test
+    fun heavyTailsAreLikelierWhereTheNoiseHasThem() {
+        val random = Random(6)
+        // Student's t with five degrees of freedom.
+        val noise = DoubleArray(n) { random.normal() / sqrt(List(5) { random.normal() }.sumOf { it * it } / 5) }
+        val ratio = Spikes.ratio(noise).ratio
+        assertTrue(Spikes.tails(noise) > ratio && ratio > 30, "$ratio against ${Spikes.tails(noise)}")
+    }
+
+    @Test
+    fun normalNoiseHasNeither() {
+        val random = Random(7)
+        val noise = DoubleArray(n) { random.normal() }
+        // One in two hundred of χ² with three degrees.
+        assertTrue(Spikes.ratio(noise).ratio < 12.8 && Spikes.tails(noise) < 6.6)
+    }
+}
