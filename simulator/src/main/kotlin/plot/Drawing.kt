@@ -1,5 +1,8 @@
 package stillwater.plot
 
+import java.util.concurrent.atomic.AtomicInteger
+import java.util.stream.IntStream
+
 /** Data that can be drawn as one [Figure]. Drawing is pure: it reads nothing but the data. */
 public fun interface Drawing {
     /** Draws the data; never fails on values (NaN, infinite and missing ones are left out). */
@@ -9,6 +12,29 @@ public fun interface Drawing {
 /** Draws several figures and their PNGs at once, on up to all cores, in the order given. */
 public fun List<Drawing>.drawAll(): List<Figure> = drawConcurrently(map { drawing -> drawing::draw }) { it }
 
-/** The same for what [draw] gives, of which [figure] is the figure. Missing fonts show when a PNG is asked for. */
-public fun <T : Any> drawConcurrently(draw: List<() -> T>, figure: (T) -> Figure): List<T> =
-    draw.parallelStream().map { it().also { drawn -> figure(drawn).prepare() } }.toList()
+/**
+ * The same for what [draw] gives, of which [figure] is the figure. Missing fonts show when a PNG is asked for.
+ *
+ * @param beside what else is to be done at once with them; begun first, and done when this returns.
+ */
+public fun <T : Any> drawConcurrently(
+    draw: List<() -> T>,
+    beside: List<() -> Unit> = emptyList(),
+    figure: (T) -> Figure,
+): List<T> {
+    val drawn = ArrayList<T?>(draw.map { null })
+    atOnce(beside + draw.indices.map { i -> { drawn[i] = draw[i]().also { figure(it).prepare() } } })
+    return drawn.map { checkNotNull(it) }
+}
+
+/** Begins [tasks] in their order, each as soon as a core is free: no core waits while one is left. */
+private fun atOnce(tasks: List<() -> Unit>) {
+    val next = AtomicInteger()
+    IntStream.range(0, minOf(tasks.size, Runtime.getRuntime().availableProcessors())).parallel().forEach {
+        var task = next.getAndIncrement()
+        while (task < tasks.size) {
+            tasks[task]()
+            task = next.getAndIncrement()
+        }
+    }
+}

@@ -31,17 +31,26 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
      */
     fun write(directory: OutputDirectory): List<String> {
         directory.retire(MapFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") } + "cells.geojson")
-        directory.stream("cells.csv") { out ->
-            val table = CsvTable(out, COLUMNS)
-            map.maps.forEach { (kind, field) -> rows(table, kind, field) }
-            // Closing it writes what it has buffered.
-            table.close()
-        }
-        map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
-        val figures = drawConcurrently(MapFigures(map).draw()) { it.figure }
+        var polygons: String? = null
+        val figures = drawConcurrently(
+            MapFigures(map).draw(),
+            // Nothing else is written meanwhile: a directory is for one thread at a time.
+            beside = listOf(
+                { cells(directory) },
+                { polygons = map.log.frame?.let { GeoJson.text(polygons(it)) } },
+            ),
+        ) { it.figure }
+        polygons?.let { directory.write("cells.geojson", it) }
         val warnings = directory.writeFigures(figures.map { it.name to it.figure })
         directory.write("report.html", MapReport(map, summary, figures, command).render())
         return warnings
+    }
+
+    private fun cells(directory: OutputDirectory) = directory.stream("cells.csv") { out ->
+        val table = CsvTable(out, COLUMNS)
+        map.maps.forEach { (kind, field) -> rows(table, kind, field) }
+        // Closing it writes what it has buffered.
+        table.close()
     }
 
     private fun rows(table: CsvTable, kind: FilterKind, field: FieldMap) {
