@@ -1,8 +1,5 @@
 package stillwater.plot
 
-import java.util.concurrent.atomic.AtomicInteger
-import java.util.stream.IntStream
-
 /** Data that can be drawn as one [Figure]. Drawing is pure: it reads nothing but the data. */
 public fun interface Drawing {
     /** Draws the data; never fails on values (NaN, infinite and missing ones are left out). */
@@ -25,16 +22,4 @@ public fun <T : Any> drawConcurrently(
     val drawn = ArrayList<T?>(draw.map { null })
     atOnce(beside + draw.indices.map { i -> { drawn[i] = draw[i]().also { figure(it).prepare() } } })
     return drawn.map { checkNotNull(it) }
-}
-
-/** Begins [tasks] in their order, each as soon as a core is free: no core waits while one is left. */
-private fun atOnce(tasks: List<() -> Unit>) {
-    val next = AtomicInteger()
-    IntStream.range(0, minOf(tasks.size, Runtime.getRuntime().availableProcessors())).parallel().forEach {
-        var task = next.getAndIncrement()
-        while (task < tasks.size) {
-            tasks[task]()
-            task = next.getAndIncrement()
-        }
-    }
 }

@@ -3,6 +3,7 @@ package stillwater.survey
 import stillwater.field.FieldMap
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import stillwater.plot.atOnce
 import stillwater.plot.drawConcurrently
 import stillwater.report.CsvTable
 import stillwater.report.GeoCorner
@@ -41,8 +42,15 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             ),
         ) { it.figure }
         polygons?.let { directory.write("cells.geojson", it) }
-        val warnings = directory.writeFigures(figures.map { it.name to it.figure })
-        directory.write("report.html", MapReport(map, summary, figures, command).render())
+        var warnings = emptyList<String>()
+        var report = ""
+        atOnce(
+            listOf(
+                { warnings = directory.writeFigures(figures.map { it.name to it.figure }) },
+                { report = MapReport(map, summary, figures, command).render() },
+            ),
+        )
+        directory.write("report.html", report)
         return warnings
     }
 
