@@ -86,7 +86,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
      * θ of the least cost over a coarse grid, of equal ones the lowest. What is nearest to the last time constant comes
      * first: the misfit only grows on the way, so that most of the others can be left early. It changes nothing else.
      */
-    private suspend fun search(tape: Recording): Double {
+    suspend fun search(tape: Recording): Double {
         var best = bank.node
         val reach = ceil(SEARCHED * belief.spread / (3 * WIDEST_STEP)).toInt()
         val nearest = ((best - mean) / (3 * WIDEST_STEP)).roundToInt().coerceIn(-reach, reach)
