@@ -3,7 +3,7 @@ package stillwater.estimate
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.exp
-import kotlin.math.roundToInt
+import kotlin.math.floor
 import kotlin.math.sqrt
 
 /** The first-order lag as a [SensorFit]: its parameter is θ = ln τ. */
@@ -89,7 +89,8 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     suspend fun search(tape: Recording): Double {
         var best = bank.node
         val reach = ceil(SEARCHED * belief.spread / (3 * WIDEST_STEP)).toInt()
-        val nearest = ((best - mean) / (3 * WIDEST_STEP)).roundToInt().coerceIn(-reach, reach)
+        // What is no number becomes 0.
+        val nearest = floor((best - mean) / (3 * WIDEST_STEP) + HALF).toInt().coerceIn(-reach, reach)
         least = Double.POSITIVE_INFINITY
         leastIndex = Int.MIN_VALUE
         for (turn in -reach - 1..reach) {
@@ -156,5 +157,6 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         const val NARROWEST_STEP = 1e-3
         const val FARTHEST_OFFSET = 2.0
         const val MOST_ROUNDS = 8
+        const val HALF = 0.5
     }
 }

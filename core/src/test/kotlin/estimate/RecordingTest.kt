@@ -23,7 +23,7 @@ class RecordingTest {
 
     private val parts = Parts()
 
-    /** Ten readings a cell of a walk over [cells], through a lag of [timeConstant] s. */
+    /** Ten readings a stay in one of so many [cells], through a lag of [timeConstant] s. */
     private fun tape(random: Random, stays: Int, cells: Int, timeConstant: Double): ReadingTape {
         val tape = ReadingTape(10 * stays)
         val truths = DoubleArray(cells) { random.nextDouble() - 0.5 }
