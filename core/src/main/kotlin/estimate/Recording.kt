@@ -33,8 +33,9 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
     fun meanStay(): Double = tape.meanStay(size)
 
     /**
-     * Goes through all with [player], or as far as what it found may still count: once [isBehind] says that it cannot, the
-     * rest is not gone through. It is told as done all the same, so that a fit is complete at the same reading.
+     * Goes through all with [player], or as far as what it found may still count: once [isBehind] says that it
+     * cannot, the rest is not gone through. It is told as done all the same, so that a fit is complete at the same
+     * reading.
      */
     suspend fun play(player: ReadingPlayer, isBehind: () -> Boolean = NEVER) {
         crossings.leave()

@@ -223,7 +223,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         judge(bank.misfit(0), bank.freedom, bank.succession)
     }
 
-    /** The least cost so far: others are gone through as long as they can come below it, and cost more than it if not. */
+    /** The least cost so far: others are gone through as long as they can come below it. */
     private var least = 0.0
     private val isBehind = { cost(bank.leastMisfit()) > least }
 

@@ -48,7 +48,8 @@ class RecordingTest {
 
     @Test
     fun whatIsLeftEarlyTakesAsManyPartsAsWhatIsPlayedToItsEnd() {
-        val recording = Recording(tape(Random(1), stays = 50, cells = 9, timeConstant = 8.0), parts, heedsBorders = false)
+        val tape = tape(Random(1), stays = 50, cells = 9, timeConstant = 8.0)
+        val recording = Recording(tape, parts, heedsBorders = false)
         recording.begin(500)
         val whole = Counter()
         val left = Counter()
