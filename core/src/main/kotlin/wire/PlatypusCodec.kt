@@ -194,14 +194,8 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
         val letters = text[0].isLetter() && text.none { it == '"' || it == '{' || it == '}' }
         if (!letters) return malformed.count(Malformed.SYNTAX)
         understood++
-        val state = if (text.startsWith(
-                STATE_NOTICE,
-            )
-        ) {
-            stateOf(text.substring(STATE_NOTICE.length).lowercase())
-        } else {
-            null
-        }
+        val isState = text.startsWith(STATE_NOTICE)
+        val state = if (isState) stateOf(text.substring(STATE_NOTICE.length).lowercase()) else null
         sink.message(state?.let { Message.State(it) } ?: Message.Notice(text))
     }
 

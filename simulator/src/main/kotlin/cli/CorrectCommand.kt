@@ -22,7 +22,7 @@ import java.nio.file.Path
 
 /** `stillwater correct`: a log with its sensor's response undone, row by row. */
 class CorrectCommand : WorkCommand("correct") {
-    private val log by argument("LOG").help("survey CSV or Platypus log")
+    private val log by argument("LOG").help("survey CSV, Sea-Bird .cnv or Platypus log")
     private val out by option(
         "--out",
         metavar = "DIR",

@@ -26,7 +26,7 @@ import java.nio.file.Path
 
 /** `stillwater diagnose`: what the simulation gets wrong about a log, by name, with an extended sensor and the gain. */
 class DiagnoseCommand : WorkCommand("diagnose") {
-    private val log by argument("LOG").help("survey CSV or Platypus log")
+    private val log by argument("LOG").help("survey CSV, Sea-Bird .cnv or Platypus log")
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
         .default("stillwater-diagnosis")
     private val logOptions by LogOptions()

@@ -8,14 +8,15 @@ import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.io.DateOrder
 import stillwater.io.LogChoice
+import stillwater.io.TimeUnit
 
 /** The options that say what to take from a log; the same for every command that reads one. */
 class LogOptions : OptionGroup(
     name = "What to read",
     help = "A CSV survey needs a header line; what a logger writes before it is passed over. Columns time_s or " +
         "unix_time_s, lat_deg and lon_deg, or x_m and y_m, and the names that loggers use (Date Time, Latitude) are " +
-        "recognised; all others are taken by name. docs/logs.md has the whole list. Platypus logs (4.0.0, 4.1.0, " +
-        "4.2.0) are recognised by content.",
+        "recognised; all others are taken by name. docs/logs.md has the whole list. Sea-Bird's .cnv and Platypus " +
+        "logs (4.0.0, 4.1.0, 4.2.0) are recognised by content.",
 ) {
     private val time by option(
         "--time",
@@ -34,6 +35,19 @@ class LogOptions : OptionGroup(
     ).convert { text ->
         DateOrder.entries.firstOrNull { it.flag == text } ?: throw BadFlag(name, "dmy, mdy or ymd", "'$text'")
     }
+    private val timeUnit by option(
+        "--time-unit",
+        metavar = TimeUnit.entries.joinToString("|") { it.flag },
+        help = "unit of times that are numbers; without it the name or the line of units says it, or they are seconds",
+    ).convert { text ->
+        TimeUnit.entries.firstOrNull { it.flag == text } ?: throw BadFlag(name, "ms, s, min, h or d", "'$text'")
+    }
+    private val overnight by option(
+        "--overnight",
+        metavar = "HOURS",
+        help = "times of day without a date: a step back by so many hours or more begins the next day; without it " +
+            "one from 18:00 or later to 06:00 or earlier",
+    ).number("a number of hours above 0 and below 24") { it > 0 && it < DAY_HOURS }
     private val latitude by option("--lat", metavar = "COLUMN", help = "column with the latitude in degrees")
     private val longitude by option("--lon", metavar = "COLUMN", help = "column with the longitude in degrees")
     private val x by option(
@@ -63,6 +77,8 @@ class LogOptions : OptionGroup(
         "--time" to time,
         "--date" to date,
         "--date-order" to dateOrder?.flag,
+        "--time-unit" to timeUnit?.flag,
+        "--overnight" to overnight,
         "--lat" to latitude,
         "--lon" to longitude,
         "--x" to x,
@@ -97,5 +113,12 @@ class LogOptions : OptionGroup(
         maxPoseAge = maxPoseAge,
         date = date,
         dateOrder = dateOrder,
+        timeUnit = timeUnit,
+        overnight = overnight?.let { it * HOUR },
     )
+
+    private companion object {
+        const val DAY_HOURS = 24
+        const val HOUR = 3600.0
+    }
 }

@@ -33,7 +33,7 @@ import java.nio.file.Path
 
 /** `stillwater map`: a real log becomes a map, figures and a report. */
 class MapCommand : WorkCommand("map") {
-    private val log by argument("LOG").help("survey CSV or Platypus log")
+    private val log by argument("LOG").help("survey CSV, Sea-Bird .cnv or Platypus log")
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
         .default("stillwater-map")
     private val logOptions by LogOptions()

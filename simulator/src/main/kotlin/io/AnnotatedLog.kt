@@ -24,7 +24,8 @@ internal class AddedColumns(
 )
 
 /**
- * Writes a log again as CSV, byte for byte as it is, with some more columns behind its own.
+ * Writes a log again as CSV, byte for byte as it is, with some more columns behind its own; a Sea-Bird `.cnv` as
+ * [SeaBirdTable] has it.
  *
  * @param parts what is added, all of the same log; of a log that is not CSV one part only.
  */

@@ -30,7 +30,12 @@ internal object ColumnNames {
     private val NORTHS = setOf("y", "northing", "northing_m", "y_metres", "y_meters")
     private val OWN = setOf("time_s", "unix_time_s", "lat_deg", "lon_deg", "x_m", "y_m")
     private val COUNTERS = setOf("#", "record", "record_number", "row")
-    private val KNOWN = TIMES.toSet() + DATES + LATITUDES + LONGITUDES + EASTS + NORTHS + COUNTERS
+
+    /** What Sea-Bird calls times, the count of scans and the mark of bad ones. */
+    private val SEA_BIRD = setOf(
+        "scan", "flag", "times", "timem", "timeh", "timej", "timejv2", "timescp", "timek", "timeq", "timen", "timey",
+    )
+    private val KNOWN = TIMES.toSet() + DATES + LATITUDES + LONGITUDES + EASTS + NORTHS + COUNTERS + SEA_BIRD
 
     /** Seconds in the unit at the end of a name, as in `unix_ms`, `Time (min)` and `Time, h`. */
     private val UNITS = listOf(
@@ -45,6 +50,7 @@ internal object ColumnNames {
     private val DEGREES =
         Regex("""(?i)(decimal[ _])?(deg(ree)?s?|dd|[°º])([ _.]*(n|e|north|east|dec|decimal))?\.?""")
     private val STATED = Regex("""[(\[<](.*?)[)\]>]|,(.*)""")
+    private val DEPTH = Regex("""(depth?|pres|press|pressure|prdm|prsm|prd)([^a-z].*)?|dep[sf]m|z""")
     private val ON_GLOBE = Regex("""(lat|lon|long|lng|latitude|longitude)([^a-z].*)?""")
 
     /** [name] in small letters, without units in brackets and what follows a comma, parts joined by `_`. */
@@ -68,11 +74,14 @@ internal object ColumnNames {
     /** Columns that may hold the longitude. */
     fun longitudes(names: List<String>): List<Int> = indices(names, LONGITUDES)
 
-    /** Columns that may hold metres east. */
-    fun easts(names: List<String>): List<Int> = metres(names, EASTS)
+    /** Columns that may hold metres east; [units] are those that are stated, empty for others. */
+    fun easts(names: List<String>, units: List<String>): List<Int> = metres(names, units, EASTS)
 
-    /** Columns that may hold metres north. */
-    fun norths(names: List<String>): List<Int> = metres(names, NORTHS)
+    /** Columns that may hold metres north; [units] likewise. */
+    fun norths(names: List<String>, units: List<String>): List<Int> = metres(names, units, NORTHS)
+
+    /** Whether [name] is one for a depth or a pressure. */
+    fun isDepth(name: String): Boolean = DEPTH.matches(plain(name))
 
     /** Whether [name] is one for metres east or north, but states another unit. */
     fun isInOtherUnit(name: String): Boolean = plain(name) in EASTS + NORTHS && !isMetres(stated(name))
@@ -101,11 +110,16 @@ internal object ColumnNames {
     /** Whether [unit] says nothing. */
     fun isNone(unit: String): Boolean = CellText.isMissing(unit)
 
-    /** A plain x or y beside latitudes or a z may as well be what an accelerometer or a magnetometer measured. */
-    private fun metres(names: List<String>, known: Set<String>): List<Int> {
+    /**
+     * A plain x or y beside latitudes or a z may as well be what an accelerometer or a magnetometer measured, unless it
+     * says that it is metres.
+     */
+    private fun metres(names: List<String>, units: List<String>, known: Set<String>): List<Int> {
         val plain = names.map(::plain)
         val hasOthers = plain.any { it == "z" || ON_GLOBE.matches(it) }
-        return indices(names, known).filter { isMetres(stated(names[it])) && !(hasOthers && plain[it].length == 1) }
+        return indices(names, known).filter {
+            isMetres(stated(names[it])) && !(hasOthers && plain[it].length == 1 && !METRES.matches(units[it]))
+        }
     }
 
     private fun indices(names: List<String>, known: Set<String>) = names.indices.filter { plain(names[it]) in known }

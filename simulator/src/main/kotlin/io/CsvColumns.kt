@@ -56,15 +56,15 @@ internal data class CsvColumns(
         /**
          * The columns that [choice] means in a log with the header [names], which differ.
          *
-         * @param sample the first row of readings, by which columns of numbers are told from others; may be empty.
+         * @param layout how it is written: its first row tells columns of numbers from others.
          * @param problem makes the error for column (or null), expected, found.
          */
         fun of(
             names: List<String>,
-            sample: List<String>,
+            layout: CsvLayout,
             choice: LogChoice,
             problem: (String?, String, String) -> LogProblem,
-        ): CsvColumns = Finder(names, sample, choice, problem).columns()
+        ): CsvColumns = Finder(names, layout, choice, problem).columns()
 
         /** Columns of the positions, [NONE] where they have no such column. */
         private class Place(val latitude: Int, val longitude: Int, val x: Int, val y: Int) {
@@ -95,10 +95,15 @@ internal data class CsvColumns(
     /** Finds the columns that [choice] means; see [of]. */
     private class Finder(
         private val names: List<String>,
-        private val sample: List<String>,
+        private val layout: CsvLayout,
         private val choice: LogChoice,
         private val problem: (String?, String, String) -> LogProblem,
     ) {
+        private val sample = layout.sample
+
+        /** What a column says of its unit, in its name or below it. */
+        private val units = names.mapIndexed { i, name -> ColumnNames.stated(name).ifEmpty { layout.unit(i) } }
+
         fun columns(): CsvColumns {
             val time = choice.time?.let(::named)
                 ?: TIMES.map { recognised(it) }.firstOrNull { it != NONE }
@@ -121,7 +126,8 @@ internal data class CsvColumns(
             if (index >= 0) return index
             val twins = names.filter { it.startsWith("$name#") }
             if (twins.size > 1) throw problem(name, "one of ${twins.joinToString(", ")}", "several such columns")
-            throw problem(name, "one of ${names.joinToString(", ")}", "no such column")
+            val near = NearName.of(name, names)?.let { "; did you mean '$it'?" }.orEmpty()
+            throw problem(name, "one of ${names.joinToString(", ")}", "no such column$near")
         }
 
         private fun recognised(name: String, others: List<Int> = emptyList()): Int = when {
@@ -157,7 +163,20 @@ internal data class CsvColumns(
                 throw problem(other, "metres, or --x and --y", all)
             }
             if (place.suffices(choice)) return place
-            throw problem(null, "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x", all)
+            val expected = "columns lat_deg and lon_deg, or x_m and y_m, or --lat and --lon, or --x" + placeHint()
+            throw problem(null, expected, all)
+        }
+
+        /** What may be meant by columns that are not taken for places without being asked. */
+        private fun placeHint(): String {
+            val x = names.firstOrNull { ColumnNames.plain(it) == "x" }
+            val y = names.firstOrNull { ColumnNames.plain(it) == "y" }
+            val depth = names.firstOrNull { ColumnNames.isDepth(it) }
+            return when {
+                x != null && y != null -> " (--x '$x' --y '$y' if these are metres)"
+                depth != null -> " (--x '$depth' for a profile)"
+                else -> " (a log without places is for diagnose --reference)"
+            }
         }
 
         private fun degrees(): Place? {
@@ -168,8 +187,9 @@ internal data class CsvColumns(
 
         private fun metres(): Place {
             choice.halfAPlace()?.let { throw problem(null, it, "neither") }
-            val x = choice.x?.let(::named) ?: recognised(X, ColumnNames.easts(names))
-            val y = choice.y?.let(::named) ?: if (choice.x == null) recognised(Y, ColumnNames.norths(names)) else NONE
+            val x = choice.x?.let(::named) ?: recognised(X, ColumnNames.easts(names, units))
+            val y = choice.y?.let(::named)
+                ?: if (choice.x == null) recognised(Y, ColumnNames.norths(names, units)) else NONE
             return Place(NONE, NONE, x, y)
         }
 
@@ -182,6 +202,8 @@ internal data class CsvColumns(
         }
 
         private fun isCandidate(index: Int): Boolean {
+            // A separator at the end of the lines makes a column without a name, as a program's own index does.
+            if (names[index].isEmpty()) return false
             val field = sample.getOrNull(index).orEmpty()
             val isNumeric = CellText.isMissing(field) || CellText.isNumber(field, comma = true)
             return isNumeric && names[index] !in RECOGNISED && !ColumnNames.isKnown(names[index])

@@ -43,6 +43,7 @@ internal class CsvLayout(
         private const val MOST_UNITS = 3
         private const val LONGEST_ENTRY = 3
         private val STATED = Regex("""(?i)\s*"?sep=(.)"?\s*""")
+        private val BLANKS = Regex("\\s+")
         private val DECIMAL_COMMA = Regex("""[+-]?\d*,\d+([eE][+-]?\d+)?""")
         private val THOUSANDS = Regex("""[+-]?[1-9]\d{0,2},\d{3}""")
         private val DECIMAL_POINT = Regex("""[+-]?\d*\.\d+([eE][+-]?\d+)?""")
@@ -54,6 +55,7 @@ internal class CsvLayout(
          * @throws LogProblem if it has two tables, or numbers that may be meant in two ways.
          */
         fun of(content: LogContent, wanted: Set<String>): CsvLayout {
+            content.seaBird?.let { return layout(content, Header(it.endLine - 1, ',')) }
             val head = content.head
             val first = head.indexOfFirst { it.isNotBlank() }
             val stated = STATED.matchEntire(head[first])?.groupValues?.get(1)?.get(0)?.takeIf { it in SEPARATORS }
@@ -65,9 +67,19 @@ internal class CsvLayout(
             val header = if (isPlain(head, begin, separator, wanted)) {
                 Header(begin, separator)
             } else {
-                search(content, begin, stated?.let(::listOf) ?: SEPARATORS, wanted) ?: Header(begin, separator)
+                search(content, begin, stated?.let(::listOf) ?: SEPARATORS, wanted)
             }
-            return layout(content, header)
+            if (header == null) refuseBlanks(content)
+            return layout(content, header ?: Header(begin, separator))
+        }
+
+        /** Of columns with blanks between them nobody can say where a name or a time with blanks in it ends. */
+        private fun refuseBlanks(content: LogContent) {
+            val last = content.head.indexOfLast { it.isNotBlank() }
+            val fields = content.head[last].trim().split(BLANKS)
+            if (fields.size < 2 || fields.any { !CellText.isTime(it) && !CellText.isNumber(it, comma = true) }) return
+            val expected = "commas, semicolons or tabs between columns"
+            throw LogProblem(content.file, last + 1L, null, expected, "blanks")
         }
 
         private class Header(val index: Int, val separator: Char)

@@ -2,14 +2,12 @@ package stillwater.io
 
 import de.siegmar.fastcsv.reader.CsvParseException
 import de.siegmar.fastcsv.reader.CsvReader
-import de.siegmar.fastcsv.reader.CsvRecord
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import java.io.UncheckedIOException
 import java.nio.file.Path
-import java.util.Locale
 import kotlin.math.abs
 
 /**
@@ -18,9 +16,9 @@ import kotlin.math.abs
  * Rows need a time, times that grow, and latitudes and longitudes that exist and lie within 1000 km of the first. A
  * reading or position that is missing, and says so, is no error: such rows are left out and counted. Positions of
  * exactly 0, 0 degrees are a receiver's way of saying that it has no fix. What stands before the table, and how it is
- * written, is found by [CsvLayout] and [CsvTimes].
+ * written, is found by [CsvLayout] and [CsvTimes]. A Sea-Bird `.cnv` is such a table by [SeaBirdTable].
  */
-internal class CsvSurvey private constructor(
+internal class CsvSurvey internal constructor(
     internal val content: LogContent,
     internal val layout: CsvLayout,
     internal val columns: CsvColumns,
@@ -28,8 +26,7 @@ internal class CsvSurvey private constructor(
     private val skipBadRows: Boolean,
 ) : SurveyLog {
     override val file: Path get() = content.file
-    override val format = listOf("survey CSV" + SEPARATORS.getValue(layout.separator))
-        .plus(layout.notes())
+    override val format = kind()
         .plus(listOfNotNull("text in Windows-1252".takeIf { content.isOneByte }))
         .plus(times.notes)
         .plus(columns.notes())
@@ -40,12 +37,20 @@ internal class CsvSurvey private constructor(
     override var frame: LocalFrame? = null
         private set
 
+    // Sea-Bird's programs mark scans there, as one in which the instrument was drawn back through its own wake.
+    private val flag = if (content.seaBird == null) CsvColumns.NONE else columns.names.indexOf("flag")
+
     private val conditionNames = columns.conditions.keys.toList()
     private val slots = slots()
 
     // A condition taken from a column that serves otherwise too is found in that one's slot.
     private val conditionSlots = IntArray(conditionNames.size) { i ->
         slots[columns.conditions.getValue(conditionNames[i])]
+    }
+
+    private fun kind(): List<String> {
+        val table = listOf("survey CSV" + SEPARATORS.getValue(layout.separator)) + layout.notes()
+        return content.seaBird?.let { listOf("Sea-Bird .cnv") + it.notes() } ?: table
     }
 
     /** Reads the fields of one pass; a log that is written plainly needs none, and is read faster without. */
@@ -57,9 +62,9 @@ internal class CsvSurvey private constructor(
     private val isPlain = !layout.decimalComma && times.form.kind == TimeForm.Kind.PLAIN
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
-        val pass = Pass(sink)
         val before = layout.headerLine - 1
         val fields = if (isPlain) null else fieldReader()
+        val pass = Pass(sink, fields)
         val row = CsvRow(slots, SLOTS + conditionNames.size, layout.separator, TIME, DATE, fields, before)
         val reader = CsvReader.builder()
             .fieldSeparator(layout.separator)
@@ -69,7 +74,7 @@ internal class CsvSurvey private constructor(
             .maxBufferSize(LONGEST_FIELD)
             .build(row, EndMark(content.reader(before, progress)))
         reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
-        return pass.end(fields?.midnights ?: 0)
+        return pass.end()
     }
 
     private inline fun inLogTerms(work: () -> Unit) {
@@ -106,6 +111,7 @@ internal class CsvSurvey private constructor(
 
     private fun slots() = IntArray(columns.names.size) { CsvColumns.NONE }.also { slots ->
         // A later assignment wins, so the columns that rows cannot do without come last.
+        if (flag != CsvColumns.NONE) slots[flag] = FLAG
         conditionNames.forEachIndexed { i, name -> slots[columns.conditions.getValue(name)] = SLOTS + i }
         val inDegrees = columns.latitude != CsvColumns.NONE
         slots[columns.value] = VALUE
@@ -121,8 +127,10 @@ internal class CsvSurvey private constructor(
         LogProblem(file, line, column?.let { columns.names[it] }, expected, found, skippable)
 
     /** One reading of the file from its beginning. */
-    private inner class Pass(private val sink: ReadingSink) {
+    private inner class Pass(private val sink: ReadingSink, private val fields: FieldReader?) {
         private val skips = SkipCounts()
+        private val nights = Nights()
+        private val codes = ConditionCodes(columns)
         private var readings = 0L
         private var rows = 0L
         private var headerSeen = false
@@ -142,8 +150,11 @@ internal class CsvSurvey private constructor(
                 if (row.fields != columns.names.size || row.widestBreak >= 0) {
                     throw problem(row.line, null, "a header in one line", "a line break inside quotes", null)
                 }
-            } else if (row.line >= layout.bodyLine) {
+            } else if (row.line < layout.bodyLine) {
+                skips.count("lines of units")
+            } else {
                 rows++
+                if (fields != null) nights.take(row.line, fields)
                 val reason = withoutReading(row)
                 val problem = if (reason == null) problemOf(row) else null
                 when {
@@ -166,6 +177,7 @@ internal class CsvSurvey private constructor(
             CellText.isRemark(row.first) -> "remarks"
             row.numbers[TIME].isNaN() && CellText.isSummary(time) -> SUMMARY
             row.fields != columns.names.size -> null
+            row.isUnreadable(flag) && CellText.isMissing(row.textOf(flag)) -> "scans marked bad"
             isEmpty(row, columns.time) && isEmpty(row, northColumn, eastColumn, columns.value) -> "empty rows"
             !row.numbers[TIME].isFinite() -> null
             isMissing(row, northColumn, NORTH) || isMissing(row, eastColumn, EAST) -> NO_PLACE
@@ -295,11 +307,9 @@ internal class CsvSurvey private constructor(
         }
 
         private fun timeProblem(row: TimedRow, other: TimedRow, fault: TimeFault): LogProblem {
-            val expected = when (fault) {
-                TimeFault.AHEAD -> "a time before ${other.seconds} s, which the next row has"
-                else -> "a time after ${other.seconds} s"
-            }
-            return problem(row.line, columns.time, expected, "${row.seconds} s", fault.reason)
+            val wording = TimeWording(times, layout.sample.getOrNull(columns.time).orEmpty())
+            val expected = wording.expected(row.seconds, other.seconds, fault)
+            return problem(row.line, columns.time, expected, wording.of(row.seconds), fault.reason)
         }
 
         private fun placed(row: CsvRow): TimedRow {
@@ -330,16 +340,19 @@ internal class CsvSurvey private constructor(
             val measured = LinkedHashMap<String, Double>()
             conditionNames.forEachIndexed { i, name ->
                 val number = row.numbers[conditionSlots[i]]
-                if (number.isFinite() && !CellText.isCode(number)) measured[name] = number
+                if (CellText.isCode(number)) {
+                    codes.count(i)
+                } else if (number.isFinite()) {
+                    measured[name] = number
+                }
             }
             return Conditions(measured)
         }
 
-        fun end(midnights: Int): LogPass {
+        fun end(): LogPass {
             if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
             order.end()
-            val passed = "times of day pass midnight ${if (midnights == 1) "once" else "$midnights times"}"
-            return LogPass(readings, skips.toMap(), listOfNotNull(order.note, passed.takeIf { midnights > 0 }))
+            return LogPass(readings, skips.toMap(), listOfNotNull(order.note, nights.note) + codes.notes())
         }
     }
 
@@ -362,36 +375,7 @@ internal class CsvSurvey private constructor(
         private const val EAST = 2
         private const val VALUE = 3
         private const val DATE = 4
-        private const val SLOTS = 5
-
-        fun open(content: LogContent, choice: LogChoice): CsvSurvey {
-            val layout = CsvLayout.of(content, choice.named)
-            val line = content.head[layout.headerLine - 1]
-            fun problem(column: String?, expected: String, found: String) =
-                LogProblem(content.file, layout.headerLine.toLong(), column, expected, found)
-
-            val header = fields(layout.header, layout.separator)
-                ?: throw problem(null, "a header line with column names", quoted(line))
-            if ('\uFFFD' in line) throw problem(null, "text in UTF-8 or Windows-1252", "another encoding")
-            if (2 * header.count { !DecimalText.parse(it).isNaN() } > header.size) {
-                throw problem(null, "a header line with column names", quoted(line))
-            }
-            header.indexOfFirst { name -> name.any { it.isISOControl() } }.takeIf { it >= 0 }?.let { index ->
-                val code = header[index].first { it.isISOControl() }.code
-                val found = "U+%04X in the name of column %d".format(Locale.ROOT, code, index + 1)
-                throw problem(null, "a header without control characters", found)
-            }
-            val columns = CsvColumns.of(CsvColumns.distinct(header), layout.sample, choice, ::problem)
-            CsvUnits(content, layout, columns.names).check(columns, choice.x != null)
-            val times = CsvTimes.of(content, layout, columns, choice)
-            return CsvSurvey(content, layout, columns, times, choice.skipBadRows)
-        }
-
-        private fun fields(line: String, separator: Char): List<String>? = try {
-            CsvReader.builder().fieldSeparator(separator).ofSingleCsvRecord(line)
-                .let { record: CsvRecord -> record.fields.map { it.trim() } }
-        } catch (_: CsvParseException) {
-            null
-        }
+        private const val FLAG = 5
+        private const val SLOTS = 6
     }
 }

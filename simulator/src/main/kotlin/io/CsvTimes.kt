@@ -34,8 +34,11 @@ internal class CsvTimes(
             if (MINUTES.containsMatchIn(name) && number.isNaN()) {
                 throw problem(content, layout, name, "times as 08:00:00, or a name without mm:ss", quoted(text))
             }
+            if (choice.timeUnit != null && number.isNaN()) {
+                throw problem(content, layout, name, "a number, as --time-unit says", quoted(text))
+            }
             return when {
-                !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number)
+                !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number, choice.timeUnit)
                 !IsoTime.seconds(text).isNaN() -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
                 columns.date != CsvColumns.NONE -> {
                     val date = columns.names[columns.date]
@@ -48,7 +51,7 @@ internal class CsvTimes(
                     )
                 }
                 !DateText.ofDay(text).isNaN() -> CsvTimes(
-                    TimeForm(TimeForm.Kind.OF_ANY_DAY),
+                    TimeForm(TimeForm.Kind.OF_ANY_DAY, overnight = choice.overnight),
                     listOf("times of day without a date"),
                     "a time of day as 12:00:00 or 12:00:00 PM",
                 )

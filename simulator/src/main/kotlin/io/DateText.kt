@@ -5,7 +5,7 @@ import java.time.LocalDate
 
 /**
  * Dates and times of day as people and loggers write them: `14/07/2025 08:00:00`, `7/14/25 8:00:00 AM`, `14.07.2025`,
- * `14-Jul-2025 8:00`, `08:00:00.5`. Which number is the day is not guessed: see [DateOrder].
+ * `14-Jul-2025 8:00`, `08:00:00.5`, `2025-07-14 08:00 UTC`. Which number is the day is not guessed: see [DateOrder].
  */
 internal object DateText {
     private const val DAY_SECONDS = 86_400.0
@@ -15,7 +15,8 @@ internal object DateText {
     private const val SIXTY = 60.0
     private const val LATEST_TWO_DIGITS = 69
     private val DATE = Regex("""\s*(\d{1,4})([-/. ])(\d{1,2}|[A-Za-z]{3,9})\2(\d{1,4})(?:[T,\s]+(.*))?""")
-    private val TIME = Regex("""\s*(\d{1,2}):(\d{2})(?::(\d{2}(?:[.,]\d+)?))?\s*(?:([AaPp])\.?[Mm]\.?)?\s*Z?\s*""")
+    private val TIME =
+        Regex("""\s*(\d{1,2}):(\d{2})(?::(\d{2}(?:[.,]\d+)?))?\s*(?:([AaPp])\.?[Mm]\.?)?\s*(?:Z|UTC|GMT)?\s*""")
     private val MONTHS = listOf("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 
     /**

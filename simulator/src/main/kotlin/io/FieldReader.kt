@@ -13,6 +13,9 @@ internal class FieldReader(private val decimalComma: Boolean, form: TimeForm) {
     /** Midnights that times of day without a date have passed. */
     val midnights: Int get() = clock.midnights
 
+    /** Seconds from the time before the last of these midnights to the one after it. */
+    val night: Double get() = clock.night
+
     /** The number in [text] at [offset] of [length] characters, or NaN. */
     fun number(text: CharArray, offset: Int, length: Int): Double {
         if (!decimalComma) return DecimalText.parse(text, offset, length)

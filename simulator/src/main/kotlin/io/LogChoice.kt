@@ -7,6 +7,9 @@ package stillwater.io
  * `lon_deg`, `x_m`, `y_m` and those of [ColumnNames]).
  *
  * @property time column with the time, s or ISO 8601.
+ * @property timeUnit unit of times that are numbers; null where the log must show it.
+ * @property overnight least step back, s, after which times of day without a date are the next day's; null for one
+ *   from 18:00 or later to 06:00 or earlier.
  * @property date column with the date, where [time] is a time of day.
  * @property dateOrder order of day, month and year in dates of numbers; null where the log must show it.
  * @property latitude column with the latitude, degrees north.
@@ -18,7 +21,7 @@ package stillwater.io
  * @property skipBadRows whether rows that cannot be used are counted and left out rather than an error.
  * @property needsPlace whether a log without places is an error; else all its readings are at 0, 0.
  * @property maxPoseAge longest time between a reading and a pose it is placed by, s, above 0.
- * @throws IllegalArgumentException if [maxPoseAge] is out of its range.
+ * @throws IllegalArgumentException if [maxPoseAge] or [overnight] is out of its range.
  */
 data class LogChoice(
     val time: String? = null,
@@ -33,12 +36,21 @@ data class LogChoice(
     val maxPoseAge: Double = 2.0,
     val date: String? = null,
     val dateOrder: DateOrder? = null,
+    val timeUnit: TimeUnit? = null,
+    val overnight: Double? = null,
 ) {
     init {
         require(maxPoseAge > 0 && maxPoseAge.isFinite()) { "maxPoseAge ($maxPoseAge s) must be above 0 and finite" }
+        require(overnight == null || (overnight > 0 && overnight < DAY)) {
+            "overnight ($overnight s) must be above 0 and below a day"
+        }
     }
 
     /** Names of all columns that it names. */
     internal val named: Set<String>
         get() = listOfNotNull(time, date, latitude, longitude, x, y, value).toSet() + conditions.values
+
+    private companion object {
+        const val DAY = 86_400.0
+    }
 }

@@ -18,14 +18,18 @@ import java.nio.file.Path
  * @property charset encoding, from the byte order mark; without one UTF-8, or Windows-1252, which holds Latin-1, where
  * the first bytes are none.
  * @property platypus version of the Platypus log it is, or null where it is none.
- * @property head the first lines, without a byte order mark.
+ * @property head the first lines, without a byte order mark; of a Sea-Bird file as [SeaBirdTable] has them.
+ * @property seaBird header of the Sea-Bird file it is, or null where it is none.
  */
 internal class LogContent private constructor(
     val file: Path,
     val charset: Charset,
     private val markLength: Int,
-    val head: List<String>,
+    private val written: List<String>,
+    val seaBird: SeaBirdHeader?,
 ) {
+    val head: List<String> = if (seaBird == null) written else SeaBirdHeader.table(written, seaBird, charset)
+
     /** Whether the file is in an encoding of one byte for each character. */
     val isOneByte: Boolean get() = charset == WINDOWS_1252
 
@@ -38,7 +42,7 @@ internal class LogContent private constructor(
     fun reader(skippedLines: Int = 0, progress: (Long) -> Unit): Reader {
         val stream = CountingStream(Files.newInputStream(file), progress)
         stream.skipNBytes(markLength.toLong())
-        val decoded = InputStreamReader(stream, charset)
+        val decoded = InputStreamReader(table(stream), charset)
         val text = if (Files.size(file) < LONG) decoded else ReadAhead(decoded)
         if (skippedLines == 0) return text
         return BufferedReader(text).apply { repeat(skippedLines) { readLine() } }
@@ -46,7 +50,15 @@ internal class LogContent private constructor(
 
     /** Hands on the byte order mark, empty without one, and the bytes after it; the stream is closed in the end. */
     fun <T> raw(use: (mark: ByteArray, text: InputStream) -> T): T =
-        Files.newInputStream(file).buffered().use { use(it.readNBytes(markLength), it) }
+        Files.newInputStream(file).buffered().use { use(it.readNBytes(markLength), table(it)) }
+
+    /** The same log, a Sea-Bird file, with its times from the column [name]; this where that is none of time. */
+    fun timedBy(name: String): LogContent {
+        val other = seaBird?.timedBy(name) ?: return this
+        return LogContent(file, charset, markLength, written, other)
+    }
+
+    private fun table(text: InputStream) = if (seaBird == null) text else SeaBirdTable(text, seaBird, charset)
 
     companion object {
         private const val HEAD_BYTES = 1 shl 16
@@ -54,6 +66,7 @@ internal class LogContent private constructor(
         /** Files of so many bytes are decoded ahead, on another core. */
         private const val LONG = 4_000_000L
         private val WINDOWS_1252 = Charset.forName("windows-1252")
+        private val SEA_BIRD = "* Sea-Bird".toByteArray()
         private val GZIP = byteArrayOf(0x1f, 0x8b.toByte())
 
         fun of(file: Path): LogContent {
@@ -67,7 +80,7 @@ internal class LogContent private constructor(
                 bytes.startsWith(byteArrayOf(0xFE.toByte(), 0xFF.toByte())) -> Charsets.UTF_16BE to 2
                 else -> (if (bytes.isUtf8()) Charsets.UTF_8 else WINDOWS_1252) to 0
             }
-            if (mark != 2 && 0.toByte() in bytes) throw problem("a text log", "binary data")
+            if (mark != 2 && 0.toByte() in bytes) throw problem("a text log", "binary data" + remedy(bytes))
             val text = String(bytes, mark, bytes.size - mark, charset)
             val lines = text.lineSequence().map { it.trimEnd('\r') }.toList()
             // The last line of the head may be cut.
@@ -77,7 +90,18 @@ internal class LogContent private constructor(
                 throw LogProblem(file, lines.size.toLong(), null, "a header within $HEAD_BYTES bytes", "a longer one")
             }
             if (head.all { it.isBlank() }) throw problem("a log", "nothing but blank lines")
-            return LogContent(file, charset, mark, head)
+            return LogContent(file, charset, mark, head, seaBird(file, charset, head))
+        }
+
+        private fun remedy(bytes: ByteArray) =
+            if (bytes.startsWith(SEA_BIRD)) ": convert it to file_type = ascii" else ""
+
+        /** Its table is made byte by byte. */
+        private fun seaBird(file: Path, charset: Charset, head: List<String>): SeaBirdHeader? {
+            if (charset != Charsets.UTF_8 && charset != WINDOWS_1252) return null
+            return SeaBirdHeader.of(head) { line, expected, found ->
+                LogProblem(file, line?.toLong(), null, expected, found)
+            }
         }
 
         private fun firstBytes(file: Path): ByteArray {

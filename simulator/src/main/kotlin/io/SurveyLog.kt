@@ -72,7 +72,7 @@ interface SurveyLog {
         fun open(file: Path, choice: LogChoice = LogChoice()): SurveyLog {
             val content = LogContent.of(file)
             return when (val version = content.platypus) {
-                null -> CsvSurvey.open(content, choice)
+                null -> CsvOpening.open(content, choice)
                 else -> PlatypusLog.open(content, version, choice)
             }
         }

@@ -5,13 +5,15 @@ package stillwater.io
  *
  * @property kind what the column with the time holds. @property factor seconds in one of its units, of
  * [Kind.NUMBER]. @property zero seconds since 1970 where its numbers are 0, likewise. @property order of dates in
- * numbers, or null where there are none.
+ * numbers, or null where there are none. @property overnight least step back, s, that begins the next day, of
+ * [Kind.OF_ANY_DAY]; null for one from the last quarter of a day to the first.
  */
 internal class TimeForm(
     val kind: Kind,
     val factor: Double = 1.0,
     val zero: Double = 0.0,
     val order: DateOrder? = null,
+    val overnight: Double? = null,
 ) {
     /** What a column with the time may hold. */
     enum class Kind {
@@ -27,7 +29,7 @@ internal class TimeForm(
         /** Times of day, with the date in another column. */
         OF_DAY,
 
-        /** Times of day without a date; from the last quarter of a day to the first the next day begins. */
+        /** Times of day without a date. */
         OF_ANY_DAY,
     }
 
@@ -39,6 +41,10 @@ internal class TimeForm(
 
         /** Midnights that times of day alone have passed. */
         var midnights = 0
+            private set
+
+        /** Seconds from the time before the last of these midnights to the one after it. */
+        var night = 0.0
             private set
 
         /** Seconds of [text], of which [number] is the number or NaN; NaN where it is no time. */
@@ -64,8 +70,9 @@ internal class TimeForm(
          */
         private fun ofAnyDay(seconds: Double): Double {
             if (seconds.isNaN()) return seconds
-            if (last >= EVENING && seconds <= MORNING && !(seconds > beforeLast)) {
+            if (isNextDay(seconds) && !(seconds > beforeLast)) {
                 midnights++
+                night = DAY + seconds - last
                 beforeMidnight = last
             } else if (seconds - last > HALF_A_DAY && seconds >= beforeMidnight) {
                 // The time before it was none of a next day.
@@ -76,6 +83,9 @@ internal class TimeForm(
             last = seconds
             return midnights * DAY + seconds
         }
+
+        private fun isNextDay(seconds: Double) =
+            if (overnight == null) last >= EVENING && seconds <= MORNING else last - seconds >= overnight
     }
 
     private companion object {

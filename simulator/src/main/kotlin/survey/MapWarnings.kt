@@ -110,7 +110,8 @@ internal class MapWarnings(private val map: SurveyMap) {
     }
 
     private companion object {
-        val HARMLESS = setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines")
+        val HARMLESS =
+            setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines", "lines of units")
         const val LONG_GAP = 60.0
         const val RARE = 0.01
         const val OUTLYING = 3

@@ -54,7 +54,8 @@ class DiagnoseCommandTest {
         Files.write(bare, Files.readAllLines(placed).map { it.replace(Regex("(,0,0|,x_m,y_m)"), "") })
         val (with, without) = listOf(placed, bare).map { file ->
             val out = directory.resolve("of-${file.fileName}")
-            val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--out", "$out")
+            val flags = arrayOf("--value", "probe", "--reference", "sample", "--numbers-only")
+            val result = diagnose("$file", *flags, "--out", "$out")
             assertEquals(0, result.statusCode, result.output)
             Files.readString(out.resolve("diagnosis.json")).replace("bare.csv", "bench.csv")
         }

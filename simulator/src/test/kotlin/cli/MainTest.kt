@@ -55,6 +55,28 @@ class MainTest {
     }
 
     @Test
+    fun aWrongCommandLineIsOneLine() {
+        for ((typed, message) in listOf(
+            "sail" to "no such subcommand",
+            "--bogus" to "no such option",
+            "benchmark --bogus 3" to "no such option",
+            "benchmark noisy" to "got unexpected extra argument (noisy)",
+            "benchmark --out" to "requires a value",
+            "benchmark --moves many" to "--moves: expected a whole number",
+            "map" to "missing argument",
+            "map nowhere.csv" to "found no such file",
+            "map log.csv --time-unit minutes" to "--time-unit: expected ms, s, min, h or d, found 'minutes'",
+            "map log.csv --overnight 24" to "--overnight: expected a number of hours above 0 and below 24, found '24'",
+        )) {
+            val result = Stillwater().subcommands(commands()).test(typed)
+            assertTrue(result.statusCode != 0, "$typed: ${result.output}")
+            assertEquals("", result.stdout, typed)
+            assertEquals(1, result.stderr.trimEnd().lines().size, "$typed: ${result.stderr}")
+            assertTrue(message in result.stderr, "$typed: ${result.stderr}")
+        }
+    }
+
+    @Test
     fun allThatIsMissingIsSaidInOneLine() {
         val result = runBoatCommand("drive")
         val words = result.stderr.substringBefore(" (")

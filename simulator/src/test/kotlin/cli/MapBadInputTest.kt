@@ -157,10 +157,10 @@ class MapBadInputTest {
             csv(
                 "time going back",
                 HEAD + GOOD + "1.5,45.5,-73.1,8\n",
-                "log.csv:5: column time_s: expected a time after 2.0 s, found 1.5 s",
+                "log.csv:5: column time_s: expected a time after 2 s, found 1.5 s",
                 "times going back",
             ),
-            csv("duplicate time", HEAD + GOOD + "2,45.5,-73.1,8\n", "expected a time after 2.0 s", "duplicate times"),
+            csv("duplicate time", HEAD + GOOD + "2,45.5,-73.1,8\n", "expected a time after 2 s", "duplicate times"),
             csv(
                 "latitude off the globe",
                 HEAD + GOOD + "3,95.5,-73.1,8\n",

@@ -51,6 +51,13 @@ class LoggerExportTest {
         listOf(0.0, 60.0, 120.0).zip(times) { after, time -> assertEquals(case.first + after, time, step) }
         assertTrue(case.said in log.format, "'${case.said}' is not in '${log.format}'")
         assertEquals(case.skipped, pass.skipped)
+        assertEquals(linesBelowTheHeader(case, log), pass.readings + pass.skipped.values.sum())
+    }
+
+    /** Every line below the header is a reading or counted for what it is. */
+    private fun linesBelowTheHeader(case: Case, log: SurveyLog): Long {
+        val headerLine = (log as CsvSurvey).layout.headerLine
+        return case.text.removeSuffix("\n").lines().size.toLong() - headerLine
     }
 
     @ParameterizedTest
@@ -161,6 +168,7 @@ class LoggerExportTest {
                 "header in line 5, units in line 6, places from x and y, times from Unix Timestamp",
                 EIGHT,
                 LogChoice(value = "Dissolved Oxygen"),
+                mapOf("lines of units" to 1),
             ),
             Case(
                 "HOBO: title, short years, AM and PM, rows of events",
@@ -192,7 +200,7 @@ class LoggerExportTest {
                     "\"2025-07-14 08:01:00\",2,45,7.0001,8.2\n\"2025-07-14 08:02:00\",3,45,7.0002,8.3\n",
                 "header in line 2, units in lines 3 to 4, places from Lat and Lon, times from TIMESTAMP",
                 EIGHT,
-                skipped = mapOf("missing readings" to 1),
+                skipped = mapOf("lines of units" to 2, "missing readings" to 1),
             ),
             Case(
                 "RBR: Time to the millisecond",
@@ -325,6 +333,29 @@ class LoggerExportTest {
                 "Time,x,y,DO\nmin,m,m,mg/L\n0,0,0,8.1\n1,1,0,8.2\n2,2,0,8.3\n",
                 "units in line 2, times in units of 60.0 s, by the line of units",
                 0.0,
+                skipped = mapOf("lines of units" to 1),
+            ),
+            Case(
+                "minutes that nothing states",
+                "Time,x_m,y_m,v\n0,0,0,8.1\n1,30,0,8.2\n2,60,0,8.3\n",
+                "times in units of 60.0 s, as asked for",
+                0.0,
+                LogChoice(timeUnit = TimeUnit.MINUTES),
+            ),
+            Case(
+                "x, y and z in metres, below and in their names",
+                "time_s,x,y,z (m),DO\ns,m,m,,mg/L\n0,0,0,1,8.1\n60,1,0,1,8.2\n120,2,0,1,8.3\n",
+                "places from x and y",
+                0.0,
+                LogChoice(value = "DO"),
+                mapOf("lines of units" to 1),
+            ),
+            Case(
+                "a separator at the end of the lines, UTC behind the times",
+                "Timestamp,x_m,y_m,v,\n2025-07-14 08:00:00 UTC,0,0,8.1,\n2025-07-14 08:01:00 UTC,1,0,8.2,\n" +
+                    "2025-07-14 08:02:00 UTC,2,0,8.3,\n",
+                "times from Timestamp",
+                EIGHT,
             ),
             Case(
                 "seconds that could be a spreadsheet's days",

@@ -51,9 +51,44 @@ class MisreadLogTest {
 
     @Test
     fun saysHowOftenTimesOfDayPassMidnight() {
-        val rows = listOf("23:00", "1:00", "9:00", "20:00", "3:00").joinToString("") { "$it,0,0,1\n" }
-        val pass = open("time,x_m,y_m,v\n$rows").read { _, _, _, _, _ -> }
-        assertEquals(listOf("times of day pass midnight 2 times"), pass.warnings)
+        fun warnings(vararg times: String): List<String> {
+            val rows = times.joinToString("") { "$it,0,0,1\n" }
+            return open("time,x_m,y_m,v\n$rows", LogChoice(skipBadRows = true)).read { _, _, _, _, _ -> }.warnings
+        }
+        val twice = "times of day pass midnight 2 times, the longest before line 6 with 7.0 h between two rows"
+        assertEquals(listOf(twice), warnings("23:00", "1:00", "9:00", "20:00", "3:00"))
+        val once = "times of day pass midnight once, before line 3 with 2.0 h between two rows"
+        assertEquals(listOf(once), warnings("23:00", "1:00", "9:00"))
+        assertEquals(emptyList(), warnings("19:00", "0:00", "19:01", "19:02"))
+    }
+
+    @Test
+    fun aNightFromTheAfternoonOnIsOneWhereTheUserSaysSo() {
+        val rows = listOf("17:50", "17:51", "7:30", "7:31").joinToString("") { "$it,0,0,1\n" }
+        fun seconds(hours: Double) = open("time,x_m,y_m,v\n$rows", LogChoice(overnight = hours * 3600)).readings()
+            .map { it.time.seconds }
+        assertEquals(listOf(64_200.0, 64_260.0, 113_400.0, 113_460.0), seconds(8.0))
+        val refused = assertThrows<LogProblem> { seconds(11.0) }.message.orEmpty()
+        val expected = "log.csv:4: column time: expected a time after 17:51, or --overnight HOURS if the next day " +
+            "begins here, found 07:30"
+        assertTrue(expected in refused, refused)
+    }
+
+    /** A fix of four decimals: 0 for 20 rows, then 11 m, at 5 m/s all along. */
+    @Test
+    fun coarseFixesAreNoFlight() {
+        val rows = (0 until 200).joinToString("") { "${it * 0.1},${45 + it / 20 * 1e-4},7,1\n" }
+        assertEquals(200, open("Time,Latitude,Longitude,v\n$rows").readings().size)
+    }
+
+    @Test
+    fun codesInAConditionAreCounted() {
+        val choice = LogChoice(value = "v", conditions = mapOf("temperature" to "t"))
+        val log = open("time_s,x_m,y_m,v,t\n0,0,0,1,20\n1,0,0,1,-9999\n2,0,0,1,\n3,0,0,1,-9999\n", choice)
+        val pass = log.read { _, _, _, _, _ -> }
+        assertEquals(4, pass.readings)
+        val codes = "column t has 2 numbers that stand for none, such as -9999: temperature is taken for unknown there"
+        assertEquals(listOf(codes), pass.warnings)
     }
 
     companion object {
@@ -104,7 +139,45 @@ class MisreadLogTest {
             metres("Time,\"x, ft\",\"y, ft\",DO\n", "log.csv:1: column x, ft: expected metres"),
             metres("Time,x (ft),y (ft),DO\n", "x (ft): expected metres", LogChoice(x = "x (ft)", y = "y (ft)")),
             metres("Time,Lat_1,x,y,DO\n", "expected columns lat_deg and lon_deg", LogChoice(value = "DO"), "45,"),
-            metres("Time,x,y,z,DO\n", "expected columns lat_deg and lon_deg", LogChoice(value = "DO"), "9.8,"),
+            metres("Time,x,y,z,DO\n", "(--x 'x' --y 'y' if these are metres)", LogChoice(value = "DO"), "9.8,"),
+            metres("time_s,x_m,y_m,Odo_mg\n", "no such column; did you mean 'Odo_mg'?", LogChoice(value = "odo mg")),
+            metres("time_s,x_m,y_m,odo_mg\n", "no such column; did you mean 'odo_mg'?", LogChoice(value = "odo_mh")),
+            metres("time_s,x_m,y_m,odo_mg\n", "found no such column", LogChoice(value = "turbidity")),
+            Case(
+                "a profile that says where it is by its depth",
+                "time_s,depth_m,v\n0,0,8.1\n1,1,8.2\n",
+                "or --x (--x 'depth_m' for a profile)",
+                LogChoice(value = "v"),
+            ),
+            Case(
+                "minutes in which the boat would fly",
+                "Time,x_m,y_m,v\n0,0,0,8.1\n1,30,0,8.2\n2,60,0,8.3\n",
+                "column Time: expected numbers whose unit the name states, as Time (s) does, or --time-unit, found " +
+                    "30 m/s between the first rows if they are seconds",
+            ),
+            Case(
+                "--time-unit for what is no number",
+                "Time,x_m,y_m,v\n08:00:00,0,0,8.1\n08:01:00,30,0,8.2\n",
+                "column Time: expected a number, as --time-unit says, found '08:00:00'",
+                LogChoice(timeUnit = TimeUnit.MINUTES),
+            ),
+            Case(
+                "the end of summer time",
+                "Time,x_m,y_m,v\n2025-10-26 02:59:59,0,0,8.1\n2025-10-26 02:00:00,1,0,8.2\n",
+                "log.csv:3: column Time: expected a time after 2025-10-26T02:59:59 (summer time may end here: only " +
+                    "times with an offset tell), found 2025-10-26T02:00:00",
+            ),
+            Case(
+                "blanks between columns",
+                "Model=made up\n\nDate & Time                  DO\n14-Jul-2025 08:00:00.000    8.1\n" +
+                    "14-Jul-2025 08:01:00.000    8.2\n",
+                "log.csv:5: expected commas, semicolons or tabs between columns, found blanks",
+            ),
+            Case(
+                "times since 1970",
+                "unix_time_s,x_m,y_m,v\n1752480000.5,0,0,8.1\n1752480000.5,1,0,8.2\n",
+                "expected a time after 1752480000.5 s (2025-07-14T08:00:00.5), found 1752480000.5 s",
+            ),
             metres("Time,Lat (ddmm.mm),Lon (ddmm.mm),DO\n", "column Lat (ddmm.mm): expected degrees with decimals"),
             metres("Time,Lat,Lon,DO\ns,ddmm.mm,ddmm.mm,mg/L\n", "column Lat: expected degrees, found 'ddmm.mm'"),
             Case(

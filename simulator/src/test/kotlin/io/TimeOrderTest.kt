@@ -41,7 +41,7 @@ class TimeOrderTest {
     @Test
     fun withoutSkippingTheRowThatIsAheadIsNamed() {
         val problem = assertFailsWith<LogProblem> { csv(listOf(0, 1, 900, 3, 4), skip = false) }
-        val expected = "log.txt:4: column time_s: expected a time before 3.0 s, which the next row has"
+        val expected = "log.txt:4: column time_s: expected a time before 3 s, which the next row has"
         assertContains(problem.message.orEmpty(), expected)
     }
 

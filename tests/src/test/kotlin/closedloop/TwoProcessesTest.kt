@@ -4,6 +4,7 @@ import org.junit.jupiter.api.Assumptions.assumeFalse
 import org.junit.jupiter.api.Assumptions.assumeTrue
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
+import org.junit.jupiter.api.parallel.Isolated
 import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
@@ -20,7 +21,12 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** A mission in one process, the boat in another, bytes between them. The long runs are docs/closed-loop.md's. */
+/**
+ * A mission in one process, the boat in another, bytes between them. The long runs are docs/closed-loop.md's.
+ *
+ * With no test beside it: both keep time by the clock.
+ */
+@Isolated
 class TwoProcessesTest {
     @TempDir
     private lateinit var directory: File

@@ -1,0 +1,161 @@
+package stillwater.io
+
+import org.junit.jupiter.api.assertThrows
+import org.junit.jupiter.api.io.TempDir
+import java.nio.file.Path
+import kotlin.io.path.readText
+import kotlin.io.path.writeBytes
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** Sea-Bird's `.cnv`: made-up files in its form, with the header lines that public ones have. */
+class SeaBirdLogTest {
+    @TempDir
+    private lateinit var directory: Path
+
+    private val track = listOf(
+        "timeS: Time, Elapsed [seconds]",
+        "latitude: Latitude [deg]",
+        "longitude: Longitude [deg]",
+        "sbeox0Mg/L: Oxygen, SBE 43 [mg/l]",
+        "sigma-é00: Density [sigma-theta, kg/m^3]",
+        "flag:  0.000e+00",
+    )
+    private val scans = listOf(
+        "      0.000   45.54372  -73.15357     8.1000    24.1000  0.000e+00",
+        "      0.042   45.54373  -73.15357 -9.990e-29    24.1000  0.000e+00",
+        "      0.083   45.54374  -73.15357     8.2000 -9.990e-29  0.000e+00",
+        "      0.125   45.54375  -73.15357     8.9000    24.1000 -9.990e-29",
+        "    100.000   45.54376  -73.15357     8.3000    24.1000  0.000e+00",
+    )
+
+    // date -u -d 2023-10-08T12:26:20Z +%s
+    private val begin = 1_696_767_980.0
+
+    private fun file(
+        names: List<String>,
+        rows: List<String>,
+        interval: String = "seconds: 0.0416667",
+        start: String? = "Oct 08 2023 12:26:20 [NMEA time, first data scan]",
+        end: String = "\r\n",
+    ): Path {
+        val first = listOf("* Sea-Bird SBE 9 Data File:", "* FileName = C:\\made_up.hex", "** Ship: none")
+        val columns = names.mapIndexed { i, name -> "# name $i = $name" }
+        val times = listOfNotNull("# interval = $interval   ", start?.let { "# start_time = $it" })
+        val last = listOf("# bad_flag = -9.990e-29", "# <Sensors count=\"1\" >", "# </Sensors>", "# file_type = ascii")
+        val text = (first + columns + times + last + "*END*" + rows).joinToString("") { it + end }
+        return directory.resolve("made_up.cnv").apply { writeBytes(text.toByteArray(Charsets.ISO_8859_1)) }
+    }
+
+    private fun times(log: SurveyLog) = log.readings().map { it.time.seconds }
+
+    private fun assertTimes(expected: List<Double>, file: Path, choice: LogChoice) {
+        val found = times(SurveyLog.open(file, choice))
+        assertEquals(expected.size, found.size)
+        // 10 µs are what the times are written with.
+        expected.zip(found) { e, f -> assertEquals(e, f, 6e-6) }
+    }
+
+    @Test
+    fun readsTimesFromTheStartAndCountsWhatIsMissingOrMarkedBad() {
+        val log = SurveyLog.open(file(track, scans), LogChoice(value = "Oxygen, SBE 43"))
+        val pass = log.read { _, _, _, _, _ -> }
+        assertEquals("sbeox0Mg/L", log.quantity)
+        assertEquals(3, pass.readings)
+        assertEquals(mapOf("missing readings" to 1L, "scans marked bad" to 1L), pass.skipped)
+        assertEquals(listOf(8.1, 8.2, 8.3), log.readings().map { it.value })
+        assertTimes(listOf(begin, begin + 0.083, begin + 100), log.file, LogChoice(value = "sbeox0Mg/L"))
+        val said = "Sea-Bird .cnv, times from timeS after Oct 08 2023 12:26:20"
+        assertTrue(log.format.startsWith(said), log.format)
+    }
+
+    @Test
+    fun aColumnThatIsMissingElsewhereLosesNoReading() {
+        val pass = SurveyLog.open(file(track, scans), LogChoice(value = "sigma-é00")).read { _, _, _, _, _ -> }
+        assertEquals(3, pass.readings)
+        assertEquals(mapOf("missing readings" to 1L, "scans marked bad" to 1L), pass.skipped)
+    }
+
+    @Test
+    fun isWrittenAsCsvWithItsHeaderAndReadAgain() {
+        val choice = LogChoice(value = "sbeox0Mg/L")
+        val log = SurveyLog.open(file(track, scans), choice)
+        val readings = log.readings()
+        fun of(number: (Int) -> Double) = DoubleArray(readings.size, number)
+        val added = AddedColumns(
+            log,
+            listOf("twice"),
+            of { readings[it].time.seconds },
+            of { readings[it].position.x },
+            of { readings[it].position.y },
+            of { readings[it].value },
+        ) { k -> listOf((2 * readings[k].value).toString()) }
+        val again = directory.resolve("again.csv")
+        assertEquals(listOf(2L), AnnotatedLog(listOf(added)).write(again.toFile().outputStream()))
+        val text = again.readText(Charsets.ISO_8859_1)
+        val row = "1696767980.00000,0.000,45.54372,-73.15357,8.1000,24.1000,0.000e+00,16.2\r\n"
+        assertTrue(row in text && "NaN" in text && "-9.990e-29\r\n" !in text.substringAfter("unix_time_s"), text)
+        val twice = SurveyLog.open(again, LogChoice(value = "twice")).readings()
+        assertEquals(listOf(16.2, 16.4, 16.6), twice.map { it.value })
+        assertEquals(readings.map { it.time }, twice.map { it.time })
+    }
+
+    @Test
+    fun everyColumnOfTimesHasItsUnitAndItsZero() {
+        fun timed(name: String, vararg times: String) = file(
+            listOf(name, "prdM: Pressure, Strain Gauge [db]", "v: Voltage 0"),
+            times.map { "  $it   1.000   2.000" },
+        )
+        val choice = LogChoice(x = "prdM", value = "v")
+        assertTimes(listOf(begin, begin + 90), timed("timeM: Time, Elapsed [minutes]", "0", "1.5"), choice)
+        assertTimes(listOf(begin, begin + 1800), timed("timeH: Time, Elapsed [hours]", "0", "0.5"), choice)
+        // date -u -d '2000-01-01 UTC + 750083314 sec' +%s
+        assertTimes(listOf(1_696_768_114.0), timed("timeQ: Time, NMEA [seconds]", "750083314"), choice)
+        assertTimes(listOf(1_696_768_114.0), timed("timeK: Time, Instrument [seconds]", "750083314"), choice)
+        // date -u -d 2023-10-08T12:00:00Z +%s; 8 October is the 281st day.
+        assertTimes(listOf(1_696_766_400.0), timed("timeJV2: Time, Instrument [julian days]", "281.5"), choice)
+        assertTimes(listOf(1_696_766_400.0), timed("timeJ: Julian Days", "281.5"), choice)
+    }
+
+    @Test
+    fun takesTheTimesThatAreNamed() {
+        val names = listOf("timeS: Time, Elapsed [seconds]", "timeM: Time, Elapsed [minutes]", "v: Voltage 0")
+        val log = file(names, listOf("0 0 1", "1 2 1"))
+        assertTimes(listOf(begin, begin + 1), log, LogChoice(value = "v", needsPlace = false))
+        assertTimes(listOf(begin, begin + 120), log, LogChoice(time = "timeM", value = "v", needsPlace = false))
+    }
+
+    @Test
+    fun countsScansWhereThereIsAnIntervalOnly() {
+        val cast = listOf("prdM: Pressure, Strain Gauge [db]", "tv290C: Temperature [ITS-90, deg C]")
+        val choice = LogChoice(x = "Pressure, Strain Gauge", value = "tv290C")
+        val rows = listOf("1.0 20.0", "2.0 19.0", "3.0 18.0")
+        assertTimes(listOf(begin, begin + 0.25, begin + 0.5), file(cast, rows, "seconds: 0.25"), choice)
+        assertTimes(listOf(0.0, 0.25, 0.5), file(cast, rows, "seconds: 0.25", start = null, end = "\n"), choice)
+    }
+
+    private fun refusal(file: Path, choice: LogChoice = LogChoice()) =
+        assertThrows<LogProblem> { SurveyLog.open(file, choice).readings() }.message.orEmpty()
+
+    private fun refusal(text: String) =
+        refusal(directory.resolve("made_up.cnv").apply { writeBytes(text.toByteArray()) })
+
+    @Test
+    fun saysWhatCannotBeRead() {
+        val binned = refusal(file(listOf("prdM: Pressure [db]", "v: V"), listOf("1 2", "2 2"), "decibars: 1"))
+        assertTrue("made_up.cnv:12: expected a column timeS" in binned, binned)
+        val hex = refusal("* Sea-Bird SBE 19plus Data File:\n*END*\n0A53711BC722C14C\n")
+        assertTrue("made_up.cnv:2: expected lines '# name 0 = ...' before *END*" in hex, hex)
+        val endless = refusal("* Sea-Bird SBE 19plus Data File:\n# name 0 = timeS: Time\n")
+        assertTrue("expected a line *END*" in endless, endless)
+        val gapped = refusal("* Sea-Bird SBE 9 Data File:\n# name 1 = timeS: Time\n*END*\n1\n")
+        assertTrue("in their order" in gapped, gapped)
+        val binary = refusal("* Sea-Bird SBE 9 Data File:\n# name 0 = timeS: Time\n*END*\n\u0000\u0001\u0000")
+        assertTrue("binary data: convert it to file_type = ascii" in binary, binary)
+        val short = refusal(file(track, scans + "101.0 45.54376"), LogChoice(value = "sbeox0Mg/L"))
+        assertTrue("made_up.cnv:22: expected 7 fields as in the header, found 3" in short, short)
+        val noPlace = refusal(file(listOf("timeS: Time", "depSM: Depth [m]", "v: V"), listOf("0 1 2", "1 1 2")))
+        assertTrue("(--x 'depSM' for a profile)" in noPlace, noPlace)
+    }
+}
