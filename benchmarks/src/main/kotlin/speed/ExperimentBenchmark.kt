@@ -19,13 +19,13 @@ import java.util.concurrent.TimeUnit
 /**
  * What `benchmark` computes for one field: 100 environments, 6 combinations, 2000 moves; nothing is written.
  *
- * Java still compiles in the sixteenth round; with two workers that takes a core from one of them.
+ * Java still compiles in the 28th round; with two workers that takes a core from one of them.
  */
 @State(Scope.Thread)
 @BenchmarkMode(Mode.SingleShotTime)
 @OutputTimeUnit(TimeUnit.MILLISECONDS)
 @Fork(1)
-@Warmup(iterations = 16)
+@Warmup(iterations = 32)
 @Measurement(iterations = 8)
 open class ExperimentBenchmark {
     /** Environments at once. */

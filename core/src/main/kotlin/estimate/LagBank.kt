@@ -19,6 +19,9 @@ internal class LagBank : ReadingPlayer {
     override val filters: Int get() = NODES
     private val states = DoubleArray(NODES * STRIDE)
     private val remapped = DoubleArray(NODES)
+
+    /** The nodes in units of themselves, as [nodeOf] has them, rounding included: of cells last written at them. */
+    private val ownPlaces = DoubleArray(NODES)
     private val keeps = DoubleArray(NODES)
     private var keepsFor = Double.NaN
     private var memory = DoubleArray(FIRST_SLOTS * SLOT)
@@ -55,8 +58,8 @@ internal class LagBank : ReadingPlayer {
 
     /** Forgets all and starts at [node] and [step]; [noise] is the variance of the readings' noise, scaled. */
     fun reset(node: Double, step: Double, noise: Double) {
-        this.node = node
         this.step = step
+        moveTo(node)
         priorVariance = 1 / maxOf(noise, LEAST_RATIO)
         priorInformation = 1 / priorVariance
         states.fill(0.0)
@@ -148,8 +151,13 @@ internal class LagBank : ReadingPlayer {
             for (i in 0 until NODES) remapped[i] = interpolate(states, k, STRIDE, change / step + i - 1)
             for (i in 0 until NODES) states[i * STRIDE + k] = remapped[i]
         }
-        node += change
+        moveTo(node + change)
         keepsFor = Double.NaN
+    }
+
+    private fun moveTo(node: Double) {
+        this.node = node
+        for (i in 0 until NODES) ownPlaces[i] = placeOf(i, node, step)
     }
 
     private fun visitsPooled(slot: Int) = slot * SLOT < memory.size && memory[slot * SLOT + INFORMATION + 1] > 0
@@ -160,7 +168,13 @@ internal class LagBank : ReadingPlayer {
     }
 
     /** Node [i] in units of the nodes at which the slot at [at] was last written. */
-    private fun nodeOf(at: Int, i: Int) = (node + (i - 1) * step - memory[at + NODE]) / memory[at + STEP]
+    private fun nodeOf(at: Int, i: Int): Double {
+        val from = memory[at + NODE]
+        val unit = memory[at + STEP]
+        return if (from == node && unit == step) ownPlaces[i] else placeOf(i, from, unit)
+    }
+
+    private fun placeOf(i: Int, from: Double, unit: Double) = (node + (i - 1) * step - from) / unit
 
     private fun recall(at: Int, place: Double) = interpolate(memory, at, 1, place)
 

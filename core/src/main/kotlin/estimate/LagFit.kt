@@ -3,6 +3,7 @@ package stillwater.estimate
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.exp
+import kotlin.math.floor
 import kotlin.math.sqrt
 
 /** The first-order lag as a [SensorFit]: its parameter is θ = ln τ. */
@@ -23,6 +24,11 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     private var low = 0.0
     private var middle = 0.0
     private var high = 0.0
+
+    // The search: the least cost so far, whose it is, and whether the play under way can no longer come below it.
+    private var least = 0.0
+    private var leastIndex = 0
+    private val isBehind = { cost(0) > least && cost(1) > least && cost(2) > least }
 
     init {
         bank.reset(mean, WIDEST_STEP, noiseVariance)
@@ -61,20 +67,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     /** Starts over with the time constant that explains the tape best: a coarse search, then Newton's steps. */
     override suspend fun calibrate(tape: Recording) {
-        var best = bank.node
-        var least = Double.POSITIVE_INFINITY
-        val reach = ceil(SEARCHED * belief.spread / (3 * WIDEST_STEP)).toInt()
-        for (k in -reach..reach) {
-            play(tape, mean + 3 * k * WIDEST_STEP, WIDEST_STEP)
-            for (i in 0..2) {
-                val node = bank.node + (i - 1) * bank.step
-                val cost = bank.misfit(i) / noiseVariance + (node - mean) * (node - mean) * priorInformation
-                if (cost < least) {
-                    least = cost
-                    best = node
-                }
-            }
-        }
+        var best = search(tape)
         var step = WIDEST_STEP
         repeat(MOST_ROUNDS) {
             play(tape, best, step)
@@ -89,9 +82,44 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         learn()
     }
 
-    private suspend fun play(tape: Recording, node: Double, step: Double) {
+    /**
+     * θ of the least cost over a coarse grid, of equal ones the lowest. What is nearest to the last time constant comes
+     * first: the misfit only grows on the way, so that most of the others can be left early. It changes nothing else.
+     */
+    suspend fun search(tape: Recording): Double {
+        var best = bank.node
+        val reach = ceil(SEARCHED * belief.spread / (3 * WIDEST_STEP)).toInt()
+        // What is no number becomes 0.
+        val nearest = floor((best - mean) / (3 * WIDEST_STEP) + HALF).toInt().coerceIn(-reach, reach)
+        least = Double.POSITIVE_INFINITY
+        leastIndex = Int.MIN_VALUE
+        for (turn in -reach - 1..reach) {
+            val k = if (turn < -reach) nearest else turn
+            if (k == nearest && turn >= -reach) continue
+            play(tape, mean + 3 * k * WIDEST_STEP, WIDEST_STEP, isBehind)
+            for (i in 0..2) {
+                val cost = cost(i)
+                val index = 3 * k + i
+                if (cost < least || (cost == least && index < leastIndex)) {
+                    least = cost
+                    leastIndex = index
+                    best = node(i)
+                }
+            }
+        }
+        return best
+    }
+
+    private fun node(i: Int) = bank.node + (i - 1) * bank.step
+
+    private fun cost(i: Int): Double {
+        val off = node(i) - mean
+        return bank.misfit(i) / noiseVariance + off * off * priorInformation
+    }
+
+    private suspend fun play(tape: Recording, node: Double, step: Double, isBehind: () -> Boolean = Recording.NEVER) {
         bank.reset(node, step, noiseVariance)
-        tape.play(bank)
+        tape.play(bank, isBehind)
     }
 
     /** Reads time constant and noise off the bank's parabola, eqs. (9) to (11). */
@@ -129,5 +157,6 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         const val NARROWEST_STEP = 1e-3
         const val FARTHEST_OFFSET = 2.0
         const val MOST_ROUNDS = 8
+        const val HALF = 0.5
     }
 }

@@ -22,6 +22,10 @@ internal class ReadingNoise(private val smallest: Double) {
     private val means = DoubleArray(2)
     private val counts = IntArray(2)
 
+    // Asked for many times a reading, and changed by few.
+    private val deviations = DoubleArray(2)
+    private var areCurrent = false
+
     /** Smallest difference between successive readings that is none of rounding, sensor units; 0 before any. */
     var resolution: Double = 0.0
         private set
@@ -44,17 +48,25 @@ internal class ReadingNoise(private val smallest: Double) {
         values[count++] = value
         if (count >= 2) {
             val step = abs(value - values[count - 2])
-            if (step > smallest && step.isFinite() && (resolution == 0.0 || step < resolution)) resolution = step
+            if (step > smallest && step.isFinite() && (resolution == 0.0 || step < resolution)) {
+                resolution = step
+                areCurrent = false
+            }
         }
         if (count == KEPT && evenlySpaced()) learn(rising)
     }
 
     /** Standard deviation σ of readings that rise, or fall; half a step's uniform error at the least, sensor units. */
     fun deviation(rising: Boolean): Double {
-        val side = if (rising) 0 else 1
-        // One direction that was hardly seen borrows from the other.
-        val learned = if (counts[side] >= FEWEST) means[side] else pooled()
-        return sqrt(maxOf(learned / THIRD_DIFFERENCE, resolution * resolution / UNIFORM))
+        if (!areCurrent) {
+            for (side in 0..1) {
+                // One direction that was hardly seen borrows from the other.
+                val learned = if (counts[side] >= FEWEST) means[side] else pooled()
+                deviations[side] = sqrt(maxOf(learned / THIRD_DIFFERENCE, resolution * resolution / UNIFORM))
+            }
+            areCurrent = true
+        }
+        return deviations[if (rising) 0 else 1]
     }
 
     /** What is left of [deviation] without the uniform error of rounding to [resolution], sensor units. */
@@ -75,6 +87,7 @@ internal class ReadingNoise(private val smallest: Double) {
         val counted = if (counts[0] + counts[1] < FEWEST) square else minOf(square, CAP * all)
         if (counts[side] < MOST) counts[side]++
         means[side] += (counted - means[side]) / counts[side]
+        areCurrent = false
     }
 
     private fun evenlySpaced(): Boolean {

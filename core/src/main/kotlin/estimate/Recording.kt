@@ -32,10 +32,14 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
     /** Mean time spent in a cell at a stretch, s. */
     fun meanStay(): Double = tape.meanStay(size)
 
-    /** Goes through all with [player]. */
-    suspend fun play(player: ReadingPlayer) {
+    /**
+     * Goes through all with [player], or as far as what it found may still count: once [isBehind] says that it
+     * cannot, the rest is not gone through. It is told as done all the same, so that a fit is complete at the same
+     * reading.
+     */
+    suspend fun play(player: ReadingPlayer, isBehind: () -> Boolean = NEVER) {
         crossings.leave()
-        play(player, 0, size)
+        play(player, 0, size, isBehind)
     }
 
     /** Goes with [player], which has gone through the first [size], through all that came since. */
@@ -43,18 +47,22 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
         while (size < tape.size) {
             val from = size
             size = tape.size
-            play(player, from, size)
+            play(player, from, size, NEVER)
         }
     }
 
     /** For work other than going through readings, worth so many steps of a filter. */
     suspend fun spend(steps: Int) = parts.spend(steps.toDouble())
 
-    private suspend fun play(player: ReadingPlayer, start: Int, end: Int) {
+    private suspend fun play(player: ReadingPlayer, start: Int, end: Int, isBehind: () -> Boolean) {
         var from = start
+        var counts = true
         while (from < end) {
             val to = minOf(from + AT_ONCE, end)
-            playAtOnce(player, from, to)
+            if (counts) {
+                playAtOnce(player, from, to)
+                counts = !isBehind()
+            }
             parts.spend((to - from) * player.filters.toDouble())
             from = to
         }
@@ -72,8 +80,11 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
         }
     }
 
-    private companion object {
+    companion object {
+        /** For a player that counts to the end, whatever it finds. */
+        val NEVER: () -> Boolean = { false }
+
         /** Readings gone through without looking whether there is time. */
-        const val AT_ONCE = 64
+        private const val AT_ONCE = 64
     }
 }

@@ -188,6 +188,10 @@ internal class ResponseBank : ReadingPlayer {
     /** Sum of squared innovations over their variances at filter [i]. */
     fun misfit(i: Int): Double = bank.misfit(i, branch())
 
+    /** What [misfit] of the middle filter will never be below again. */
+    fun leastMisfit(): Double =
+        if (kind.branches == 1) bank.misfit(0, 0) else minOf(bank.misfit(0, 0), bank.misfit(0, 1))
+
     /** The scaled truth of the cell with [slot] at filter [i]. */
     fun truth(slot: Int, i: Int): Double {
         var sum = 0.0

@@ -172,13 +172,15 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     private suspend fun search(tape: Recording) {
         val from = startFirst
-        var least = Double.POSITIVE_INFINITY
+        least = Double.POSITIVE_INFINITY
+        var shortest = Double.NEGATIVE_INFINITY
         for (stretch in STRETCHES) {
             for (share in shares()) {
                 val second = if (kind == ResponseBankKind.DEAD_TIME) share * most else share
-                val cost = cost(tape, from + stretch, second)
-                if (cost < least) {
+                val cost = cost(tape, from + stretch, second, isBehind)
+                if (cost < least || (cost == least && stretch < shortest)) {
                     least = cost
+                    shortest = stretch
                     startFirst = from + stretch
                     startSecond = second
                 }
@@ -190,7 +192,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private suspend fun descend(tape: Recording) {
         var bestFirst = startFirst
         var bestSecond = startSecond.coerceIn(kind.least, most)
-        var least = cost(tape, bestFirst, bestSecond)
+        least = cost(tape, bestFirst, bestSecond)
         val share = if (isFitted) FIRST_STEP else 1.0
         var firstStep = share * FIRST_REACH
         var secondStep = share * if (kind == ResponseBankKind.DEAD_TIME) most / 10 else widest()
@@ -202,7 +204,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
             for (way in 0 until WAYS) {
                 val first = fromFirst + FIRST_WAY[way] * firstStep
                 val second = (fromSecond + SECOND_WAY[way] * secondStep).coerceIn(kind.least, most)
-                val cost = cost(tape, first, second)
+                val cost = cost(tape, first, second, isBehind)
                 if (cost < least) {
                     least = cost
                     bestFirst = first
@@ -221,11 +223,24 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         judge(bank.misfit(0), bank.freedom, bank.succession)
     }
 
-    private suspend fun cost(tape: Recording, first: Double, second: Double): Double {
+    /** The least cost so far: others are gone through as long as they can come below it. */
+    private var least = 0.0
+    private val isBehind = { cost(bank.leastMisfit()) > least }
+
+    private suspend fun cost(
+        tape: Recording,
+        first: Double,
+        second: Double,
+        isBehind: () -> Boolean = Recording.NEVER,
+    ): Double {
         bank.resetMiddle(kind, first, second, noiseVariance)
-        tape.play(bank)
-        val off = first - belief.mean
-        return bank.misfit(0) / noiseVariance + off * off / (belief.spread * belief.spread)
+        tape.play(bank, isBehind)
+        return if (isBehind()) Double.POSITIVE_INFINITY else cost(bank.misfit(0))
+    }
+
+    private fun cost(misfit: Double): Double {
+        val off = bank.first - belief.mean
+        return misfit / noiseVariance + off * off / (belief.spread * belief.spread)
     }
 
     private fun shares() = when (kind) {
@@ -310,7 +325,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     }
 
     private companion object {
-        val STRETCHES = doubleArrayOf(-1.5, -1.2, -0.9, -0.6, -0.3, 0.0, 0.3, 0.6)
+        val STRETCHES = doubleArrayOf(0.0, -0.3, 0.3, -0.6, 0.6, -0.9, -1.2, -1.5)
         const val WAYS = 8
         val FIRST_WAY = doubleArrayOf(1.0, -1.0, 0.0, 0.0, 1.0, -1.0, 1.0, -1.0)
         val SECOND_WAY = doubleArrayOf(0.0, 0.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0)

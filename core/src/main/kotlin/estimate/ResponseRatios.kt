@@ -85,7 +85,10 @@ internal class ResponseRatios {
             down2 += weight * down * down
             upY += weight * up * difference
             downY += weight * down * difference
-            if (firstOfCell) cells++
+            if (firstOfCell) {
+                cells++
+                quantile = quantile(cells)
+            }
             solve()
         }
         explained += (noise + rising * falling * slopeNoise - explained) / minOf(++seen, RECENT)
@@ -101,7 +104,8 @@ internal class ResponseRatios {
         get() = perSlope < LOOSEST * LOOSEST * rising * falling && base < UNEXPLAINED * explained
 
     /** 97.5 % quantile of Student's distribution, to first order in 1/ν, for the cells that the ratios rest on. */
-    val quantile: Double get() = NORMAL + NORMAL * (NORMAL * NORMAL + 1) / (4.0 * maxOf(1, cells - 2))
+    var quantile: Double = quantile(0)
+        private set
 
     /** Variance of k⁺ [up] − k⁻ [down]: spread from stay to stay, and what is not known of the ratios themselves. */
     fun variance(up: Double, down: Double): Double =
@@ -184,5 +188,7 @@ internal class ResponseRatios {
         /** b over k beyond which a slope tells no distance: at three standard deviations it may be none. */
         const val LOOSEST = 1.0 / 3
         const val SINGULAR = 1e-9
+
+        fun quantile(cells: Int): Double = NORMAL + NORMAL * (NORMAL * NORMAL + 1) / (4.0 * maxOf(1, cells - 2))
     }
 }

@@ -65,35 +65,43 @@ internal class ReachableCells(private val ways: Int) {
         }
         widths.fill(RIM, 0, places)
         for (r in 0 until rows) {
-            var cell = (firstRow + r) * grid.columns + firstColumn
-            var place = (r + 1) * stride + 1
-            repeat(columns) { readCell(map, cell++, place++) }
+            readRow(map, (firstRow + r) * grid.columns + firstColumn, (r + 1) * stride + 1, columns)
         }
         start = (row - firstRow + 1) * stride + column - firstColumn + 1
         for (direction in steps.indices) {
             steps[direction] = NeighbourOrder.ROW_STEPS[direction] * stride + NeighbourOrder.COLUMN_STEPS[direction]
         }
-        for (r in 0 until rows) {
-            val first = (r + 1) * stride + 1
-            for (place in first until first + columns) widestBeside[place] = widestBeside(place)
+        for (r in 0 until rows) widestBesideRow((r + 1) * stride + 1, columns)
+    }
+
+    private fun readRow(map: FieldMap, cell: Int, place: Int, columns: Int) {
+        val widths = widths
+        val middles = middles
+        for (i in 0 until columns) {
+            val lower = map.lower(cell + i)
+            val upper = map.upper(cell + i)
+            // Which bounds have crossed is anybody's guess, the processor's too: no jump depends on it.
+            val width = maxOf(upper - lower, 0.0)
+            widths[place + i] = if (width <= Double.MAX_VALUE) width else 0.0
+            middles[place + i] = lower / 2 + upper / 2
         }
     }
 
-    private fun widestBeside(place: Int): Double {
-        var widest = RIM
-        for (direction in 0 until ways) {
-            val width = widths[place + steps[direction]]
-            if (width > widest) widest = width
+    /** Without a jump as well. */
+    private fun widestBesideRow(first: Int, columns: Int) {
+        val widths = widths
+        val stride = stride
+        for (place in first until first + columns) {
+            val inRow = maxOf(widths[place - 1], widths[place + 1])
+            widestBeside[place] = maxOf(inRow, maxOf(widths[place - stride], widths[place + stride]))
         }
-        return widest
-    }
-
-    private fun readCell(map: FieldMap, cell: Int, place: Int) {
-        val lower = map.lower(cell)
-        val upper = map.upper(cell)
-        val width = upper - lower
-        widths[place] = if (width > 0 && width.isFinite()) width else 0.0
-        middles[place] = lower / 2 + upper / 2
+        if (ways == NeighbourOrder.ALL) {
+            for (place in first until first + columns) {
+                val below = maxOf(widths[place - stride - 1], widths[place - stride + 1])
+                val above = maxOf(widths[place + stride - 1], widths[place + stride + 1])
+                widestBeside[place] = maxOf(widestBeside[place], maxOf(below, above))
+            }
+        }
     }
 
     /** Index in the map's grid of the cell at [place]. */

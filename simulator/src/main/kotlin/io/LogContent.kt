@@ -36,13 +36,14 @@ internal class LogContent private constructor(
     val platypus: PlatypusVersion? = PlatypusVersion.of(head)
 
     /**
-     * The text after its first [skippedLines]; [progress] hears the number of bytes read. Bytes that are no text become
-     * U+FFFD.
+     * The text after its first [skippedLines]; [progress] hears the number of bytes read, of a long file on another
+     * thread. Bytes that are no text become U+FFFD. Close it.
      */
     fun reader(skippedLines: Int = 0, progress: (Long) -> Unit): Reader {
         val stream = CountingStream(Files.newInputStream(file), progress)
         stream.skipNBytes(markLength.toLong())
-        val text = InputStreamReader(table(stream), charset)
+        val decoded = InputStreamReader(table(stream), charset)
+        val text = if (Files.size(file) < LONG) decoded else ReadAhead(decoded)
         if (skippedLines == 0) return text
         return BufferedReader(text).apply { repeat(skippedLines) { readLine() } }
     }
@@ -61,6 +62,9 @@ internal class LogContent private constructor(
 
     companion object {
         private const val HEAD_BYTES = 1 shl 16
+
+        /** Files of so many bytes are decoded ahead, on another core. */
+        private const val LONG = 4_000_000L
         private val WINDOWS_1252 = Charset.forName("windows-1252")
         private val SEA_BIRD = "* Sea-Bird".toByteArray()
         private val GZIP = byteArrayOf(0x1f, 0x8b.toByte())

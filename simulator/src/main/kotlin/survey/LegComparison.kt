@@ -112,10 +112,11 @@ class LegComparison(
         val curve = DoubleArray(shifts.size) { s -> scores.sumOf { it[s] } / scores.size }
         val best = curve.indices.minBy { curve[it] }
         val random = Random(seed)
-        val found = DoubleArray(RESAMPLES) {
-            val legs = resample(scores.size, random)
-            shifts[shifts.indices.minBy { s -> legs.sumOf { leg -> scores[leg][s] } }]
-        }
+        val samples = Array(RESAMPLES) { resample(scores.size, random) }
+        // byShift[shift][leg]: sums go along an array, and all cores take part in them.
+        val byShift = Array(shifts.size) { s -> DoubleArray(scores.size) { leg -> scores[leg][s] } }
+        val found = DoubleArray(RESAMPLES)
+        IntStream.range(0, RESAMPLES).parallel().forEach { found[it] = shifts[least(byShift, samples[it])] }
         val interval = Quantiles(found)
         return LagShift(
             seconds = shifts[best],
@@ -128,6 +129,21 @@ class LegComparison(
             shifts = shifts,
             curve = curve,
         )
+    }
+
+    /** The first of the shifts with the least sum over [legs]. */
+    private fun least(byShift: Array<DoubleArray>, legs: IntArray): Int {
+        var best = 0
+        var least = Double.POSITIVE_INFINITY
+        for (s in byShift.indices) {
+            val scores = byShift[s]
+            val sum = legs.sumOf { scores[it] }
+            if (sum < least) {
+                least = sum
+                best = s
+            }
+        }
+        return best
     }
 
     private fun estimate(scores: List<Double>): Estimate {

@@ -45,7 +45,8 @@ class LegFinder(private val statistics: SurveyStatistics) {
             }
             val dx = track.xs[i] - track.xs[from]
             val dy = track.ys[i] - track.ys[from]
-            if (hypot(dx, dy) < reach) continue
+            // Most points are far below: that is seen without a root.
+            if (dx * dx + dy * dy < SURELY_BELOW * reach * reach || hypot(dx, dy) < reach) continue
             strides += Stride(from, i, dx, dy, gapSeen)
             gapSeen = false
             from = i
@@ -105,9 +106,11 @@ class LegFinder(private val statistics: SurveyStatistics) {
     }
 
     private fun leg(track: Track, first: Int, last: Int, axis: Double): Leg {
-        fun along(i: Int) = track.xs[i] * cos(axis) + track.ys[i] * sin(axis)
+        val cosine = cos(axis)
+        val sine = sin(axis)
+        fun along(i: Int) = track.xs[i] * cosine + track.ys[i] * sine
         var across = 0.0
-        for (i in first..last) across += track.ys[i] * cos(axis) - track.xs[i] * sin(axis)
+        for (i in first..last) across += track.ys[i] * cosine - track.xs[i] * sine
         return Leg(
             first = first,
             last = last,
@@ -131,6 +134,8 @@ class LegFinder(private val statistics: SurveyStatistics) {
     }
 
     private companion object {
+        /** Below one by more than rounding. */
+        const val SURELY_BELOW = 1 - 1e-9
         const val FAST = 0.9
         const val STRIDE_SECONDS = 5.0
         const val STRIDE_STEPS = 2.5

@@ -26,36 +26,37 @@ internal class LegProfiles(private val track: Track, axis: Double, val binWidth:
     fun of(leg: Leg, lag: Double): DoubleArray {
         val sums = DoubleArray(bins)
         val counts = IntArray(bins)
-        val begin = track.times[leg.first]
-        val end = track.times[leg.last]
+        // Asked for once: the first compiler, that of the launcher, asks each time.
+        val times = track.times
+        val values = track.values
+        val size = track.size
+        val begin = times[leg.first]
+        val end = times[leg.last]
+        val last = leg.last
         var i = leg.first
-        while (i > 0 && track.times[i - 1] - lag >= begin) i--
+        while (i > 0 && times[i - 1] - lag >= begin) i--
         var cursor = leg.first
-        while (i < track.size) {
-            val seconds = track.times[i] - lag
+        while (i < size) {
+            val seconds = times[i] - lag
             if (seconds > end) break
             if (seconds >= begin) {
-                while (cursor < leg.last - 1 && track.times[cursor + 1] < seconds) cursor++
-                count(place(cursor, seconds), track.values[i], sums, counts)
+                while (cursor < last - 1 && times[cursor + 1] < seconds) cursor++
+                val share = (place(times, cursor, seconds) - origin) / binWidth
+                // From 0 on cutting off is the floor, which that compiler has no instruction for.
+                val bin = if (share < 0) bins else share.toInt()
+                if (bin < bins) {
+                    sums[bin] += values[i]
+                    counts[bin]++
+                }
             }
             i++
         }
         return DoubleArray(bins) { if (counts[it] == 0) Double.NaN else sums[it] / counts[it] }
     }
 
-    private fun count(place: Double, value: Double, sums: DoubleArray, counts: IntArray) {
-        val share = (place - origin) / binWidth
-        // From 0 on cutting off is the floor, which the first compiler, that of the launcher, has no instruction for.
-        if (share < 0) return
-        val bin = share.toInt()
-        if (bin >= bins) return
-        sums[bin] += value
-        counts[bin]++
-    }
-
-    private fun place(cursor: Int, seconds: Double): Double {
-        val span = track.times[cursor + 1] - track.times[cursor]
-        val share = if (span > 0) (seconds - track.times[cursor]) / span else 0.0
+    private fun place(times: DoubleArray, cursor: Int, seconds: Double): Double {
+        val span = times[cursor + 1] - times[cursor]
+        val share = if (span > 0) (seconds - times[cursor]) / span else 0.0
         return along[cursor] + (along[cursor + 1] - along[cursor]) * share
     }
 }

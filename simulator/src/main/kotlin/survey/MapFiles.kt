@@ -3,6 +3,7 @@ package stillwater.survey
 import stillwater.field.FieldMap
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import stillwater.plot.atOnce
 import stillwater.plot.drawConcurrently
 import stillwater.report.CsvTable
 import stillwater.report.GeoCorner
@@ -31,17 +32,33 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
      */
     fun write(directory: OutputDirectory): List<String> {
         directory.retire(MapFigures.NAMES.flatMap { listOf("$it.svg", "$it.png") } + "cells.geojson")
-        directory.stream("cells.csv") { out ->
-            val table = CsvTable(out, COLUMNS)
-            map.maps.forEach { (kind, field) -> rows(table, kind, field) }
-            // Closing it writes what it has buffered.
-            table.close()
-        }
-        map.log.frame?.let { frame -> directory.write("cells.geojson", GeoJson.text(polygons(frame))) }
-        val figures = drawConcurrently(MapFigures(map).draw()) { it.figure }
-        val warnings = directory.writeFigures(figures.map { it.name to it.figure })
-        directory.write("report.html", MapReport(map, summary, figures, command).render())
+        var polygons: String? = null
+        val figures = drawConcurrently(
+            MapFigures(map).draw(),
+            // Nothing else is written meanwhile: a directory is for one thread at a time.
+            beside = listOf(
+                { cells(directory) },
+                { polygons = map.log.frame?.let { GeoJson.text(polygons(it)) } },
+            ),
+        ) { it.figure }
+        polygons?.let { directory.write("cells.geojson", it) }
+        var warnings = emptyList<String>()
+        var report = ""
+        atOnce(
+            listOf(
+                { warnings = directory.writeFigures(figures.map { it.name to it.figure }) },
+                { report = MapReport(map, summary, figures, command).render() },
+            ),
+        )
+        directory.write("report.html", report)
         return warnings
+    }
+
+    private fun cells(directory: OutputDirectory) = directory.stream("cells.csv") { out ->
+        val table = CsvTable(out, COLUMNS)
+        map.maps.forEach { (kind, field) -> rows(table, kind, field) }
+        // Closing it writes what it has buffered.
+        table.close()
     }
 
     private fun rows(table: CsvTable, kind: FilterKind, field: FieldMap) {

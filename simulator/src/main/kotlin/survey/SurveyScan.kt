@@ -97,7 +97,8 @@ class SurveyScan : ReadingSink {
     /** What was seen so far; needs two readings. */
     fun statistics(): SurveyStatistics {
         check(readings >= 2) { "statistics need at least 2 readings, there are $readings" }
-        val values = points.column(3)
+        // Sorted here, once: what is in order is sorted again in no time.
+        val values = points.column(3).apply { sort() }
         return SurveyStatistics(
             readings = readings,
             startTime = first,

@@ -19,7 +19,7 @@ internal object ValueResolution {
         val sorted = values.copyOf().apply { sort() }
         if (sorted.isEmpty()) return Double.NaN
         val smallest = maxOf(abs(sorted.first()), abs(sorted.last())) * DIGITS
-        val steps = (1 until sorted.size).map { sorted[it] - sorted[it - 1] }.filter { it > smallest }.sorted()
+        val steps = steps(sorted, smallest)
         if (steps.size < FEWEST_STEPS) return Double.NaN
         val step = steps.first()
         val matching = steps.count { gap ->
@@ -31,6 +31,17 @@ internal object ValueResolution {
         val isGrid = matching >= ON_THE_STEP * steps.size && places <= steps.size * MOST_PLACES_A_VALUE
         // Rounding noise goes: 0.010000000000000009 is 0.01.
         return if (isGrid) "%.6g".format(java.util.Locale.ROOT, step).toDouble() else Double.NaN
+    }
+
+    /** Differences of neighbours in [sorted] above [smallest], ascending. */
+    private fun steps(sorted: DoubleArray, smallest: Double): DoubleArray {
+        val steps = DoubleArray(sorted.size)
+        var count = 0
+        for (i in 1 until sorted.size) {
+            val step = sorted[i] - sorted[i - 1]
+            if (step > smallest) steps[count++] = step
+        }
+        return steps.copyOf(count).apply { sort() }
     }
 
     /**
