@@ -29,7 +29,7 @@ public class CorrectedTrack internal constructor(
     public val silent: BooleanArray,
     public val outlying: BooleanArray,
 ) {
-    /** The same values, with intervals that hold those of [other] as well: where it is possible too, but less likely. */
+    /** The same values, with intervals that hold those of [other] as well, which is possible too but less likely. */
     public fun holding(other: CorrectedTrack): CorrectedTrack = CorrectedTrack(
         values,
         DoubleArray(values.size) { minOf(lower[it], other.lower[it]) },

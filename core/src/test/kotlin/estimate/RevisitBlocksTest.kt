@@ -16,7 +16,7 @@ class RevisitBlocksTest {
         return TrackNodes(PhaseCorrection(TrackSeries(column(0), column(1), column(2), values)), thinning = 1)
     }
 
-    /** The places across of the runs that blocks amidst the leg at [x] are held against: near turns legs run into another. */
+    /** Places across of the runs that blocks amidst the leg at [x] are held against. */
     private fun against(x: Double, nodes: TrackNodes): Set<List<Double>> =
         RevisitBlocks(nodes, mostBlocks = 150).find()
             .filter { nodes.xs[it.start] == x && nodes.ys[it.start] in 30.0..50.0 }

@@ -124,14 +124,15 @@ internal class CorrectSummary(
 
     private fun evidence(): String = when (result.origin) {
         SensorOrigin.REVISITS ->
-            "${result.learned.blocks} runs of the track foretold by other passes, from ${result.learned.readings} readings" + unseen()
+            "${result.learned.blocks} runs of the track foretold by other passes, " +
+                "from ${result.learned.readings} readings" + unseen()
         SensorOrigin.REFERENCE -> "${result.learned.readings} readings with a reference"
         else -> result.origin.label
     }
 
     /** What passes of a track cannot show: a slow path's few percent move features less than the lag's own error. */
     private fun unseen(): String =
-        if (result.choice?.open?.any { it.kind.hasTwoPaths } != false) {
+        if (result.choice?.open?.any { it.kind.hasTwoPaths } != false || result.choice?.hinted != null) {
             ""
         } else {
             "; a slow path with a share of a few percent would not show, and is not in the intervals"
@@ -276,7 +277,8 @@ internal class CorrectSummary(
                         "steps, and half a step less is undone",
                 )
             }
-            if (result.learned.withoutReference > 0) add("${result.learned.withoutReference} readings have no reference")
+            val without = result.learned.withoutReference
+            if (without > 0) add("$without readings have no reference")
         }
 
     private companion object {

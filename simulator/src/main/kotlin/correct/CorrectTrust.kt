@@ -29,9 +29,9 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
         else -> "${agreement.crossings} places"
     }
 
-    /** How often the boat was where it had been; legs beside each other are different places. */
+    /** How seldom the boat was where it had been; legs beside each other are different places. */
     private fun crossings() = when {
-        result.log.oneDimensional -> "no later pass goes through more than ${places()} again"
+        result.log.oneDimensional -> "later passes go through ${places()} again"
         agreement.crossings == 0 -> "the boat's track nowhere crosses itself"
         else -> "the boat's track crosses itself in ${places()} only"
     }
@@ -61,8 +61,8 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     private fun unchecked(): String? {
         if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
         return "${crossings()}, and intervals are checked where two passes read the same place, " +
-            "${TrackAgreement.FEWEST} places at least: unchecked, they hold if the sensor is one of those named. A few " +
-            "legs across the others would check them"
+            "${TrackAgreement.FEWEST} places at least: unchecked, they hold if the sensor is one of those named. " +
+            "A few legs across the others would check them"
     }
 
     /** A rate that is reached often hides what else the sensor does. */
