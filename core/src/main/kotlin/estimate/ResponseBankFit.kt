@@ -9,6 +9,7 @@ import kotlin.math.sqrt
 internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     private val bank = ResponseBank()
     private val surface = QuadraticSurface()
+    private val ridge = MisfitRidge()
 
     /** The cell whose truth was last asked for, which the surface shows then. */
     private var asked = LagBank.NONE
@@ -48,16 +49,20 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** Variance of [first]. */
     val firstVariance: Double
-        get() = (certain(1 / curveFirst) + tilt * tilt * certain(spreadSecond)) * bank.firstStep * bank.firstStep
+        get() = (certain(1 / curveFirst) + tilt * tilt * alongRidge) * bank.firstStep * bank.firstStep
 
     /** Variance of [second]. */
-    val secondVariance: Double get() = certain(spreadSecond) * bank.secondStep * bank.secondStep
+    val secondVariance: Double get() = alongRidge * bank.secondStep * bank.secondStep
 
     /** Covariance of [first] and [second]. */
-    val covariance: Double get() = -tilt * certain(spreadSecond) * bank.firstStep * bank.secondStep
+    val covariance: Double get() = -tilt * alongRidge * bank.firstStep * bank.secondStep
 
     /** A variance in steps squared: once the nodes stay where they are, the surface is not exact to better than this. */
-    private fun certain(variance: Double) = if (follows) maxOf(variance, kind.exactness * kind.exactness) else variance
+    private fun certain(variance: Double) = if (follows) maxOf(variance, EXACT * EXACT) else variance
+
+    /** Variance of the second parameter, in its steps squared. */
+    private val alongRidge: Double
+        get() = spreadSecond * ridge.tightness + if (follows) ridge.offset * ridge.offset + EXACT * EXACT else 0.0
 
     /** From now on there is no tape to start over from. */
     fun follow() {
@@ -81,6 +86,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         placeFirst = other.placeFirst
         placeSecond = other.placeSecond
         spreadSecond = other.spreadSecond
+        ridge.becomeLike(other.ridge)
         startFirst = other.startFirst
         startSecond = other.startSecond
         isFitted = other.isFitted
@@ -105,6 +111,11 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** A coarse search over both parameters, then Newton's steps within a region that shrinks with the uncertainty. */
     override suspend fun calibrate(tape: Recording) {
+        settle(tape)
+        measureRidge(tape)
+    }
+
+    private suspend fun settle(tape: Recording) {
         limit(tape)
         if (!isFitted) search(tape)
         descend(tape)
@@ -115,7 +126,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
             play(tape, firstStep, secondStep)
             learn()
             val wantedFirst = (2 * sqrt(firstVariance)).coerceIn(NARROWEST, WIDEST_FIRST)
-            val wantedSecond = (2 * sqrt(secondVariance)).coerceIn(NARROWEST * widest(), widest())
+            val wantedSecond = (2 * sqrt(spreadSecond) * bank.secondStep).coerceIn(NARROWEST * widest(), widest())
             val changeFirst = placeFirst.coerceIn(-1.0, 1.0) * firstStep
             val reach = bank.secondStep
             val changeSecond = (bank.second + placeSecond.coerceIn(-1.0, 1.0) * reach)
@@ -131,6 +142,22 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         }
         play(tape, firstStep, secondStep)
         learn()
+    }
+
+    private suspend fun measureRidge(tape: Recording) {
+        val step = bank.secondStep
+        // All five where a sensor can be, about the middle filter or as near to it as that.
+        val nearest = bank.second.coerceAtMost(most - 2 * step).coerceAtLeast(kind.least + 2 * step)
+        if (nearest + 2 * step > most) return ridge.forget()
+        val shift = (nearest - bank.second) / step
+        fun first(place: Double) = bank.first + (slopeFirst - curveBoth * place) / curveFirst * bank.firstStep
+
+        fun second(place: Double) = bank.second + place * step
+        ridge.measure(tape, { first(shift + it) to second(shift + it) }, kind, noiseVariance) { left, first ->
+            val off = (first - belief.mean) / belief.spread
+            left / (2 * noiseVariance) + off * off / 2
+        }
+        if (shift != 0.0) ridge.forgetTightness()
     }
 
     /** The next step: no narrower than wanted or than the last change, and narrowing no faster than by four. */
@@ -319,9 +346,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     override fun variance(): Double {
         val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
         val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
-        val alongRidge = bySecond - tilt * byFirst
+        val byRidge = bySecond - tilt * byFirst
         return noiseVariance / bank.information(asked, 0) + byFirst * byFirst * certain(1 / curveFirst) +
-            alongRidge * alongRidge * certain(spreadSecond)
+            byRidge * byRidge * alongRidge
     }
 
     private companion object {
@@ -345,6 +372,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         const val PARTS = 48
         const val HALF = 0.5
         const val MOST_BELOW = 8.0
+        const val EXACT = 0.125
         const val CLOSE = 0.03
         const val MOST_ROUNDS = 10
     }

@@ -12,27 +12,24 @@ import kotlin.math.sqrt
  * @property branches how many ways a visit can go: rising and falling, where they differ.
  * @property least smallest second parameter.
  * @property most largest second parameter.
- * @property exactness how well the quadratic through the filters tells where the parameters lie, in steps between filters:
- *   measured by the intervals' coverage, core/docs/SelfCalibratingEstimator.md.
  */
 internal enum class ResponseBankKind(
     val lags: Int,
     val branches: Int,
     val least: Double,
     val most: Double,
-    val exactness: Double,
 ) {
     /** Second parameter: a = ln(τ rising / τ falling); the first is the mean of their logarithms. */
-    ASYMMETRIC(lags = 1, branches = 2, least = -4.0, most = 4.0, exactness = 0.125),
+    ASYMMETRIC(lags = 1, branches = 2, least = -4.0, most = 4.0),
 
     /** Second parameter: the dead time, s. */
-    DEAD_TIME(lags = 1, branches = 1, least = 0.0, most = Double.MAX_VALUE, exactness = 0.125),
+    DEAD_TIME(lags = 1, branches = 1, least = 0.0, most = Double.MAX_VALUE),
 
     /**
      * Two lags in a row; second parameter: p, the product of their time constants over the square of their sum T. First:
      * ln T + [SHEAR] (p − 1/4), because readings tell that better than ln T.
      */
-    SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25, exactness = 0.25),
+    SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25),
     ;
 
     /** Logarithm of the time constant, s, or of its mean or sum. */

@@ -51,6 +51,9 @@ public class ResponseChoice private constructor(
     public fun likely(): List<LikelyResponse> =
         standings.filter { it.isOpen }.map { LikelyResponse(it.candidate.likely(), it.weight) }
 
+    /** The [hinted] response alone, for [TrackCorrector]; null without one. */
+    public fun likelyHint(): LikelyResponse? = hinted?.let { LikelyResponse(it.likely(), 1.0) }
+
     public companion object {
         /** Standard errors behind the best from which a candidate is ruled out. */
         public const val RULED_OUT: Double = 2.6

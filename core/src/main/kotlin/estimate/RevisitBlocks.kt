@@ -17,8 +17,8 @@ internal class RevisitBlock(val firsts: IntArray, val lengths: IntArray) {
  * Finds where a track comes back to water it has been in, or near to: crossings, neighbouring legs, casts.
  *
  * A pass is a local minimum in time of the distance to the block's middle. Of the passes not much farther away than
- * passes usually are, the last before the block and the first after it are taken, and one more either way where the
- * other side has none.
+ * passes usually are, the last before the block and the first after it are taken; where one side has none, the first
+ * there that is not very far, and where it has none at all, one more of the other.
  */
 internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBlocks: Int) {
     private class Pass(val node: Int, val distance: Double)
@@ -30,7 +30,7 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         val nearest = passes.mapNotNull { found -> found.minOfOrNull { it.distance } }.sorted()
         if (nearest.isEmpty()) return emptyList()
         val reach = FARTHEST * nearest[nearest.size / 2] + ownLength(starts)
-        return starts.indices.mapNotNull { block(starts[it], passes[it].filter { pass -> pass.distance <= reach }) }
+        return starts.indices.mapNotNull { block(starts[it], passes[it], reach) }
     }
 
     /** Usual way along a block, m. */
@@ -80,18 +80,29 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         return true
     }
 
-    private fun block(start: Int, passes: List<Pass>): RevisitBlock? {
-        val before = passes.filter { it.node < start }.takeLast(2).reversed()
-        val after = passes.filter { it.node > start }.take(2)
-        val chosen = listOfNotNull(before.getOrNull(0), after.getOrNull(0)).toMutableList()
-        if (chosen.size < 2) (before.getOrNull(1) ?: after.getOrNull(1))?.let { chosen += it }
-        if (chosen.isEmpty()) return null
+    private fun block(start: Int, passes: List<Pass>, reach: Double): RevisitBlock? {
+        val before = passes.filter { it.node < start }.reversed()
+        val after = passes.filter { it.node > start }
+        val nearBefore = before.filter { it.distance <= reach }
+        val nearAfter = after.filter { it.distance <= reach }
+        if (nearBefore.isEmpty() && nearAfter.isEmpty()) return null
+        val chosen = listOfNotNull(
+            nearBefore.firstOrNull() ?: balancing(before, reach),
+            nearAfter.firstOrNull() ?: balancing(after, reach),
+        ).toMutableList()
+        if (chosen.size < 2) (nearBefore.getOrNull(1) ?: nearAfter.getOrNull(1))?.let { chosen += it }
         val ranges = chosen.map { run(it.node, start) }.filter { it.last - it.first + 1 >= FEWEST }
         if (ranges.isEmpty()) return null
         val firsts = ranges.map { it.first } + start
         val lengths = ranges.map { it.last - it.first + 1 } + BLOCK
         return RevisitBlock(firsts.toIntArray(), lengths.toIntArray())
     }
+
+    /**
+     * The first of [passes] not beyond some times the [reach], or null. Legs in pairs have their near passes all on one
+     * side, where water that lies at a slant looks like a delay; on the other side it looks like the contrary.
+     */
+    private fun balancing(passes: List<Pass>, reach: Double) = passes.firstOrNull { it.distance <= BALANCING * reach }
 
     /** Nodes about [node], in its stretch and not in the block at [start]. */
     private fun run(node: Int, start: Int): IntRange {
@@ -112,5 +123,6 @@ internal class RevisitBlocks(private val nodes: TrackNodes, private val mostBloc
         private const val FEWEST = 6
         private const val OWN = 2 * BLOCK
         private const val FARTHEST = 1.6
+        private const val BALANCING = 3.0
     }
 }

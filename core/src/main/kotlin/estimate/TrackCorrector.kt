@@ -28,7 +28,16 @@ public class CorrectedTrack internal constructor(
     public val upper: DoubleArray,
     public val silent: BooleanArray,
     public val outlying: BooleanArray,
-)
+) {
+    /** The same values, with intervals that hold those of [other] as well, which is possible too but less likely. */
+    public fun holding(other: CorrectedTrack): CorrectedTrack = CorrectedTrack(
+        values,
+        DoubleArray(values.size) { minOf(lower[it], other.lower[it]) },
+        DoubleArray(values.size) { maxOf(upper[it], other.upper[it]) },
+        silent,
+        outlying,
+    )
+}
 
 /**
  * Undoes a sensor's response along a whole track, with an honest interval: what the sensor has smoothed away is not

@@ -5,6 +5,7 @@ import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
+import kotlin.test.assertTrue
 
 /** Which responses stay open, by scores written by hand. */
 class ResponseChoiceTest {
@@ -54,6 +55,9 @@ class ResponseChoiceTest {
         assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 98.0, 0.1)))
         assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 102.0, 3.0)))
         assertEquals(null, hinted(lag))
+        val undone = requireNotNull(ResponseChoice.of(listOf(lag, level), Random(1)).likelyHint()).responses
+        assertTrue(undone.all { it.slowShare > 0 }, "$undone")
+        assertEquals(null, ResponseChoice.of(listOf(lag), Random(1)).likelyHint())
     }
 
     @Test

@@ -115,6 +115,7 @@ class CorrectFiles(
             putJsonArray("held_out") { scores.forEach { add(split(it)) } }
         }
         put("mean_half_width", finite(summary.halfWidth))
+        summary.unhintedHalfWidth?.let { put("mean_half_width_without_hint", finite(it)) }
         putJsonObject("agreement") {
             put("crossings", result.agreement.crossings)
             put("ratio", finite(result.agreement.ratio))
@@ -123,8 +124,8 @@ class CorrectFiles(
             put("spread", finite(result.agreement.spread))
             put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
         }
-        put("learned_on", result.learnedOn)
-        put("blocks", result.blocks)
+        put("learned_on", result.learned.readings)
+        put("blocks", result.learned.blocks)
     }
 
     private fun candidate(standing: CandidateStanding) = buildJsonObject {

@@ -7,6 +7,7 @@ import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import stillwater.estimate.CandidateResponse
+import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.UndoableSensor
 import stillwater.survey.Wording.Companion.digits
@@ -92,9 +93,18 @@ internal class CorrectSummary(
     }
 
     /** Mean half width of the intervals, sensor units. */
-    val halfWidth: Double
-        get() = result.track.lower.indices.sumOf { result.track.upper[it] - result.track.lower[it] } /
-            (2 * maxOf(1, result.track.lower.size))
+    val halfWidth: Double get() = halfWidth(result.track)
+
+    /** The same if there is nothing of what the log only hints at, sensor units; null where it hints at nothing. */
+    val unhintedHalfWidth: Double? get() = result.choice?.hinted?.let { halfWidth(result.unhinted) }
+
+    private fun halfWidth(track: CorrectedTrack) =
+        track.lower.indices.sumOf { track.upper[it] - track.lower[it] } / (2 * maxOf(1, track.lower.size))
+
+    private fun interval(): String {
+        val unhinted = unhintedHalfWidth?.let { " (${digits(it, 3)}$unitAfter if there is no slow path)" }.orEmpty()
+        return "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average$unhinted; ${trust.words}"
+    }
 
     /** Names and values, in order; the first six go to the terminal. */
     val facts: List<Pair<String, String>>
@@ -104,7 +114,7 @@ internal class CorrectSummary(
             add("evidence" to evidence())
             add("opposite legs" to legs())
             add("rows" to rows())
-            add("interval" to "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average; ${trust.words}")
+            add("interval" to interval())
             heldOut?.let { add("held out" to heldOut(it)) }
             heldOut?.let(::passes)?.let { add("passes not learned on" to it) }
             add("duration" to duration(result.statistics.duration))
@@ -114,14 +124,15 @@ internal class CorrectSummary(
 
     private fun evidence(): String = when (result.origin) {
         SensorOrigin.REVISITS ->
-            "${result.blocks} runs of the track foretold by other passes, from ${result.learnedOn} readings" + unseen()
-        SensorOrigin.REFERENCE -> "${result.learnedOn} readings with a reference"
+            "${result.learned.blocks} runs of the track foretold by other passes, " +
+                "from ${result.learned.readings} readings" + unseen()
+        SensorOrigin.REFERENCE -> "${result.learned.readings} readings with a reference"
         else -> result.origin.label
     }
 
     /** What passes of a track cannot show: a slow path's few percent move features less than the lag's own error. */
     private fun unseen(): String =
-        if (result.choice?.open?.any { it.kind.hasTwoPaths } != false) {
+        if (result.choice?.open?.any { it.kind.hasTwoPaths } != false || result.choice?.hinted != null) {
             ""
         } else {
             "; a slow path with a share of a few percent would not show, and is not in the intervals"
@@ -210,8 +221,8 @@ internal class CorrectSummary(
         val share = twoPaths.kind.parameters.lastIndex
         val range = twoPaths.interval(share)
         return "the log hints at a slow path with a share of ${percent(twoPaths.parameter(share))} " +
-            "(${percent(range.start)} to ${percent(range.endInclusive)}), too weakly to count: " +
-            "if it is there, far less than 95 % of the rows are in their intervals"
+            "(${percent(range.start)} to ${percent(range.endInclusive)}), too weakly to undo it: " +
+            "the values are without it, the intervals were widened to hold it"
     }
 
     /** What the user should know, one line each. */
@@ -231,7 +242,7 @@ internal class CorrectSummary(
                         "the intervals cover them all; sensor.json holds the most likely",
                 )
             }
-            result.referenceFault?.let { fault ->
+            result.learned.fault?.let { fault ->
                 val instead = if (result.origin == SensorOrigin.NOTHING) {
                     "nothing was learned"
                 } else {
@@ -257,16 +268,17 @@ internal class CorrectSummary(
                         "their rows are foretold from the others, with intervals that reach to the readings",
                 )
             }
-            if (result.learnedOn in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
-                add("the sensor was learned on the ${result.learnedOn} readings in the middle of the log")
+            if (result.learned.readings in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
+                add("the sensor was learned on the ${result.learned.readings} readings in the middle of the log")
             }
-            if (result.held) {
+            if (result.learned.held) {
                 add(
                     "the reference looks held over each step, as a simulation holds it: sensor.json is of such " +
                         "steps, and half a step less is undone",
                 )
             }
-            if (result.withoutReference > 0) add("${result.withoutReference} readings have no reference")
+            val without = result.learned.withoutReference
+            if (without > 0) add("$without readings have no reference")
         }
 
     private companion object {

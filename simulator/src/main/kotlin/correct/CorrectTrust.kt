@@ -17,7 +17,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     val words: String
         get() = when {
             result.origin == SensorOrigin.NOTHING -> "if the sensor has no lag"
-            agreement.ratio.isNaN() -> "not checked, for the track comes to ${places()} a second time"
+            agreement.ratio.isNaN() -> "not checked, for ${crossings()}"
             isWidened -> "widened by what passes disagree in ${places()}"
             agreement.isContradicted -> "passes disagree by more in ${places()}"
             else -> "passes agree as far as that in ${places()}"
@@ -27,6 +27,13 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
         0 -> "no place"
         1 -> "1 place"
         else -> "${agreement.crossings} places"
+    }
+
+    /** How seldom the boat was where it had been; legs beside each other are different places. */
+    private fun crossings() = when {
+        result.log.oneDimensional -> "later passes go through ${places()} again"
+        agreement.crossings == 0 -> "the boat's track nowhere crosses itself"
+        else -> "the boat's track crosses itself in ${places()} only"
     }
 
     /** What the user should know, one line each. */
@@ -53,8 +60,9 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     private fun unchecked(): String? {
         if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
-        return "the track comes to ${places()} a second time, too few to check the intervals by: they hold if the " +
-            "sensor is one of those named"
+        return "${crossings()}, and intervals are checked where two passes read the same place, " +
+            "${TrackAgreement.FEWEST} places at least: unchecked, they hold if the sensor is one of those named. " +
+            "A few legs across the others would check them"
     }
 
     /** A rate that is reached often hides what else the sensor does. */

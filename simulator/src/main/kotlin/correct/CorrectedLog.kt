@@ -38,37 +38,35 @@ enum class SensorOrigin(val label: String) {
  * A log with its sensor's response undone.
  *
  * @property log the log. @property pass what reading it came to. @property series its readings.
- * @property origin where the sensor comes from. @property choice the candidates and what is left open, or null where
- * nothing
- *   was chosen. @property spec the sensor, the most likely if several are open. @property track the field along the
- * track.
+ * @property learned where the sensor comes from, and what it may be.
+ * @property spec the sensor, the most likely if several are open. @property track the field along the track.
+ * @property unhinted the same with intervals that do not hold what the log only hints at; [track] where it hints at
+ * nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
- * @property learnedOn readings that the sensor was learned on. @property blocks runs of the track held against others.
- * @property withoutReference readings left out because the reference is missing there.
- * @property referenceFault why the reference was not learned from, for people; null where it was, or there is none.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
  * for it.
- * @property held whether the reference looks held over each step, as in a simulation: the sensor is that of such steps.
+ * @param conditions what the log holds beside the readings, by name.
  */
 class CorrectedLog internal constructor(
     val log: SurveyLog,
     val pass: LogPass,
     val series: TrackSeries,
-    val origin: SensorOrigin,
-    val choice: ResponseChoice?,
+    internal val learned: Learned,
     val spec: SensorSpec,
     val track: CorrectedTrack,
+    val unhinted: CorrectedTrack,
     val statistics: SurveyStatistics,
     val before: LegMismatch?,
     val after: LegMismatch?,
-    val learnedOn: Int,
-    val blocks: Int,
-    val withoutReference: Int,
-    val held: Boolean,
-    val referenceFault: String?,
     val agreement: TrackAgreement,
     private val conditions: Map<String, DoubleArray> = emptyMap(),
 ) {
+    /** Where the sensor comes from. */
+    val origin: SensorOrigin get() = learned.origin
+
+    /** The candidates and what is left open, or null where nothing was chosen. */
+    val choice: ResponseChoice? get() = learned.choice
+
     private val resolution: Double = resolution(statistics, series)
 
     /** The water if the sensor had no lag: readings smoothed as [track] is, and calibrated, with nothing undone. */
@@ -102,7 +100,7 @@ class CorrectedLog internal constructor(
         return HeldOutLegs(CorrectedLegs(before, series.values), passes, plain) { rows ->
             val learned = SensorLearning.byRevisits(series.at(rows))
             if (learned.choice == null) return@HeldOutLegs null
-            val values = corrected(series, learned, learned.stages, resolution).values
+            val values = corrected(series, learned.likely, learned.stages, resolution).values
             legs(series, values)?.let { CorrectedLegs(it, values) }
         }.scores()
     }
@@ -156,50 +154,44 @@ class CorrectedLog internal constructor(
                     null,
                     listOf(LikelyResponse(listOf(undone.response), 1.0)),
                     given.stages,
-                    0,
-                    0,
                 )
                 hasReference -> SensorLearning.byReference(log, series, rows.references())
                 else -> SensorLearning.byRevisits(series)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
             val others = withSpeed(series, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
-            val narrow = corrected(series, learned, spec.stages, resolution, others)
+            val narrow = corrected(series, learned.likely, spec.stages, resolution, others)
             val agreement = TrackAgreement.of(series, narrow)
             // What a given sensor's intervals are is the giver's: they are told of, not changed.
-            val track = if (learned.origin == SensorOrigin.GIVEN) narrow else agreement.widened(narrow)
+            val unhinted = if (learned.origin == SensorOrigin.GIVEN) narrow else agreement.widened(narrow)
+            val hinted = learned.hinted?.let { corrected(series, listOf(it), spec.stages, resolution, others) }
             return CorrectedLog(
                 log,
                 pass,
                 series,
-                learned.origin,
-                learned.choice,
+                learned,
                 spec,
-                track,
+                if (hinted == null) unhinted else unhinted.holding(hinted),
+                unhinted,
                 statistics,
                 legs(series, series.values),
-                legs(series, track.values),
-                learned.readings,
-                learned.blocks,
-                learned.withoutReference,
-                learned.held,
-                learned.fault,
+                legs(series, unhinted.values),
                 agreement,
                 others,
             )
         }
 
-        /** [series] with the response of [stages] undone as [learned] says. */
+        /** [series] with the calibration of [stages] undone, and the response that is one of [likely]. */
         private fun corrected(
             series: TrackSeries,
-            learned: Learned,
+            likely: List<LikelyResponse>,
             stages: List<SensorStage>,
             resolution: Double,
             conditions: Map<String, DoubleArray> = emptyMap(),
         ): CorrectedTrack {
             val sensor = UndoableSensor.of(SensorSpec("", stages))
             val scaled = sensor.calibrated(series, conditions)
-            return TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(learned.likely)
+            return TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(likely)
         }
 
         /** [conditions] and the speed, from the positions where the log does not hold it, as the diagnosis takes it. */

@@ -24,21 +24,23 @@ import kotlin.random.Random
  * What a log says about its sensor.
  *
  * @property origin where it comes from. @property choice the candidates, or null where nothing was chosen.
- * @property likely the responses to undo. @property stages the most likely, with its calibration.
+ * @property likely the responses to undo. @property hinted one that is too weakly hinted at to count among them, but
+ * that intervals have to hold, or null. @property stages the most likely, with its calibration.
  * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
  * readings without one. @property held whether the reference looks held over each step. @property fault why the
  * reference was not learned from, or null.
  */
-internal class Learned(
+internal data class Learned(
     val origin: SensorOrigin,
     val choice: ResponseChoice?,
     val likely: List<LikelyResponse>,
     val stages: List<SensorStage>,
-    val readings: Int,
-    val blocks: Int,
+    val readings: Int = 0,
+    val blocks: Int = 0,
     val withoutReference: Int = 0,
     val held: Boolean = false,
     val fault: String? = null,
+    val hinted: LikelyResponse? = null,
 )
 
 /** Learns a log's sensor, from passes through the same water or from a reference. */
@@ -74,7 +76,7 @@ internal object SensorLearning {
         if (rate.isFinite()) {
             val response = ResponseKind.SLEW.response(rate)
             val likely = listOf(LikelyResponse(listOf(response), 1.0))
-            return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size, 0)
+            return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size)
         }
         var part = series.middle(MOST_LEARNED)
         var learner = RevisitLearner.of(part)
@@ -86,17 +88,18 @@ internal object SensorLearning {
         val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
             ?: return nothing(part.size)
         val stages = choice.first.response.stages()
-        return Learned(SensorOrigin.REVISITS, choice, choice.likely(), stages, part.size, learner.blocks)
+        return Learned(
+            SensorOrigin.REVISITS,
+            choice,
+            choice.likely(),
+            stages,
+            part.size,
+            learner.blocks,
+            hinted = choice.likelyHint(),
+        )
     }
 
-    private fun nothing(readings: Int) = Learned(
-        SensorOrigin.NOTHING,
-        null,
-        NO_LAG,
-        emptyList(),
-        readings,
-        0,
-    )
+    private fun nothing(readings: Int) = Learned(SensorOrigin.NOTHING, null, NO_LAG, emptyList(), readings)
 
     /** What [references], NaN where there is none, say of the readings of [series]. */
     fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
@@ -114,26 +117,25 @@ internal object SensorLearning {
         val reference = DoubleArray(usable.size) { references[usable[it]] }
         val held = ReferenceLearner.isHeld(part, reference)
         val learner = ReferenceLearner(part, reference, held)
-        fault(series, part, learner)?.let { return withoutReference(series, it) }
+        fault(series, part, learner)?.let { return byRevisits(series).copy(fault = it) }
         val choice =
             requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
         // What is undone is a response to water that changes all the time.
-        val likely = choice.likely().map { open ->
-            if (!held) return@map open
-            LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight)
-        }
+        fun undone(open: LikelyResponse) =
+            if (held) LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight) else open
         val response = choice.first.response
         val (gain, offset) = learner.calibration(response)
         val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
         return Learned(
             SensorOrigin.REFERENCE,
             choice,
-            likely,
+            choice.likely().map(::undone),
             stages,
             part.size,
             learner.groups,
             series.size - known.size,
             held,
+            hinted = choice.likelyHint()?.let(::undone),
         )
     }
 
@@ -153,19 +155,6 @@ internal object SensorLearning {
             return "$rows, and the water between them is not known well enough"
         }
         return null
-    }
-
-    private fun withoutReference(series: TrackSeries, fault: String): Learned {
-        val learned = byRevisits(series)
-        return Learned(
-            learned.origin,
-            learned.choice,
-            learned.likely,
-            learned.stages,
-            learned.readings,
-            learned.blocks,
-            fault = fault,
-        )
     }
 
     /** All [kinds] on all cores; each task has a learner of its own, the first one [learner]. */

@@ -61,7 +61,7 @@ class CorrectHonestyTest {
         assertContains(result.stderr, "it has a row every 15 s only")
         assertContains(result.stderr, "learned from passes through the same water instead")
         // Legs beside each other never cross.
-        assertContains(result.stdout, "not checked, for the track comes to no place a second time")
+        assertContains(result.stdout, "not checked, for the boat's track nowhere crosses itself")
     }
 
     @Test
