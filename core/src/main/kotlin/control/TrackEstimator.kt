@@ -2,8 +2,10 @@ package stillwater.control
 
 import kotlin.math.abs
 import kotlin.math.cos
+import kotlin.math.exp
 import kotlin.math.hypot
 import kotlin.math.sin
+import kotlin.math.sqrt
 
 /**
  * How good a boat's fixes are and how fast its surroundings change, as [TrackEstimator] is told.
@@ -85,15 +87,27 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     public var jumps: Int = 0
         private set
 
+    /**
+     * How far fixes have moved the place in the last [REMEMBERED] s or so, where that is more than their noise explains,
+     * m; 0 where it is not. Then they were wrong before or are wrong now, which nothing but later ones tell: the boat may
+     * be so far from where it is believed to be.
+     */
+    public var doubt: Double = 0.0
+        private set
+
     private var pp = 0.0
     private var pc = 0.0
     private var cc = 0.0
+    private var sinceFix = 0.0
+    private var movedX = 0.0
+    private var movedY = 0.0
+    private var movedVariance = 0.0
 
     /** Whether a fix was taken since the start or the last [reset]. */
     public val isKnown: Boolean get() = !x.isNaN()
 
     /** Standard deviation of the position, each axis, m; infinite before the first fix. */
-    public val deviation: Double get() = if (isKnown) kotlin.math.sqrt(pp) else Double.POSITIVE_INFINITY
+    public val deviation: Double get() = if (isKnown) sqrt(pp) else Double.POSITIVE_INFINITY
 
     /**
      * Lets [dt] s pass; not above 0, or what is not finite, changes nothing.
@@ -108,6 +122,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         velocityY = driftY + if (through == 0.0) 0.0 else through * sin(heading)
         x += velocityX * dt
         y += velocityY * dt
+        sinceFix += dt
         // P ← F P Fᵀ + Q, F = [1 dt; 0 1]
         val q = settings.driftChange * settings.driftChange
         pp += dt * (2 * pc + dt * cc) + q * dt * dt * dt / 3
@@ -130,7 +145,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         val s = pp + r
         val errorX = fixX - x
         val errorY = fixY - y
-        if (hypot(errorX, errorY) > settings.gate * kotlin.math.sqrt(s)) {
+        if (hypot(errorX, errorY) > settings.gate * sqrt(s)) {
             jumps++
             return FixUse.JUMPED
         }
@@ -139,12 +154,27 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         val gainC = pc / s
         x += gainP * errorX
         y += gainP * errorY
+        watchMoves(gainP * errorX, gainP * errorY, gainP * pp)
         driftX += gainC * errorX
         driftY += gainC * errorY
         cc -= gainC * pc
         pc *= 1 - gainP
         pp *= 1 - gainP
         return FixUse.USED
+    }
+
+    /**
+     * The corrections of a filter that is right are white, each of [variance] an axis: C ← κ C + K e, V ← κ² V + K² s, and
+     * |C| is above k √V once in exp(k²/2) times.
+     */
+    private fun watchMoves(byX: Double, byY: Double, variance: Double) {
+        val kept = exp(-sinceFix / REMEMBERED)
+        sinceFix = 0.0
+        movedX = kept * movedX + byX
+        movedY = kept * movedY + byY
+        movedVariance = kept * kept * movedVariance + variance
+        val moved = hypot(movedX, movedY)
+        doubt = if (moved > UNLIKELY * sqrt(movedVariance)) moved else 0.0
     }
 
     /** Forgets everything: the next fix starts anew. */
@@ -156,8 +186,21 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         velocityX = 0.0
         velocityY = 0.0
         jumps = 0
+        doubt = 0.0
+        sinceFix = 0.0
+        movedX = 0.0
+        movedY = 0.0
+        movedVariance = 0.0
     }
 
     /** Speed over ground, m/s. */
     public val groundSpeed: Double get() = hypot(abs(velocityX), abs(velocityY))
+
+    private companion object {
+        /** About as long as receivers take to find back, s. */
+        const val REMEMBERED = 10.0
+
+        /** Standard deviations: once in 450 times by chance. */
+        const val UNLIKELY = 3.5
+    }
 }

@@ -151,6 +151,12 @@ public class BoardPort(
         now.seconds - ranAt > ECHO
 
     /**
+     * Whether the board speaks, but for [RESTING] s, and not since [since], s, has said nothing of its motors: they do not
+     * run, or arm with what they were told before.
+     */
+    internal fun isSilentOfMotors(since: Double): Boolean = heardAt - maxOf(echoedAt, since) >= RESTING
+
+    /**
      * Sends [command] at once. One to arm or to disarm makes what the board said before worthless, and so the answer to a
      * question that it was asked before; one that only repeats the last does not.
      */

@@ -150,6 +150,9 @@ public class Mission(
      */
     public val givenUpCells: List<Int> get() = navigator.givenUpCells
 
+    /** For how long a boat that was held up on every way home rests before it tries again, s; 0 where it does not. */
+    public val restsFor: Double get() = navigator.restsFor(now.seconds)
+
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
 
@@ -259,6 +262,7 @@ public class Mission(
         situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
         situation.stranded = navigator.isStranded
+        situation.heldUp = navigator.restsFor(now.seconds) > 0
         return gate.assess(situation)
     }
 
@@ -300,9 +304,9 @@ public class Mission(
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
      * answers may not arrive: so it is told in every step until it says that it is disarmed, and then once a second. A
-     * board of the master branch cannot be disarmed, and runs for as long as it is told anything: it is told to rest.
-     * One that is not heard is best left to its watchdog, which a word now and then does not keep quiet: rests can be
-     * spoilt on the way and become drives.
+     * board of the master branch cannot be disarmed, and runs for as long as it is told anything: it is told to rest, until
+     * it has shown that it has nothing to rest. One that is not heard is best left to its watchdog, which a word now and
+     * then does not keep quiet: rests can be spoilt on the way and become drives.
      */
     private fun leaveDisarmed() {
         if (minOf(port.silence(now), now.seconds - leftAt) > BoardPort.RESTING) {
@@ -311,7 +315,7 @@ public class Mission(
             port.order(Command.Disarm)
             return port.askState(now)
         }
-        if (!port.isDisarmed) port.tell(now, Drive.NONE, isCalm = true)
+        if (!port.isDisarmed && !port.isSilentOfMotors(leftAt)) port.tell(now, Drive.NONE, isCalm = true)
         val isTold = port.isDisarmed || port.armsItself
         if (!isTold || now.seconds - disarmedAt >= BoardPort.PATIENCE) {
             disarmedAt = now.seconds
@@ -350,10 +354,10 @@ public class Mission(
         probe.setUp?.let(port::order)
     }
 
-    /** A boat that waits to be sent off has not begun to use its budget. */
+    /** A boat that waits to be sent off has not begun to use its budget; one that rests for hours uses none. */
     private fun isUnderWay(state: MissionState) = when (state) {
         MissionState.Surveying, is MissionState.Returning -> true
-        is MissionState.Holding -> state.danger != Danger.OPERATOR_WAIT
+        is MissionState.Holding -> state.danger != Danger.OPERATOR_WAIT && state.danger != Danger.HELD_UP
         else -> false
     }
 

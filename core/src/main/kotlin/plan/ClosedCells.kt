@@ -60,6 +60,9 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
     /** Whether [cell], which may be [Grid.OUTSIDE], is closed. */
     fun isClosed(cell: Int): Boolean = cell != Grid.OUTSIDE && until[cell] > Double.NEGATIVE_INFINITY
 
+    /** Whether [cell], which may be [Grid.OUTSIDE], is among the [known]. */
+    fun isKnown(cell: Int): Boolean = cell != Grid.OUTSIDE && times[cell] > 0
+
     /** The map's cells among the [known]. */
     fun mapCells(): List<Int> =
         if (version == 0) emptyList() else (0 until map.size).filter { times[at(map.centerX(it), map.centerY(it))] > 0 }
