@@ -125,8 +125,14 @@ public data class SafetySettings(
         )) {
             require(value >= 0 && value.isFinite()) { "$name ($value) must be at least 0 and finite" }
         }
+        require(lowestPhonePercent <= FULL) { "lowestPhonePercent (%) ($lowestPhonePercent) must be at most $FULL" }
+    }
+
+    private companion object {
+        const val FULL = 100.0
     }
 }
+
 
 /**
  * What the gate looks at; one object, refilled each step.
@@ -172,6 +178,9 @@ public class Situation {
 
     /** Charge of the phone that steers, percent; NaN where it does not say. */
     public var phonePercent: Double = Double.NaN
+
+    /** Whether the boat is not under way yet, so that a battery may be charged or changed for another. */
+    public var mayCharge: Boolean = false
 
     /** Whether a person wants the boat to stop. */
     public var operatorStop: Boolean = false
@@ -226,10 +235,10 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
     public var notFinite: Long = 0
         private set
 
-    /** What to do in [situation]. A low battery stays low. */
+    /** What to do in [situation]. A battery that was low stays low, unless it [Situation.mayCharge]. */
     public fun assess(situation: Situation): Ruling {
-        boatCharge.watch(situation.volts, situation.seconds)
-        phoneCharge.watch(situation.phonePercent, situation.seconds)
+        boatCharge.watch(situation.volts, situation.seconds, situation.mayCharge)
+        phoneCharge.watch(situation.phonePercent, situation.seconds, situation.mayCharge)
         val danger = danger(situation) ?: return Ruling.GoOn
         val wanted = settings.answers[danger] ?: Failsafe.STOP
         return Ruling.Fall(danger, if (isBlind(situation)) Failsafe.STOP else wanted)

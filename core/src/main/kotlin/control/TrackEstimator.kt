@@ -88,9 +88,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         private set
 
     /**
-     * How far fixes have moved the place in the last [REMEMBERED] s or so, where that is more than their noise explains,
-     * m; 0 where it is not. Then they were wrong before or are wrong now, which nothing but later ones tell: the boat may
-     * be so far from where it is believed to be.
+     * How far the boat may be from where it is believed to be, besides its deviation, m: as far as fixes have lately moved
+     * that place, where it is more than their noise explains; 0 where it is not. Then they were wrong before or are wrong
+     * now, which nothing but later ones tell. Fades while they agree again.
      */
     public var doubt: Double = 0.0
         private set
@@ -101,6 +101,8 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     private var sinceFix = 0.0
     private var movedX = 0.0
     private var movedY = 0.0
+    private var turnedX = 0.0
+    private var turnedY = 0.0
     private var movedVariance = 0.0
 
     /** Whether a fix was taken since the start or the last [reset]. */
@@ -154,7 +156,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         val gainC = pc / s
         x += gainP * errorX
         y += gainP * errorY
-        watchMoves(gainP * errorX, gainP * errorY, gainP * pp)
+        watchMoves(errorX, errorY, gainP, gainC)
         driftX += gainC * errorX
         driftY += gainC * errorY
         cc -= gainC * pc
@@ -164,17 +166,21 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     }
 
     /**
-     * The corrections of a filter that is right are white, each of [variance] an axis: C ← κ C + K e, V ← κ² V + K² s, and
-     * |C| is above k √V once in exp(k²/2) times.
+     * Corrections of a filter that is right are white. C is what they have moved the place by, with D, what they have
+     * changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e, V ← κ² V + K² s. |C| above k √V is no chance.
      */
-    private fun watchMoves(byX: Double, byY: Double, variance: Double) {
+    private fun watchMoves(errorX: Double, errorY: Double, gainP: Double, gainC: Double) {
         val kept = exp(-sinceFix / REMEMBERED)
-        sinceFix = 0.0
-        movedX = kept * movedX + byX
-        movedY = kept * movedY + byY
-        movedVariance = kept * kept * movedVariance + variance
+        movedX = kept * (movedX + turnedX * sinceFix) + gainP * errorX
+        movedY = kept * (movedY + turnedY * sinceFix) + gainP * errorY
+        turnedX = kept * turnedX + gainC * errorX
+        turnedY = kept * turnedY + gainC * errorY
+        movedVariance = kept * kept * movedVariance + gainP * pp
+        doubt *= exp(-sinceFix / FADING)
+        if (doubt < LEAST_DOUBT) doubt = 0.0
         val moved = hypot(movedX, movedY)
-        doubt = if (moved > UNLIKELY * sqrt(movedVariance)) moved else 0.0
+        if (moved > UNLIKELY * sqrt(movedVariance)) doubt = maxOf(doubt, moved)
+        sinceFix = 0.0
     }
 
     /** Forgets everything: the next fix starts anew. */
@@ -190,6 +196,8 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         sinceFix = 0.0
         movedX = 0.0
         movedY = 0.0
+        turnedX = 0.0
+        turnedY = 0.0
         movedVariance = 0.0
     }
 
@@ -197,10 +205,16 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     public val groundSpeed: Double get() = hypot(abs(velocityX), abs(velocityY))
 
     private companion object {
-        /** About as long as receivers take to find back, s. */
-        const val REMEMBERED = 10.0
+        /** As long as a place takes to be believed at first, s. */
+        const val REMEMBERED = 15.0
 
-        /** Standard deviations: once in 450 times by chance. */
-        const val UNLIKELY = 3.5
+        /** In which a doubt falls to 1/e where fixes agree again, s: the place takes about half as long to come back. */
+        const val FADING = 20.0
+
+        /** Less than this the deviation's multiples cover, m. */
+        const val LEAST_DOUBT = 0.5
+
+        /** Standard deviations. White fixes made it so in 0.1 % of the time. */
+        const val UNLIKELY = 3.0
     }
 }

@@ -4,16 +4,16 @@ package stillwater.mission
  * How often a boat that is held up on its way home tries another way, and for how long it rests when it has tried enough:
  * what holds it, as a current does, may turn.
  *
- * [MOST_WAYS] ways on which it came no nearer to home are enough, or [MOST_WAYS_AGAIN] after a rest. One on which it got on
- * before it was held up, and learned of something new that is in the way, led along it, as along a wall: those are not
- * counted, up to [MOST_WAYS_ROUND] on end. Each rest takes twice as long as the one before; after [MOST_RESTS] it
+ * [MOST_WAYS] ways on end on which it came no nearer to home are enough, or [MOST_WAYS_AGAIN] after a rest. One on which it
+ * got on before it was held up, and learned of something new that is in the way, led along it, as along a wall: with it the
+ * count begins anew, up to [MOST_IN_ALL]. Each rest takes twice as long as the one before; after [MOST_RESTS] it
  * [isStranded]. Confined to one thread.
  *
  * @param nearer is as much nearer to home as counts, m.
  */
 internal class HomeTries(private val nearer: Double) {
-    private var counted = 0
-    private var round = 0
+    private var onEnd = 0
+    private var inAll = 0
     private var nearest = Double.POSITIVE_INFINITY
     private var rests = 0
     private var restsUntil = Double.NaN
@@ -31,17 +31,18 @@ internal class HomeTries(private val nearer: Double) {
      */
     fun heldUp(now: Double, left: Double, isAlong: Boolean): Boolean {
         if (left < nearest - nearer) {
-            counted = 0
-            round = 0
+            onEnd = 0
+            inAll = 0
         }
         nearest = minOf(nearest, left)
-        if (isAlong && round < MOST_WAYS_ROUND) round++ else counted++
-        if (counted < if (rests == 0) MOST_WAYS else MOST_WAYS_AGAIN) return true
+        onEnd = if (isAlong) 1 else onEnd + 1
+        inAll++
+        if (onEnd < (if (rests == 0) MOST_WAYS else MOST_WAYS_AGAIN) && inAll < MOST_IN_ALL) return true
         isStranded = rests == MOST_RESTS
         restsUntil = now + REST * (1 shl rests)
         rests++
-        counted = 0
-        round = 0
+        onEnd = 0
+        inAll = 0
         // It may have drifted off by then.
         nearest = Double.POSITIVE_INFINITY
         return false
@@ -54,8 +55,8 @@ internal class HomeTries(private val nearer: Double) {
         /** The same after a rest: what was in the way then may still be. */
         const val MOST_WAYS_AGAIN = 3
 
-        /** Half a kilometre of a wall whose cells are 10 m wide. */
-        const val MOST_WAYS_ROUND = 50
+        /** An hour of trying: some thirty cells of a wall in whose cells the boat is held up twice each. */
+        const val MOST_IN_ALL = 60
 
         /** The first rest, s. */
         const val REST = 600.0

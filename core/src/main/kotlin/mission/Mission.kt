@@ -148,7 +148,10 @@ public class Mission(
      * Cells that the boat did not get into, and that it went round; those that it came to later are not among them.
      * Allocates.
      */
-    public val givenUpCells: List<Int> get() = navigator.givenUpCells
+    public val givenUpCells: List<Int> get() = navigator.givenUpCells.cells
+
+    /** Middles of such cells off the map, as large as its own, m. Allocates. */
+    public val givenUpOffMap: List<Position> get() = navigator.givenUpCells.offMap
 
     /** For how long a boat that was held up on every way home rests before it tries again, s; 0 where it does not. */
     public val restsFor: Double get() = navigator.restsFor(now.seconds)
@@ -256,6 +259,7 @@ public class Mission(
         val isIdle = state == MissionState.Idle
         situation.volts = if (isIdle) Double.NaN else port.volts
         situation.phonePercent = if (isIdle) Double.NaN else phonePercent
+        situation.mayCharge = state is MissionState.Preflight
         situation.operatorStop = stopWanted
         situation.operatorWish = wish.danger
         situation.logLost = logLost

@@ -92,8 +92,8 @@ internal class Navigator(
     /** Waypoints that were given up. */
     val givenUp: Long get() = holdUps.count
 
-    /** Cells that the boat did not get into. Allocates. */
-    val givenUpCells: List<Int> get() = closed.mapCells()
+    /** Where the boat did not get in. Allocates. */
+    val givenUpCells: GivenUp get() = GivenUp(closed.mapCells(), closed.offMap())
 
     /** Changes whenever [givenUpCells] may have changed. */
     val givenUpVersion: Int get() = closed.version
@@ -127,11 +127,12 @@ internal class Navigator(
     /** The waypoints ahead, the one steered for first. */
     fun ahead(): List<Position> = plan.waypoints().drop(maxOf(0, next - 1))
 
-    /** Goes on [now], s, after a restart before which the boat did not get into [cells]. */
-    fun resume(cells: List<Int>, now: Double) {
+    /** Goes on [now], s, after a restart before which the boat did not get in where [before] says. */
+    fun resume(before: GivenUp, now: Double) {
         val map = closed.map
-        for (cell in cells) {
-            if (cell in 0 until map.size) closed.close(closed.at(map.centerX(cell), map.centerY(cell)), now)
+        val cells = before.cells.filter { it in 0 until map.size }.map { closed.at(map.centerX(it), map.centerY(it)) }
+        for (cell in (cells + before.offMap.map { closed.at(it.x, it.y) }).distinct()) {
+            if (cell != Grid.OUTSIDE) closed.close(cell, now)
         }
     }
 

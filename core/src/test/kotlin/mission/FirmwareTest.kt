@@ -272,6 +272,15 @@ class FirmwareTest {
         }
     }
 
+    /** What is said of drives may be spoilt: of a board that speaks, but not of its motors, there is nothing to rest. */
+    @Test
+    fun aBoardThatArmsItselfBeforeTheMissionBeganIsNotToldToRestAllTheWhile() {
+        val desk = desk(BoardSpec(Firmware.MASTER, arming = 20.0, oxygenPeriod = 1.0))
+        desk.until(10.0) { false }
+        assertTrue(between.told.count { it == REST } <= 10, "${between.told.count { it == REST }} rests")
+        assertTrue(between.told.count { "disarm" in it } >= 5)
+    }
+
     private companion object {
         const val NOISE = 1152
         const val REST = "{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}"

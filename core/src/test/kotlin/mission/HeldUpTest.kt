@@ -79,7 +79,7 @@ class HeldUpTest {
         assertTrue(desk.until(5.0) { it is MissionState.Returning }, "${desk.mission.state}")
         assertTrue(desk.until(300.0) { it == heldUp }, "${desk.mission.state}")
         assertEquals(1200.0, desk.mission.restsFor, 0.1)
-        assertTrue(desk.lines.any { "\"why\":\"held-up\"" in it }, desk.lines.last())
+        assertTrue(desk.lines.any { "\"why\":\"held_up\"" in it }, desk.lines.last())
         isHeld = false
         assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "${desk.mission.state}")
         assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state)

@@ -13,12 +13,12 @@ class HomeTriesTest {
     private val tries = HomeTries(nearer = 4.5)
     private var now = 0.0
 
-    private fun waysUntilRest(left: (Int) -> Double = { 100.0 }, isAlong: Boolean = false): Int {
+    private fun waysUntilRest(left: (Int) -> Double = { 100.0 }, isAlong: (Int) -> Boolean = { false }): Int {
         var ways = 0
         do {
             now += 60
             ways++
-        } while (tries.heldUp(now, left(ways), isAlong))
+        } while (tries.heldUp(now, left(ways), isAlong(ways)))
         return ways
     }
 
@@ -36,8 +36,11 @@ class HomeTriesTest {
     }
 
     @Test
-    fun waysThatLeadAlongWhatIsInTheWayAreNotCountedForAWhile() {
-        assertEquals(60, waysUntilRest(isAlong = true))
+    fun waysThatLeadAlongWhatIsInTheWayMayBeMore() {
+        assertEquals(60, waysUntilRest(isAlong = { true }))
+        assertEquals(3, waysUntilRest())
+        now += 3600
+        assertEquals(6, waysUntilRest(isAlong = { it == 2 || it == 4 }))
     }
 
     @Test

@@ -6,6 +6,7 @@ import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.test.Test
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 /** Water that the boat does not get into and that no chart has, from [west], [south] to [east], [north], m. */
@@ -55,7 +56,8 @@ class ReefTest {
     private fun Desk.distanceHome() = Position(boat.dynamics.x, boat.dynamics.y).distanceTo(spec.home.position)
 
     private fun assertCompletes(desk: Desk, seconds: Double, name: String) {
-        assertTrue(desk.until(seconds) { it is MissionState.Stopped }, "$name: ${desk.mission.state}")
+        val isOver = desk.until(seconds) { it is MissionState.Stopped }
+        assertTrue(isOver, "$name: ${desk.mission.run { "$state, given up $givenUpCells, $givenUpOffMap" }}")
         assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state, name)
         assertTrue(desk.distanceHome() < 7.0, "$name: ${desk.distanceHome()} m from home")
     }
@@ -114,7 +116,7 @@ class ReefTest {
             "${first.mission.givenUpCells} of ${first.mission.givenUp}, ${first.mission.state}",
         )
         val found = first.replayed()
-        assertEquals(first.mission.givenUpCells, found.givenUp)
+        assertEquals(GivenUp(first.mission.givenUpCells, first.mission.givenUpOffMap), found.givenUp)
         val second = desk(first.spec, 715, found) { reef }
         // Twice in a row, the second time before it has given up any more.
         val again = second.replayed()
@@ -125,7 +127,7 @@ class ReefTest {
         repeat(530) {
             third.until(1.0) { false }
             val goals = third.mission.waypoints().map { third.mission.map.grid.cellAt(it) }
-            assertTrue(goals.none { it in found.givenUp }, "to $goals, given up ${found.givenUp}")
+            assertTrue(goals.none { it in found.givenUp.cells }, "to $goals, given up ${found.givenUp}")
         }
     }
 
@@ -155,17 +157,21 @@ class ReefTest {
         assertCompletes(desk, 1500.0, "round the wall")
     }
 
-    /** Sixteen cells of 5 m lie in the way; each takes a minute to learn of, and the eleventh is not the last. */
+    /** Eight columns of cells lie in the way, two cells deep; each takes a minute to learn of. */
     @Test
     fun aBoatFindsTheWayRoundALongWall() {
         var isShut = false
-        val wall = Reef(-40.0, 20.0, 62.0, 23.0)
-        val grid = GridSpec(PlaceSpec(0.0, 0.0), 12, 12, 5.0)
-        val spec = spec(PlannerName.LAWNMOWER, 500.0).copy(grid = grid)
-        val desk = desk(spec, 719) { if (isShut) listOf(wall) else emptyList() }
-        assertTrue(desk.until(400.0) { desk.boat.dynamics.y > 30 && desk.boat.dynamics.x < 20 })
+        val wall = Reef(-40.0, 20.0, 66.0, 26.0)
+        val desk = desk(spec(PlannerName.LAWNMOWER, 400.0), 719) { if (isShut) listOf(wall) else emptyList() }
+        assertTrue(desk.until(300.0) { desk.boat.dynamics.y > 40 }, "${desk.mission.position}")
         isShut = true
-        assertCompletes(desk, 2500.0, "round the wall")
-        assertTrue(desk.mission.givenUpCells.size > 10, "${desk.mission.givenUpCells}")
+        assertFalse(desk.until(300.0) { it is MissionState.Stopped }, "${desk.mission.state}")
+        assertCompletes(desk, 4000.0, "round the wall")
+        assertFalse(desk.lines.any { "held_up" in it }, "without a rest")
+        val (cells, offMap) = desk.mission.run { givenUpCells to givenUpOffMap }
+        assertTrue(cells.size + offMap.size > 10, "$cells, $offMap")
+        // West of 0 m there is no map.
+        assertTrue(offMap.any { it.x < 0 }, "$offMap")
+        assertEquals(GivenUp(cells, offMap), desk.replayed().givenUp)
     }
 }

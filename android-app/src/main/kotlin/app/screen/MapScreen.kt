@@ -104,6 +104,7 @@ internal class MapScreen(private val context: Context) : Screen {
                 boat = boat,
                 headingDeg = headingDeg,
                 unit = report.spec.probe.quantity.unit,
+                givenUp = report.givenUp,
                 ageOf = report::ageOf,
             )
     }
