@@ -150,11 +150,8 @@ public class BoardPort(
         now.seconds - echoedAt < ECHO &&
         now.seconds - ranAt > ECHO
 
-    /**
-     * Whether the board speaks, but for [RESTING] s, and not since [since], s, has said nothing of its motors: they do not
-     * run, or arm with what they were told before.
-     */
-    internal fun isSilentOfMotors(since: Double): Boolean = heardAt - maxOf(echoedAt, since) >= RESTING
+    /** Whether the board says that its motors run. */
+    internal fun saysItRuns(now: BoatTime): Boolean = now.seconds - ranAt <= ECHO
 
     /**
      * Sends [command] at once. One to arm or to disarm makes what the board said before worthless, and so the answer to a

@@ -115,11 +115,13 @@ internal class MapView(context: Context) : WaterView(context) {
         val places = scene.givenUp.run { cells.filter { it < grid.size }.map(grid::center) + offMap }
         val halfX = CROSS_SHARE * grid.cellWidth
         val halfY = CROSS_SHARE * grid.cellHeight
-        val style = LineStyle(R.color.fence, CROSS_DP, hasHalo = true)
-        for (at in places) {
-            for (rise in listOf(-halfY, halfY)) {
-                val ends = listOf(Position(at.x - halfX, at.y - rise), Position(at.x + halfX, at.y + rise))
-                drawLine(canvas, projection, ends, style)
+        // The halos first, or one arm's would cut the other.
+        for (style in listOf(LineStyle(R.color.ground, CROSS_DP + HALO), LineStyle(R.color.fence, CROSS_DP))) {
+            for (at in places) {
+                for (rise in listOf(-halfY, halfY)) {
+                    val ends = listOf(Position(at.x - halfX, at.y - rise), Position(at.x + halfX, at.y + rise))
+                    drawLine(canvas, projection, ends, style)
+                }
             }
         }
     }
@@ -171,6 +173,7 @@ internal class MapView(context: Context) : WaterView(context) {
         const val FENCE_DP = 2.5f
         const val TAPPED_DP = 3f
         const val CROSS_DP = 2f
+        const val HALO = 2f
 
         /** Of a cell's side, half a cross. */
         const val CROSS_SHARE = 0.3
