@@ -88,9 +88,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         private set
 
     /**
-     * How far the boat may be from where it is believed to be, besides its deviation, m: as far as fixes have lately moved
-     * that place, where it is more than their noise explains; 0 where it is not. Then they were wrong before or are wrong
-     * now, which nothing but later ones tell. Fades while they agree again.
+     * How far the boat may be from where it is believed to be, besides its deviation, m: as far as fixes have lately
+     * moved that place, where it is more than their noise explains; 0 where it is not. Then they were wrong before or
+     * are wrong now, which nothing but later ones tell. Fades while they agree again.
      */
     public var doubt: Double = 0.0
         private set
@@ -208,7 +208,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         /** As long as a place takes to be believed at first, s. */
         const val REMEMBERED = 15.0
 
-        /** In which a doubt falls to 1/e where fixes agree again, s: the place takes about half as long to come back. */
+        /** In which a doubt falls to 1/e where fixes agree again, s: the place comes back in about half of that. */
         const val FADING = 20.0
 
         /** Less than this the deviation's multiples cover, m. */

@@ -113,7 +113,7 @@ internal class Navigator(
     /** Whether no way home is tried any more; stays so. */
     val isStranded: Boolean get() = tries.isStranded
 
-    /** For how long a boat that was held up on every way home rests before it tries again, [now] in s; 0 where it does not. */
+    /** For how long a boat that was held up on every way home rests before it tries again, s, [now] in s; else 0. */
     fun restsFor(now: Double): Double = tries.restsFor(now)
 
     /** Whether the boat came home on purpose. */

@@ -267,7 +267,7 @@ class FirmwareTest {
             repeat(40) { step ->
                 next.step(BoatTime(desk.boat.time.seconds + 1))
                 desk.boat.advance(0.1)
-                // It is listened to for a second, in which the quick ones rest by themselves; then it is told to disarm.
+                // It is listened to for a second, in which the quick ones rest by themselves, and told to disarm.
                 if (step > 11) assertFalse(desk.isDriven(), "$board")
             }
         }

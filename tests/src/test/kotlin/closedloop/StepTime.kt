@@ -24,8 +24,8 @@ import kotlin.math.sin
  *
  * @param stages of the probe, as in a sensor's file.
  * @param period from one reading to the next, s.
- * @param reef whether there is water, from shore to shore but for its ends, that the boat does not get into, so that cells
- *   are closed and ways lead round them.
+ * @param reef whether there is water, from shore to shore but for its ends, that the boat does not get into, so that
+ *   cells are closed and ways lead round them.
  */
 internal class StepTime(
     private val planner: PlannerName,
@@ -106,10 +106,10 @@ internal class StepTime(
 private const val LAG = """{"type":"first-order-lag","time_constant_s":6.0}"""
 
 /**
- * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES [reef]]]]`: prints a table of the times of a mission's first so many steps, ms of
- * processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
- * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s, as with `-`);
- * with `reef` on water part of which the boat does not get into, and behind the times how many cells it gave up.
+ * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES [reef]]]]`: prints a table of the times of a mission's first so many steps,
+ * ms of processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
+ * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s, as with
+ * `-`); with `reef` on water part of which the boat does not get into, and behind the times how many cells it gave up.
  */
 fun main(arguments: Array<String>) {
     val steps = arguments[0].toInt()

@@ -26,8 +26,8 @@ import stillwater.model.Position
  * @property probeSilence time since a boat under way has heard its probe, s, where that is longer than any probe that
  *   works is silent; null elsewhere.
  * @property givenUp where the boat did not get in.
- * @property restsFor time for which a boat that was held up on every way home rests before it tries again, s; 0 where it
- *   does not.
+ * @property restsFor time for which a boat that was held up on every way home rests before it tries again, s; 0 where
+ *   it does not.
  * @param readAt when each cell was last read, s on the boat's clock; NaN where it never was. Retained, not modified.
  * @param now of the report, s on the same clock.
  */

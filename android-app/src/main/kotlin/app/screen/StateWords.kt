@@ -50,8 +50,8 @@ internal fun isBad(snapshot: BoatSnapshot): Boolean =
         snapshot.mission?.probeSilence != null
 
 /**
- * What a mission is about, with the reason where there is one; [restsFor] s is the time until a boat that was held up tries
- * again.
+ * What a mission is about, with the reason where there is one; [restsFor] s is the time until a boat that was held up
+ * tries again.
  */
 internal fun Context.missionWords(state: MissionState, restsFor: Double = 0.0): String =
     when (state) {
