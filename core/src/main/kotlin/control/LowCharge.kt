@@ -2,8 +2,8 @@ package stillwater.control
 
 /**
  * Tells that a battery is low: once it has been below [lowest] for [lowFor] s on end, for a single word of it may be
- * wrong and a load makes a voltage sag. What was low stays low: a battery at rest recovers, and is empty all the same.
- * Confined to one thread.
+ * wrong and a load makes a voltage sag. What was low under way stays low: a battery at rest recovers, and is empty
+ * all the same. Before, another may have been put in. Confined to one thread.
  *
  * @param lowest in the unit of what is watched; 0 where nothing is to be.
  * @param lowFor s, at least 0.
@@ -11,14 +11,18 @@ package stillwater.control
 internal class LowCharge(private val lowest: Double, private val lowFor: Double) {
     private var since = Double.NaN
 
-    /** Whether it was low at some time. */
+    /** Whether it is low, or was low under way. */
     var isLow = false
         private set
 
-    /** At [seconds] the charge is [charge]; NaN where nobody has said, which is not low. */
-    fun watch(charge: Double, seconds: Double) {
+    /**
+     * At [seconds] the charge is [charge]; NaN where nobody has said, which is not low. [mayCharge] tells that the boat
+     * is not under way yet.
+     */
+    fun watch(charge: Double, seconds: Double, mayCharge: Boolean) {
         if (!(charge < lowest)) {
             since = Double.NaN
+            if (mayCharge) isLow = false
             return
         }
         if (since.isNaN()) since = seconds

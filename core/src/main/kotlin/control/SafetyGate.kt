@@ -36,6 +36,9 @@ public enum class Danger {
     /** No way home is left on which the boat gets on. */
     STRANDED,
 
+    /** The boat was held up on every way home that it tried, and rests before it tries again. */
+    HELD_UP,
+
     /** The boat is beyond the fence. */
     FENCE,
 
@@ -72,10 +75,11 @@ public enum class Danger {
  * @property oldestFix s, above 0.
  * @property mostJumps fixes refused in a row that are borne, at least 0.
  * @property fenceMargin how far beyond the fence the boat may be led back under power, m, at least 0; where it may be
- *   farther out, by [deviations] of its position, the motors rest.
+ *   farther out, by [deviations] of its position and its doubt, the motors rest.
  * @property stopTime time constant with which the boat loses its way, motors at rest, s, at least 0.
  * @property reaction time from a decision to its effect on the motors, s, at least 0.
- * @property deviations standard deviations of the position that are kept from the fence on top, at least 0.
+ * @property deviations standard deviations of the position that are kept from the fence on top, at least 0; its doubt
+ *   is as well.
  * @property lowestVolts below which the boat's battery is low, V; 0 where none is measured.
  * @property lowFor a battery is low after so long below, s, at least 0: thrust makes the voltage sag.
  * @property lowestPhonePercent below which the phone's battery is low, percent; 0 where it is not watched.
@@ -121,8 +125,14 @@ public data class SafetySettings(
         )) {
             require(value >= 0 && value.isFinite()) { "$name ($value) must be at least 0 and finite" }
         }
+        require(lowestPhonePercent <= FULL) { "lowestPhonePercent (%) ($lowestPhonePercent) must be at most $FULL" }
+    }
+
+    private companion object {
+        const val FULL = 100.0
     }
 }
+
 
 /**
  * What the gate looks at; one object, refilled each step.
@@ -151,6 +161,9 @@ public class Situation {
     /** Standard deviation of the position, m. */
     public var deviation: Double = Double.POSITIVE_INFINITY
 
+    /** How far fixes have lately moved the position beyond what their noise explains, m: it may be off by as much. */
+    public var doubt: Double = 0.0
+
     /** Believed velocity over ground, east, m/s. */
     public var velocityX: Double = 0.0
 
@@ -166,6 +179,9 @@ public class Situation {
     /** Charge of the phone that steers, percent; NaN where it does not say. */
     public var phonePercent: Double = Double.NaN
 
+    /** Whether the boat is not under way yet, so that a battery may be charged or changed for another. */
+    public var mayCharge: Boolean = false
+
     /** Whether a person wants the boat to stop. */
     public var operatorStop: Boolean = false
 
@@ -180,6 +196,9 @@ public class Situation {
 
     /** Whether no way home is left on which the boat gets on. */
     public var stranded: Boolean = false
+
+    /** Whether the boat rests because it was held up on every way home that it tried. */
+    public var heldUp: Boolean = false
 
     /** Whether the mission has nothing left to do. */
     public var missionEnded: Boolean = false
@@ -216,10 +235,10 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
     public var notFinite: Long = 0
         private set
 
-    /** What to do in [situation]. A low battery stays low. */
+    /** What to do in [situation]. A battery that was low stays low, unless it [Situation.mayCharge]. */
     public fun assess(situation: Situation): Ruling {
-        boatCharge.watch(situation.volts, situation.seconds)
-        phoneCharge.watch(situation.phonePercent, situation.seconds)
+        boatCharge.watch(situation.volts, situation.seconds, situation.mayCharge)
+        phoneCharge.watch(situation.phonePercent, situation.seconds, situation.mayCharge)
         val danger = danger(situation) ?: return Ruling.GoOn
         val wanted = settings.answers[danger] ?: Failsafe.STOP
         return Ruling.Fall(danger, if (isBlind(situation)) Failsafe.STOP else wanted)
@@ -237,7 +256,7 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         val turn = drive.turn.coerceIn(-1.0, 1.0)
         val distance = fence.distance(situation.x, situation.y)
         // The place is not exact: what counts is where the boat may be.
-        if (distance - settings.deviations * situation.deviation < -settings.fenceMargin) return Drive.NONE
+        if (!(distance - placeError(situation) >= -settings.fenceMargin)) return Drive.NONE
         if (distance > stoppingDistance(situation)) return Drive(forward, turn)
         val pushX = sign(forward) * cos(situation.heading)
         val pushY = sign(forward) * sin(situation.heading)
@@ -250,11 +269,14 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
     /**
      * How near the fence the boat may come before thrust outwards ends, m.
      *
-     * d = v (t + T) + k σ, v the speed over ground, t the reaction, T the stop time, σ the position's standard deviation:
-     * the longest way a boat can go whose motors rest, whichever way it turns meanwhile.
+     * d = v (t + T) + k σ + b, v the speed over ground, t the reaction, T the stop time, σ the position's standard
+     * deviation, b its doubt: the longest way a boat can go whose motors rest, whichever way it turns meanwhile.
      */
-    public fun stoppingDistance(situation: Situation): Double = settings.deviations * situation.deviation +
+    public fun stoppingDistance(situation: Situation): Double = placeError(situation) +
         hypot(situation.velocityX, situation.velocityY) * (settings.reaction + settings.stopTime)
+
+    private fun placeError(situation: Situation) =
+        settings.deviations * situation.deviation + situation.doubt
 
     private fun danger(situation: Situation): Danger? = when {
         situation.operatorStop -> Danger.OPERATOR_STOP
@@ -262,6 +284,7 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         isLost(situation) -> Danger.FIX_STALE
         situation.jumps > settings.mostJumps -> Danger.FIX_JUMPING
         situation.stranded -> Danger.STRANDED
+        situation.heldUp -> Danger.HELD_UP
         fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
         boatCharge.isLow -> Danger.BATTERY_LOW
         phoneCharge.isLow -> Danger.PHONE_LOW

@@ -2,8 +2,10 @@ package stillwater.control
 
 import kotlin.math.abs
 import kotlin.math.cos
+import kotlin.math.exp
 import kotlin.math.hypot
 import kotlin.math.sin
+import kotlin.math.sqrt
 
 /**
  * How good a boat's fixes are and how fast its surroundings change, as [TrackEstimator] is told.
@@ -85,15 +87,29 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     public var jumps: Int = 0
         private set
 
+    /**
+     * How far the boat may be from where it is believed to be, besides its deviation, m: as far as fixes have lately
+     * moved that place, where it is more than their noise explains; 0 where it is not. Then they were wrong before or
+     * are wrong now, which nothing but later ones tell. Fades while they agree again.
+     */
+    public var doubt: Double = 0.0
+        private set
+
     private var pp = 0.0
     private var pc = 0.0
     private var cc = 0.0
+    private var sinceFix = 0.0
+    private var movedX = 0.0
+    private var movedY = 0.0
+    private var turnedX = 0.0
+    private var turnedY = 0.0
+    private var movedVariance = 0.0
 
     /** Whether a fix was taken since the start or the last [reset]. */
     public val isKnown: Boolean get() = !x.isNaN()
 
     /** Standard deviation of the position, each axis, m; infinite before the first fix. */
-    public val deviation: Double get() = if (isKnown) kotlin.math.sqrt(pp) else Double.POSITIVE_INFINITY
+    public val deviation: Double get() = if (isKnown) sqrt(pp) else Double.POSITIVE_INFINITY
 
     /**
      * Lets [dt] s pass; not above 0, or what is not finite, changes nothing.
@@ -108,6 +124,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         velocityY = driftY + if (through == 0.0) 0.0 else through * sin(heading)
         x += velocityX * dt
         y += velocityY * dt
+        sinceFix += dt
         // P ← F P Fᵀ + Q, F = [1 dt; 0 1]
         val q = settings.driftChange * settings.driftChange
         pp += dt * (2 * pc + dt * cc) + q * dt * dt * dt / 3
@@ -130,7 +147,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         val s = pp + r
         val errorX = fixX - x
         val errorY = fixY - y
-        if (hypot(errorX, errorY) > settings.gate * kotlin.math.sqrt(s)) {
+        if (hypot(errorX, errorY) > settings.gate * sqrt(s)) {
             jumps++
             return FixUse.JUMPED
         }
@@ -139,12 +156,31 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         val gainC = pc / s
         x += gainP * errorX
         y += gainP * errorY
+        watchMoves(errorX, errorY, gainP, gainC)
         driftX += gainC * errorX
         driftY += gainC * errorY
         cc -= gainC * pc
         pc *= 1 - gainP
         pp *= 1 - gainP
         return FixUse.USED
+    }
+
+    /**
+     * Corrections of a filter that is right are white. C is what they have moved the place by, with D, what they have
+     * changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e, V ← κ² V + K² s. |C| above k √V is no chance.
+     */
+    private fun watchMoves(errorX: Double, errorY: Double, gainP: Double, gainC: Double) {
+        val kept = exp(-sinceFix / REMEMBERED)
+        movedX = kept * (movedX + turnedX * sinceFix) + gainP * errorX
+        movedY = kept * (movedY + turnedY * sinceFix) + gainP * errorY
+        turnedX = kept * turnedX + gainC * errorX
+        turnedY = kept * turnedY + gainC * errorY
+        movedVariance = kept * kept * movedVariance + gainP * pp
+        doubt *= exp(-sinceFix / FADING)
+        if (doubt < LEAST_DOUBT) doubt = 0.0
+        val moved = hypot(movedX, movedY)
+        if (moved > UNLIKELY * sqrt(movedVariance)) doubt = maxOf(doubt, moved)
+        sinceFix = 0.0
     }
 
     /** Forgets everything: the next fix starts anew. */
@@ -156,8 +192,29 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         velocityX = 0.0
         velocityY = 0.0
         jumps = 0
+        doubt = 0.0
+        sinceFix = 0.0
+        movedX = 0.0
+        movedY = 0.0
+        turnedX = 0.0
+        turnedY = 0.0
+        movedVariance = 0.0
     }
 
     /** Speed over ground, m/s. */
     public val groundSpeed: Double get() = hypot(abs(velocityX), abs(velocityY))
+
+    private companion object {
+        /** As long as a place takes to be believed at first, s. */
+        const val REMEMBERED = 15.0
+
+        /** In which a doubt falls to 1/e where fixes agree again, s: the place comes back in about half of that. */
+        const val FADING = 20.0
+
+        /** Less than this the deviation's multiples cover, m. */
+        const val LEAST_DOUBT = 0.5
+
+        /** Standard deviations. White fixes made it so in 0.1 % of the time. */
+        const val UNLIKELY = 3.0
+    }
 }

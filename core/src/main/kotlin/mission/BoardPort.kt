@@ -150,6 +150,9 @@ public class BoardPort(
         now.seconds - echoedAt < ECHO &&
         now.seconds - ranAt > ECHO
 
+    /** Whether the board says that its motors run. */
+    internal fun saysItRuns(now: BoatTime): Boolean = now.seconds - ranAt <= ECHO
+
     /**
      * Sends [command] at once. One to arm or to disarm makes what the board said before worthless, and so the answer to a
      * question that it was asked before; one that only repeats the last does not.

@@ -149,9 +149,11 @@ internal class DraftChecker(private val draft: MissionDraft) {
 
     private fun failsafe(): FailsafePolicy? {
         val volts = numbers[DraftField.LOWEST_VOLTS] ?: return null
+        val percent = numbers[DraftField.LOWEST_PHONE] ?: return null
         return (draft.loaded?.failsafe ?: FailsafePolicy()).copy(
             battery = draft.onBattery,
             lowestVolts = volts,
+            lowestPhonePercent = percent,
             fence = draft.onFence,
             end = draft.atEnd,
             rearms = draft.rearms,
@@ -208,6 +210,7 @@ internal class DraftChecker(private val draft: MissionDraft) {
         val NAMES = mapOf(
             "port" to DraftField.PORT,
             "lowestVolts" to DraftField.LOWEST_VOLTS,
+            "lowestPhonePercent" to DraftField.LOWEST_PHONE,
             "lowest" to DraftField.LOWEST,
             "largest_jump" to DraftField.LARGEST_JUMP,
             "stuck_after" to DraftField.STUCK_AFTER,

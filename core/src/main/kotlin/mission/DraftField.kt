@@ -72,6 +72,9 @@ public enum class DraftField(
 
     /** Below which the boat's battery is low; nobody but a person knows which battery it is, so it begins empty. */
     LOWEST_VOLTS("", "V"),
+
+    /** Below which the phone's battery is low. */
+    LOWEST_PHONE("15", "%"),
     ;
 
     public companion object {

@@ -88,7 +88,7 @@ public class Mission(
     private var armedAt = Double.NEGATIVE_INFINITY
     private var disarmedAt = Double.NEGATIVE_INFINITY
 
-    /** Since when the board is not to be armed, s: the mission's begin or its end. */
+    /** When the mission ended, s. */
     private var leftAt = Double.NaN
     private var stopWanted = false
     private var logLost = false
@@ -148,7 +148,13 @@ public class Mission(
      * Cells that the boat did not get into, and that it went round; those that it came to later are not among them.
      * Allocates.
      */
-    public val givenUpCells: List<Int> get() = navigator.givenUpCells
+    public val givenUpCells: List<Int> get() = navigator.givenUpCells.cells
+
+    /** Middles of such cells off the map, as large as its own, m. Allocates. */
+    public val givenUpOffMap: List<Position> get() = navigator.givenUpCells.offMap
+
+    /** For how long a boat that was held up on every way home rests before it tries again, s; 0 where it does not. */
+    public val restsFor: Double get() = navigator.restsFor(now.seconds)
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -234,7 +240,8 @@ public class Mission(
 
     private fun begin(time: BoatTime): Double {
         probe.begin(time)
-        leftAt = time.seconds
+        // Whoever is there is listened to before anything is said.
+        disarmedAt = time.seconds - (SELDOM - LISTENING)
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
@@ -253,12 +260,14 @@ public class Mission(
         val isIdle = state == MissionState.Idle
         situation.volts = if (isIdle) Double.NaN else port.volts
         situation.phonePercent = if (isIdle) Double.NaN else phonePercent
+        situation.mayCharge = state is MissionState.Preflight
         situation.operatorStop = stopWanted
         situation.operatorWish = wish.danger
         situation.logLost = logLost
         situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
         situation.stranded = navigator.isStranded
+        situation.heldUp = navigator.restsFor(now.seconds) > 0
         return gate.assess(situation)
     }
 
@@ -300,18 +309,19 @@ public class Mission(
     /**
      * A process that died may have left the board armed, any question asked of it keeps its watchdog quiet, and what it
      * answers may not arrive: so it is told in every step until it says that it is disarmed, and then once a second. A
-     * board of the master branch cannot be disarmed, and runs for as long as it is told anything: it is told to rest.
-     * One that is not heard is best left to its watchdog, which a word now and then does not keep quiet: rests can be
-     * spoilt on the way and become drives.
+     * board of the master branch cannot be disarmed, and runs for as long as it is told anything: where it says that it
+     * runs it is told to rest. Else it is not: a rest can be spoilt on the way and become a drive, which a board that
+     * arms keeps. One that is not heard is best left to its watchdog, which a word now and then does not keep quiet.
      */
     private fun leaveDisarmed() {
-        if (minOf(port.silence(now), now.seconds - leftAt) > BoardPort.RESTING) {
+        val isLeftLately = state is MissionState.Stopped && now.seconds - leftAt <= BoardPort.RESTING
+        if (!isLeftLately && port.silence(now) > BoardPort.RESTING) {
             if (now.seconds - disarmedAt < SELDOM) return
             disarmedAt = now.seconds
             port.order(Command.Disarm)
             return port.askState(now)
         }
-        if (!port.isDisarmed) port.tell(now, Drive.NONE, isCalm = true)
+        if (isLeftLately || port.saysItRuns(now)) port.tell(now, Drive.NONE, isCalm = true)
         val isTold = port.isDisarmed || port.armsItself
         if (!isTold || now.seconds - disarmedAt >= BoardPort.PATIENCE) {
             disarmedAt = now.seconds
@@ -350,10 +360,10 @@ public class Mission(
         probe.setUp?.let(port::order)
     }
 
-    /** A boat that waits to be sent off has not begun to use its budget. */
+    /** A boat that waits to be sent off has not begun to use its budget; one that rests for hours uses none. */
     private fun isUnderWay(state: MissionState) = when (state) {
         MissionState.Surveying, is MissionState.Returning -> true
-        is MissionState.Holding -> state.danger != Danger.OPERATOR_WAIT
+        is MissionState.Holding -> state.danger != Danger.OPERATOR_WAIT && state.danger != Danger.HELD_UP
         else -> false
     }
 
@@ -368,6 +378,9 @@ public class Mission(
 
         /** Time between words to a board that is not heard, s: more than the longest watchdog, 3 s. */
         const val SELDOM = 5.0
+
+        /** In which a board that a process before left running comes to rest by itself where it is not heard, s. */
+        const val LISTENING = 1.0
 
         /** Ten times what the slowest firmware takes for a reading, s. */
         const val LONGEST_PROBE_SILENCE = 30.0

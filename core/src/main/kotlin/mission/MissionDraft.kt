@@ -160,6 +160,7 @@ public data class MissionDraft(
                 DraftField.CRUISE to written(spec.boat.cruise),
                 DraftField.ARRIVAL to written(spec.boat.arrival),
                 DraftField.LOWEST_VOLTS to spec.failsafe.lowestVolts?.let(::written).orEmpty(),
+                DraftField.LOWEST_PHONE to written(spec.failsafe.lowestPhonePercent),
             ),
             estimator = spec.estimator,
             planner = spec.planner,

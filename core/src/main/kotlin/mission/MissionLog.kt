@@ -45,7 +45,7 @@ public data class LogStart(
  * @property drive that was let through.
  * @property used of the budget, in its unit.
  * @property leftOut readings that the map did without.
- * @property givenUp cells that the boat did not get into; null where they are those of the step before.
+ * @property givenUp where the boat did not get in; null where that is as at the step before.
  */
 public data class StepRecord(
     val time: BoatTime,
@@ -55,14 +55,15 @@ public data class StepRecord(
     val drive: Drive,
     val used: Double,
     val leftOut: Long,
-    val givenUp: List<Int>? = null,
+    val givenUp: GivenUp? = null,
 )
 
 /**
  * Writes a mission down, line by line: a superset of the Platypus 4.2 log, `<ms>` tab `I` tab `{json}`.
  *
  * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step, and in it the cells that
- * the boat did not get into, where they have changed), `in` (all that came in since the step before, for a replay),
+ * the boat did not get into, by number, and off the map by their middles in m, where they have changed), `in` (all that
+ * came in since the step before, for a replay),
  * `reading` (what the map took, exactly: time, x, y, value and the place's standard deviation) or `pass` (a cell left
  * without a reading); the first line has the whole mission, and, where that is known, which `boat` it is of and whether
  * that is a `virtual` one. Numbers are written so that they are read back to the last bit; what is not finite is `null`.
@@ -108,13 +109,20 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
             is MissionState.Preflight -> state.missing?.let { ""","why":"${it.name.lowercase()}"""" }.orEmpty()
             else -> ""
         }
-        val givenUp = record.givenUp?.let { ""","given_up":[${it.joinToString(",")}]""" }.orEmpty()
+        val givenUp = record.givenUp?.let(::givenUp).orEmpty()
         write(
             record.time,
             """$pose"mission":{"t_s":${number(record.time.seconds)},"state":"${state.word}"$why,""" +
                 """"drive":[${number(record.drive.forward)},${number(record.drive.turn)}],""" +
                 """"used":${number(record.used)},"left_out":${record.leftOut}$givenUp}${inputs.take()}""",
         )
+    }
+
+    /** What is off the map is written only where there is any. */
+    private fun givenUp(all: GivenUp): String {
+        val off = all.offMap.joinToString(",") { "[${number(it.x)},${number(it.y)}]" }
+        return ""","given_up":[${all.cells.joinToString(",")}]""" +
+            if (off.isEmpty()) "" else ""","given_up_off_map":[$off]"""
     }
 
     /** Writes what a sensor said at [now], and of the probe what became of it. */

@@ -65,6 +65,7 @@ internal object MissionPhases {
         Danger.LINK_LOST,
         Danger.FIX_STALE,
         Danger.FIX_JUMPING,
+        Danger.HELD_UP,
         Danger.BUDGET_SPENT,
         Danger.OPERATOR_WAIT,
         Danger.OPERATOR_HOLD,

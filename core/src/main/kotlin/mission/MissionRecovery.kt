@@ -33,7 +33,7 @@ import stillwater.model.Utm
  * @property lastState one word for the state the mission was last in; "idle" where the log has no step.
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
- * @property givenUp cells that the boat did not get into.
+ * @property givenUp where the boat did not get in.
  * @property boat what the boat was called when the log last began, or went on; null where the log does not say.
  * @property isVirtual whether the log is of a virtual boat; null where it does not say.
  */
@@ -49,7 +49,7 @@ public class RecoveredMission internal constructor(
     public val lastState: String,
     public val readings: Long,
     public val unreadable: Long,
-    public val givenUp: List<Int>,
+    public val givenUp: GivenUp,
     public val boat: String?,
     public val isVirtual: Boolean?,
 )
@@ -85,7 +85,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
     private var readings = 0L
     private var unreadable = 0L
     private var frame: LocalFrame? = null
-    private var givenUp = emptyList<Int>()
+    private var givenUp = GivenUp()
     private var boat: String? = null
     private var isVirtual: Boolean? = null
 
@@ -177,7 +177,11 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         lastTime = maxOf(lastTime, time)
         used = spent
         (json["given_up"] as? JsonArray)?.let { cells ->
-            givenUp = cells.mapNotNull { (it as? JsonPrimitive)?.intOrNull }
+            val off = (json["given_up_off_map"] as? JsonArray)?.mapNotNull { numbers(it, POINT_SIZE) }.orEmpty()
+            givenUp = GivenUp(
+                cells.mapNotNull { (it as? JsonPrimitive)?.intOrNull },
+                off.map { Position(it[0], it[1]) },
+            )
         }
         lastState = (json["state"] as? JsonPrimitive)?.contentOrNull ?: return false
         return pose == null || listener == null || at(pose, listener)
@@ -213,6 +217,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         const val PASS_SIZE = 3
         const val READING_SIZE = 4
         const val PLACE_SIZE = 3
+        const val POINT_SIZE = 2
         const val NORTH = "North"
     }
 }

@@ -62,7 +62,7 @@ public enum class StopReason {
     /** The boat was beyond the fence, and the policy is to stop. */
     FENCE,
 
-    /** The boat was held up on every way home that was tried: its motors rest where it is. */
+    /** The boat was held up on every way home, again and again for hours: its motors rest where it is. */
     STRANDED,
 
     /** The board disarmed itself, and the policy is not to arm it again without a person. */

@@ -40,8 +40,8 @@ internal class BudgetUse(private val budget: BudgetSpec) {
 /**
  * Where to steer: along the plan, home, or back to where the boat holds. Plans when the last waypoint was reached or
  * was given up, which it is where the boat has come no nearer for [PATIENCE] s: on weeds, against a current, or where
- * the safety gate lets it come no nearer; [HoldUps] says what then. A way home on which the boat is held up
- * [MOST_WAYS_HOME] times is none. Confined to one thread.
+ * the safety gate lets it come no nearer; [HoldUps] says what then, and [HomeTries] on the way home. Confined to one
+ * thread.
  */
 internal class Navigator(
     private val spec: MissionSpec,
@@ -83,8 +83,8 @@ internal class Navigator(
     private var nearGoal: Position? = null
     private var comebacks = 0
     private val homeward = ProgressWatch(spec.boat.arrival)
-    private var waysHome = 0
-    private var heldFromHome = Double.POSITIVE_INFINITY
+    private val tries = HomeTries(HOLDING * spec.boat.arrival)
+    private var leftAtFirst = Double.NaN
 
     /** In which a slow boat, too, comes nearer by an arrival radius, s. */
     private val slowness = SLOWEST * spec.boat.arrival / spec.boat.cruise
@@ -92,8 +92,8 @@ internal class Navigator(
     /** Waypoints that were given up. */
     val givenUp: Long get() = holdUps.count
 
-    /** Cells that the boat did not get into. Allocates. */
-    val givenUpCells: List<Int> get() = closed.mapCells()
+    /** Where the boat did not get in. Allocates. */
+    val givenUpCells: GivenUp get() = GivenUp(closed.mapCells(), closed.offMap())
 
     /** Changes whenever [givenUpCells] may have changed. */
     val givenUpVersion: Int get() = closed.version
@@ -110,9 +110,11 @@ internal class Navigator(
     var isOver = false
         private set
 
-    /** Whether no way home is left to try; stays so. */
-    var isStranded = false
-        private set
+    /** Whether no way home is tried any more; stays so. */
+    val isStranded: Boolean get() = tries.isStranded
+
+    /** For how long a boat that was held up on every way home rests before it tries again, s, [now] in s; else 0. */
+    fun restsFor(now: Double): Double = tries.restsFor(now)
 
     /** Whether the boat came home on purpose. */
     val isHome: Boolean get() = aim == Aim.HOME && knowsWay && next >= plan.size && (follower.arrived || isNearHome)
@@ -125,11 +127,12 @@ internal class Navigator(
     /** The waypoints ahead, the one steered for first. */
     fun ahead(): List<Position> = plan.waypoints().drop(maxOf(0, next - 1))
 
-    /** Goes on [now], s, after a restart before which the boat did not get into [cells]. */
-    fun resume(cells: List<Int>, now: Double) {
+    /** Goes on [now], s, after a restart before which the boat did not get in where [before] says. */
+    fun resume(before: GivenUp, now: Double) {
         val map = closed.map
-        for (cell in cells) {
-            if (cell in 0 until map.size) closed.close(closed.at(map.centerX(cell), map.centerY(cell)), now)
+        val cells = before.cells.filter { it in 0 until map.size }.map { closed.at(map.centerX(it), map.centerY(it)) }
+        for (cell in (cells + before.offMap.map { closed.at(it.x, it.y) }).distinct()) {
+            if (cell != Grid.OUTSIDE) closed.close(cell, now)
         }
     }
 
@@ -217,17 +220,14 @@ internal class Navigator(
     }
 
     private fun findOtherWayHome(now: Double, isAfloat: Boolean) {
-        val left = hypot(track.x - home.x, track.y - home.y)
-        if (left < heldFromHome - HOLDING * spec.boat.arrival) waysHome = 0
-        heldFromHome = minOf(heldFromHome, left)
-        waysHome++
-        isStranded = waysHome >= MOST_WAYS_HOME
-        if (isStranded) return
         val goal = waypoint(maxOf(0, next - 1))
         val cell = closed.ahead(track.x, track.y, goal.x, goal.y)
+        val isNew = cell != Grid.OUTSIDE && !closed.isKnown(cell)
+        val isAlong = isNew && leftAtFirst - leftToGo() >= spec.grid.cell / 2
+        val left = hypot(track.x - home.x, track.y - home.y)
         if (cell != Grid.OUTSIDE && !closed.isClosed(cell)) closed.close(cell, now)
-        fillWayHome(isAfloat)
         homeward.begin()
+        if (tries.heldUp(now, left, isAlong)) fillWayHome(isAfloat)
     }
 
     /** From off the water, as believed, the nearest of it comes first, and the way is asked for again from there. */
@@ -241,17 +241,20 @@ internal class Navigator(
             val deep = HOLDING * spec.boat.arrival - fence.distance(track.x, track.y)
             plan.add(track.x + deep * fence.inwardX, track.y + deep * fence.inwardY)
         }
-        homeward.resume(leftToGo())
+        leftAtFirst = leftToGo()
+        homeward.resume(leftAtFirst)
     }
 
-    /** Stays where the boat is, and comes back when it was carried off. */
+    /**
+     * Stays where the boat is, and comes back when it was carried off; while fixes jump it is not known whether it was.
+     */
     fun hold() {
         if (turnTo(Aim.HOLD)) {
             plan.add(track.x, track.y)
             next = plan.size
         }
         val off = hypot(track.x - plan.x(0), track.y - plan.y(0))
-        if (follower.arrived && off > HOLDING * spec.boat.arrival) {
+        if (follower.arrived && track.doubt == 0.0 && off > HOLDING * spec.boat.arrival) {
             follower.leg(track.x, track.y, plan.x(0), plan.y(0))
         }
     }
@@ -340,8 +343,5 @@ internal class Navigator(
 
         /** Times a boat may be turned back by the fence on its way to one waypoint. */
         const val MOST_COMEBACKS = 3
-
-        /** Ways home on which the boat is held up, on end, after which none is tried. */
-        const val MOST_WAYS_HOME = 10
     }
 }

@@ -138,6 +138,7 @@ internal class PoseInput(
         situation.x = track.x
         situation.y = track.y
         situation.deviation = track.deviation
+        situation.doubt = track.doubt
         situation.velocityX = track.velocityX
         situation.velocityY = track.velocityY
         situation.heading = heading

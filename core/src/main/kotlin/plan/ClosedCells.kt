@@ -18,7 +18,7 @@ internal fun interface Obstacle {
  * They are the map's cells and as large ones about it, as far as the water goes: what is in the way may lie off the
  * map. So they have numbers of their own, which [at] gives. A closed cell opens again [WAIT] s after it was closed:
  * what kept the boat out may have been a current. Where it did not get in again, all wait for twice as long each
- * further time; where it did, all are open. Confined to one thread; no call allocates but [mapCells].
+ * further time; where it did, all are open. Confined to one thread; no call allocates but [mapCells] and [offMap].
  *
  * @property map the map's cells.
  * @param water which the cells cover, if they are at most [WaterRoutes.MAX_POINTS] and the map is not turned; else they
@@ -60,7 +60,17 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
     /** Whether [cell], which may be [Grid.OUTSIDE], is closed. */
     fun isClosed(cell: Int): Boolean = cell != Grid.OUTSIDE && until[cell] > Double.NEGATIVE_INFINITY
 
-    /** The map's cells among the [known]. */
+    /** Whether [cell], which may be [Grid.OUTSIDE], is among the [known]. */
+    fun isKnown(cell: Int): Boolean = cell != Grid.OUTSIDE && times[cell] > 0
+
+    /** Middles of those among the [known] that are off the map, m. Allocates. */
+    fun offMap(): List<Position> {
+        if (version == 0) return emptyList()
+        return times.indices.filter { times[it] > 0 }.map { Position(cells.centerX(it), cells.centerY(it)) }
+            .filter { map.cellAt(it) == Grid.OUTSIDE }
+    }
+
+    /** The map's cells among the [known]. Allocates. */
     fun mapCells(): List<Int> =
         if (version == 0) emptyList() else (0 until map.size).filter { times[at(map.centerX(it), map.centerY(it))] > 0 }
 

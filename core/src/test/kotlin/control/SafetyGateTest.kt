@@ -111,6 +111,21 @@ class SafetyGateTest {
         assertEquals(Ruling.Fall(Danger.BATTERY_LOW, Failsafe.RETURN_HOME), at(22, 13.0))
     }
 
+    /** Each is wide of the fence by more than its stopping distance, and would pass but for the doubt. */
+    @Test
+    fun aPlaceThatIsDoubtedIsKeptFromTheFenceByAsMuch() {
+        val gate = gate()
+        val near = sound().apply { x = 47.0 }
+        assertEquals(full, ruled(gate, near))
+        assertEquals(Drive(0.0, 0.2), ruled(gate, near.apply { doubt = 2.0 }))
+        val beyond = sound().apply {
+            x = 52.0
+            heading = PI
+        }
+        assertEquals(1.0, ruled(gate, beyond).forward, "led back within the margin")
+        assertEquals(Drive.NONE, ruled(gate, beyond.apply { doubt = 2.0 }))
+    }
+
     @Test
     fun atTheFenceOnlyThrustInwardsPassesAndBeyondTheMarginNone() {
         val gate = gate()

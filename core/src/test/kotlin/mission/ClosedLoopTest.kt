@@ -186,6 +186,22 @@ class ClosedLoopTest {
         assertTrue(desk.boat.dynamics.run { Position(x, y) }.distanceTo(home) < 4.5 + 3 * 0.8)
     }
 
+    /** Before it goes another may be put in; what the one before was is forgotten with it. */
+    @Test
+    fun aBatteryThatIsLowBeforeTheStartMayBeChangedForAnother() {
+        val text = Desk.SMALL.replace(""""home":""", """"failsafe":{"lowest_volts":14.0},"home":""")
+        val desk = Desk(MissionSpec.fromJson(text), 367)
+        desk.boat.board.volts = 13.5
+        // Low for ten seconds, before the place is believed.
+        desk.until(2.0) { false }
+        desk.mission.start()
+        val isLow = MissionState.Preflight(Danger.BATTERY_LOW)
+        assertTrue(desk.until(40.0) { it == isLow }, "${desk.mission.state}")
+        assertFalse(desk.until(20.0) { it != isLow }, "${desk.mission.state}")
+        desk.boat.board.volts = 15.3
+        assertTrue(desk.until(20.0) { it == MissionState.Surveying }, "${desk.mission.state}")
+    }
+
     /** Nobody asks for it: a mission that says nothing of the phone comes home below 15 %. */
     @Test
     fun aPhoneThatRunsLowBringsTheBoatHome() {

@@ -267,9 +267,19 @@ class FirmwareTest {
             repeat(40) { step ->
                 next.step(BoatTime(desk.boat.time.seconds + 1))
                 desk.boat.advance(0.1)
-                if (step > 1) assertFalse(desk.isDriven(), "$board")
+                // It is listened to for a second, in which the quick ones rest by themselves, and told to disarm.
+                if (step > 11) assertFalse(desk.isDriven(), "$board")
             }
         }
+    }
+
+    /** What is said of drives may be spoilt, and a board that arms keeps it. */
+    @Test
+    fun aBoardThatArmsItselfBeforeTheMissionBeganIsNotToldToRest() {
+        val desk = desk(BoardSpec(Firmware.MASTER, arming = 20.0, oxygenPeriod = 1.0))
+        desk.until(10.0) { false }
+        assertEquals(0, between.told.count { it == REST })
+        assertTrue(between.told.count { "disarm" in it } >= 5)
     }
 
     private companion object {

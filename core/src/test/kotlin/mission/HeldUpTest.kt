@@ -6,6 +6,7 @@ import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.test.Test
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 /** A boat that cannot get where it is to go. */
@@ -52,26 +53,37 @@ class HeldUpTest {
         assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
     }
 
-    /** Weeds in the screw: nowhere to go is no way home either. */
+    /** Weeds in the screw: nowhere to go is no way home either. They come off while the boat rests. */
     @Test
-    fun aBoatThatMakesNoWayAtAllIsStranded() {
+    fun aBoatThatMakesNoWayAtAllRestsItsMotorsAndThenTriesAgain() {
         val desk = Desk(spec(), 493)
-        var heldFrom = Double.POSITIVE_INFINITY
+        var isHeld = false
         desk.meanwhile = {
             val boat = desk.boat.dynamics
-            val isHeld = desk.boat.time.seconds > heldFrom
             boat.currentX = if (isHeld) -boat.surge * cos(boat.heading) else 0.0
             boat.currentY = if (isHeld) -boat.surge * sin(boat.heading) else 0.0
         }
         desk.until(3.0) { false }
         desk.mission.start()
         assertTrue(desk.until(120.0) { desk.distanceHome() > 20 })
-        heldFrom = desk.boat.time.seconds
+        isHeld = true
         assertTrue(desk.until(900.0) { it is MissionState.Returning }, "${desk.mission.state}")
-        assertTrue(desk.until(900.0) { it is MissionState.Stopped }, "${desk.mission.state}")
-        assertEquals(MissionState.Stopped(StopReason.STRANDED), desk.mission.state)
-        assertTrue(desk.until(5.0) { desk.mission.board.isDisarmed }, "disarmed")
-        assertTrue(desk.boat.board.actuation.isAtRest)
+        val heldUp = MissionState.Holding(Danger.HELD_UP)
+        assertTrue(desk.until(900.0) { it == heldUp }, "${desk.mission.state}")
+        assertEquals(600.0, desk.mission.restsFor, 0.1)
+        assertTrue(desk.until(1.0) { desk.boat.board.actuation.isAtRest }, "motors run")
+        val used = desk.mission.used
+        // The first ten minutes, in which the weeds hold on, and then twice as long after three ways.
+        assertFalse(desk.until(599.0) { it != heldUp || !desk.boat.board.actuation.isAtRest }, "${desk.mission.state}")
+        assertEquals(used, desk.mission.used)
+        assertTrue(desk.until(5.0) { it is MissionState.Returning }, "${desk.mission.state}")
+        assertTrue(desk.until(300.0) { it == heldUp }, "${desk.mission.state}")
+        assertEquals(1200.0, desk.mission.restsFor, 0.1)
+        assertTrue(desk.lines.any { "\"why\":\"held_up\"" in it }, desk.lines.last())
+        isHeld = false
+        assertTrue(desk.until(1500.0) { it is MissionState.Stopped }, "${desk.mission.state}")
+        assertEquals(MissionState.Stopped(StopReason.COMPLETED), desk.mission.state)
+        assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
     }
 
     /** Away from home it takes a fifth of the time that it takes back. */

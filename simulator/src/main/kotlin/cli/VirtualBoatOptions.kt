@@ -7,7 +7,9 @@ import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.mission.MissionSpec
 import stillwater.model.Interval
+import stillwater.run.label
 import stillwater.virtual.BoardSpec
+import stillwater.virtual.Firmware
 import stillwater.virtual.LinkSpec
 import stillwater.virtual.PoseSpec
 import stillwater.world.BatterySpec
@@ -77,7 +79,9 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         metavar = "P",
         help = "probability that a byte is changed (0)",
     ).number("a number within 0..1") { it in 0.0..1.0 }
-    private val watchdog by option("--watchdog", metavar = "S", help = "of the board, s (3, as on firmware 4.2.0)")
+    private val firmware by option("--firmware", metavar = "NAME", help = firmwareHelp())
+        .oneOf(Firmware.entries.associateBy { it.label })
+    private val watchdog by option("--watchdog", metavar = "S", help = "of the board, s (the firmware's own)")
         .number("a number above 0") { it > 0 }
     private val arming by option("--arming", metavar = "S", help = "time that the board takes to arm, s (4.2)")
         .number("a number above 0") { it > 0 }
@@ -101,7 +105,7 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
     fun settings(): WorldSettings {
         val pose = PoseSpec()
         val link = LinkSpec()
-        val board = BoardSpec()
+        val board = BoardSpec(firmware ?: Firmware.V4_2)
         val battery = BatterySpec()
         return WorldSettings(
             seed = seed,
@@ -145,6 +149,7 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         "--link-delay" to linkDelay,
         "--link-loss" to linkLoss,
         "--link-corruption" to linkCorruption,
+        "--firmware" to firmware?.label,
         "--watchdog" to watchdog,
         "--arming" to arming,
         "--battery-volts" to volts,
@@ -169,6 +174,9 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
 
         /** Of the virtual boat, s. */
         const val TICK = 0.02
+
+        fun firmwareHelp() = "of the board: v4.2.0 (the default), which has to be told to arm and what is on its port " +
+            "and waits 3 s for a command, or master, the branch before it, which arms itself and waits 0.5 s"
 
         fun waterHelp() = "water: uniform (each cell its own value), gaussian (the default) or smooth (which changes " +
             "within a cell)"

@@ -10,6 +10,7 @@ import stillwater.report.counted
 import stillwater.run.label
 import stillwater.wire.Malformed
 import java.util.Locale
+import kotlin.math.ceil
 
 /**
  * Shows a mission under way: a line that stays up to date where somebody watches the terminal, else a line at each
@@ -62,7 +63,7 @@ internal class DriveStatus(
     private fun line(mission: Mission, time: BoatTime): String {
         val state = mission.state
         val why = when (state) {
-            is MissionState.Holding -> " (${words(state.danger.name)})"
+            is MissionState.Holding -> " (${words(state.danger.name)}${rest(mission)})"
             is MissionState.Returning -> " (${words(state.danger.name)})"
             is MissionState.Stopped -> " (${words(state.reason.name)})"
             else -> Waiting.of(mission, time).takeIf { it.isNotEmpty() }?.joinToString("; ", " (", ")").orEmpty()
@@ -76,11 +77,18 @@ internal class DriveStatus(
             mission.position?.let { "at %.1f, %.1f m".format(Locale.ROOT, it.x, it.y) } ?: "place unknown",
             "$known of ${counted(map.grid.size, "cell")}, ${counted(mission.readings.passed, "reading")}",
             if (mission.board.volts.isNaN()) "" else "${VOLTS.format(mission.board.volts)} V",
-            mission.givenUpCells.size.let { if (it > 0) "${counted(it, "cell")} given up" else "" },
+            mission.run { givenUpCells.size + givenUpOffMap.size }
+                .let { if (it > 0) "${counted(it, "cell")} given up" else "" },
             trouble(mission),
             phone.trouble(),
         )
         return parts.filter { it.isNotEmpty() }.joinToString(", ")
+    }
+
+    /** When a boat that was held up on every way home tries again. */
+    private fun rest(mission: Mission): String {
+        val seconds = mission.restsFor
+        return if (seconds > 0) " on every way home, tries again in ${ceil(seconds / MINUTE).toInt()} min" else ""
     }
 
     /** A port that is not named, or a cable that came off, must not show only when the survey is over. */

@@ -6,6 +6,7 @@ import stillwater.mission.EstimatorName
 import stillwater.mission.Mission
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
+import stillwater.model.Position
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
 
@@ -51,12 +52,10 @@ internal object MapCautions {
     }
 
     private fun givenUp(mission: Mission): String? {
-        val cells = mission.givenUpCells
-        if (cells.isEmpty()) return null
         val grid = mission.map.grid
-        val places = cells.take(MOST_NAMED).joinToString {
-            "(${THREE.format(grid.centerX(it))}, ${THREE.format(grid.centerY(it))})"
-        }
+        val cells = mission.givenUpCells.map { Position(grid.centerX(it), grid.centerY(it)) } + mission.givenUpOffMap
+        if (cells.isEmpty()) return null
+        val places = cells.take(MOST_NAMED).joinToString { "(${THREE.format(it.x)}, ${THREE.format(it.y)})" }
         val more = if (cells.size > MOST_NAMED) " and ${cells.size - MOST_NAMED} more" else ""
         return "${counted(cells.size, "cell")} given up, because the boat came no nearer: $places m$more"
     }

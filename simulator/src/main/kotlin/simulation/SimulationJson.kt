@@ -5,6 +5,7 @@ import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonObjectBuilder
 import kotlinx.serialization.json.JsonPrimitive
+import kotlinx.serialization.json.addJsonObject
 import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonArray
@@ -72,6 +73,14 @@ internal object SimulationJson {
             put("battery_v", run.world.battery.volts)
             put("waypoints_given_up", run.mission.givenUp)
             putJsonArray("cells_given_up") { run.mission.givenUpCells.forEach { add(JsonPrimitive(it)) } }
+            putJsonArray("places_given_up_off_map") {
+                for (place in run.mission.givenUpOffMap) {
+                    addJsonObject {
+                        put("x_m", place.x)
+                        put("y_m", place.y)
+                    }
+                }
+            }
         }
     }
 

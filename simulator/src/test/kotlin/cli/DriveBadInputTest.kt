@@ -108,6 +108,7 @@ class DriveBadInputTest {
         val both = arrayOf("virtual-boat", mission, "--tcp", "1", "--pty")
         assertRefused("expected one of --pty and --tcp PORT, found both", *both)
         assertRefused("--tcp: expected a port in 0..65535", "virtual-boat", mission, "--tcp", "65536")
+        assertRefused("--firmware: expected one of v4.2.0, master", "virtual-boat", mission, "--firmware", "v5")
         assertRefused("--speed: expected a number within", "virtual-boat", mission, "--tcp", "0", "--speed", "0")
         ServerSocket(0, 1, InetAddress.getLoopbackAddress()).use { taken ->
             val port = "${taken.localPort}"

@@ -24,6 +24,8 @@ import kotlin.math.sin
  *
  * @param stages of the probe, as in a sensor's file.
  * @param period from one reading to the next, s.
+ * @param reef whether there is water, from shore to shore but for its ends, that the boat does not get into, so that
+ *   cells are closed and ways lead round them.
  */
 internal class StepTime(
     private val planner: PlannerName,
@@ -31,6 +33,7 @@ internal class StepTime(
     private val stages: String,
     private val period: Double,
     private val seed: Long,
+    private val reef: Boolean = false,
 ) {
     private val spec = MissionSpec.fromJson(
         """{"name":"large","origin":{"lat_deg":45.5,"lon_deg":-73.6},
@@ -55,12 +58,16 @@ internal class StepTime(
     private val mission = Mission(spec, boat.phone, log)
     private val clock = ManagementFactory.getThreadMXBean()
 
+    /** Cells that the boat did not get into. */
+    val givenUp: Int get() = mission.givenUpCells.size + mission.givenUpOffMap.size
+
     /** Processor times of the mission's first [steps] steps, ns, sorted. */
     fun run(steps: Int): LongArray {
         mission.start()
         val times = LongArray(steps)
         for (step in 0 until steps) {
             boat.advance(0.1)
+            if (reef) keepOut()
             boat.takeFix()?.let { mission.fix(it.time, it.place) }
             mission.compass(boat.time, boat.heading(), boat.yawRate)
             val begun = clock.currentThreadCpuTime
@@ -70,7 +77,20 @@ internal class StepTime(
         return times.also { it.sort() }
     }
 
+    /** Pushes the boat out of the reef as fast as it drives in, and a little faster. */
+    private fun keepOut() {
+        val at = boat.dynamics
+        val isIn = at.x in REEF_WEST..REEF_EAST && at.y in REEF_SOUTH..REEF_NORTH
+        val side = if (at.y < (REEF_SOUTH + REEF_NORTH) / 2) -1.0 else 1.0
+        at.currentY = if (isIn) side * (maxOf(0.0, -side * at.surge * sin(at.heading)) + 0.2) else 0.0
+    }
+
     companion object {
+        private const val REEF_WEST = 0.0
+        private const val REEF_EAST = 240.0
+        private const val REEF_SOUTH = 20.0
+        private const val REEF_NORTH = 26.0
+
         /** Steps of another mission before, until the code is compiled. */
         const val WARM = 10_000
         const val SEED = 20_261_121L
@@ -86,23 +106,27 @@ internal class StepTime(
 private const val LAG = """{"type":"first-order-lag","time_constant_s":6.0}"""
 
 /**
- * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES]]]`: prints a table of the times of a mission's first so many steps, ms of
- * processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
- * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s).
+ * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES [reef]]]]`: prints a table of the times of a mission's first so many steps,
+ * ms of processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
+ * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s, as with
+ * `-`); with `reef` on water part of which the boat does not get into, and behind the times how many cells it gave up.
  */
 fun main(arguments: Array<String>) {
     val steps = arguments[0].toInt()
     val planners = PlannerName.entries.filter { arguments.getOrElse(1) { "all" } in listOf(word(it), "all") }
     val estimators = EstimatorName.entries.filter { arguments.getOrElse(2) { "all" } in listOf(word(it), "all") }
     val period = arguments.getOrNull(3)?.toDouble() ?: 1.0
-    val stages = arguments.getOrNull(4) ?: LAG
+    val stages = arguments.getOrNull(4)?.takeIf { it != "-" } ?: LAG
+    val reef = arguments.getOrNull(5) == "reef"
     println("| |" + planners.joinToString("") { " ${word(it)} |" })
     println("|---|" + "---|".repeat(planners.size))
     for (estimator in estimators) {
         print("| ${word(estimator)} |")
         for (planner in planners) {
             StepTime(planner, estimator, stages, period, StepTime.SEED + 1).run(StepTime.WARM)
-            print(" ${StepTime.text(StepTime(planner, estimator, stages, period, StepTime.SEED).run(steps))} |")
+            val measured = StepTime(planner, estimator, stages, period, StepTime.SEED, reef)
+            val times = StepTime.text(measured.run(steps))
+            print(" $times${if (reef) " (${measured.givenUp})" else ""} |")
         }
         println()
     }

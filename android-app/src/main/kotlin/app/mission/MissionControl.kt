@@ -3,6 +3,7 @@ package stillwater.app.mission
 import stillwater.app.pose.Pose
 import stillwater.app.service.Answer
 import stillwater.app.service.FixCounts
+import stillwater.mission.GivenUp
 import stillwater.mission.MissionDraft
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
@@ -291,6 +292,8 @@ internal class MissionControl(
             ReadingCounts(received = found?.readings ?: 0, taken = found?.readings ?: 0),
             recovered?.let { LogReport(it.name) },
             probeSilence = null,
+            found?.givenUp ?: GivenUp(),
+            restsFor = 0.0,
             DoubleArray(map.grid.size) { Double.NaN },
             now = 0.0,
         )

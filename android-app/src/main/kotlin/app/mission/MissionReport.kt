@@ -1,6 +1,7 @@
 package stillwater.app.mission
 
 import stillwater.field.FieldMap
+import stillwater.mission.GivenUp
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
 import stillwater.mission.Wish
@@ -24,6 +25,9 @@ import stillwater.model.Position
  * @property log where it is written down; null before it was first armed.
  * @property probeSilence time since a boat under way has heard its probe, s, where that is longer than any probe that
  *   works is silent; null elsewhere.
+ * @property givenUp where the boat did not get in.
+ * @property restsFor time for which a boat that was held up on every way home rests before it tries again, s; 0 where
+ *   it does not.
  * @param readAt when each cell was last read, s on the boat's clock; NaN where it never was. Retained, not modified.
  * @param now of the report, s on the same clock.
  */
@@ -42,6 +46,8 @@ class MissionReport(
     val counts: ReadingCounts,
     val log: LogReport?,
     val probeSilence: Double?,
+    val givenUp: GivenUp,
+    val restsFor: Double,
     private val readAt: DoubleArray,
     private val now: Double,
 ) {
@@ -55,7 +61,7 @@ class MissionReport(
     internal fun withLog(log: LogReport): MissionReport =
         MissionReport(
             spec, state, wish, isRecovered, isOver, map, position, track, plan, used, trace, counts, log, probeSilence,
-            readAt, now,
+            givenUp, restsFor, readAt, now,
         )
 
     /** Time since the last reading in [cell], s; null where there was none, or none since the app was started. */

@@ -3,6 +3,7 @@ package stillwater.app.mission
 import stillwater.app.pose.Pose
 import stillwater.control.FixCheck
 import stillwater.mission.LogStart
+import stillwater.mission.GivenUp
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
@@ -113,6 +114,8 @@ internal class MissionRun(
             counts(),
             log.report,
             mission.probeSilence.takeIf { mission.isProbeSilent },
+            GivenUp(mission.givenUpCells, mission.givenUpOffMap),
+            mission.restsFor,
             readAt.copyOf(),
             now,
         )

@@ -112,6 +112,7 @@ internal class LinkHealthWords(private val context: Context) {
                 ),
             ),
             HealthLine(text(R.string.readings_unreadable, counts.unreadable)),
+            context.givenUpWords(mission.givenUp)?.let { HealthLine(it) },
         )
     }
 

@@ -1,6 +1,7 @@
 package stillwater.app.screen
 
 import stillwater.field.FieldMap
+import stillwater.mission.GivenUp
 import stillwater.model.Position
 
 /**
@@ -15,6 +16,7 @@ import stillwater.model.Position
  * @property boat where it is.
  * @property headingDeg where it points, compass degrees; null where unknown.
  * @property unit of the value, for the words; empty where it has none.
+ * @property givenUp where the boat did not get in.
  * @property ageOf seconds since the last reading of a cell; null where there was none.
  */
 internal class MapScene(
@@ -27,6 +29,7 @@ internal class MapScene(
     val boat: Position? = null,
     val headingDeg: Float? = null,
     val unit: String = "",
+    val givenUp: GivenUp = GivenUp(),
     val ageOf: (Int) -> Double? = { null },
 ) {
     /** All that has to fit onto the screen. */

@@ -56,9 +56,12 @@ internal class MapScreen(private val context: Context) : Screen {
         if (drawn == now) return
         drawn = now
         map.scene = snapshot.mission?.let { scene(it, boat, snapshot.headingDeg) } ?: MapScene()
-        if (!map.isTold) {
-            words.say(context.getString(if (snapshot.mission == null) R.string.map_begin else R.string.map_hint))
-        }
+        if (!map.isTold) words.say(hint(snapshot.mission))
+    }
+
+    private fun hint(report: MissionReport?): String {
+        val hint = context.getString(if (report == null) R.string.map_begin else R.string.map_hint)
+        return listOfNotNull(hint, report?.let { context.givenUpWords(it.givenUp) }).joinToString("\n")
     }
 
     private fun toggleFollow() {
@@ -104,6 +107,7 @@ internal class MapScreen(private val context: Context) : Screen {
                 boat = boat,
                 headingDeg = headingDeg,
                 unit = report.spec.probe.quantity.unit,
+                givenUp = report.givenUp,
                 ageOf = report::ageOf,
             )
     }

@@ -10,7 +10,7 @@ import stillwater.model.Position
 
 /**
  * The live map: cells coloured by what is believed, the fainter the less certain; track, plan, fence, keep-outs, home
- * and boat.
+ * and boat; a cross where the boat did not get in.
  *
  * A cell that is tapped is outlined and told of: [onCell] gets its words. Drawn anew only when a scene comes or a
  * finger does. Confined to the main thread.
@@ -52,6 +52,7 @@ internal class MapView(context: Context) : WaterView(context) {
         val projection = projection() ?: return drawNothing(canvas, R.string.map_empty)
         val range = scene.map?.measuredRange()
         scene.map?.let { drawCells(canvas, projection, it, range) }
+        drawGivenUp(canvas, projection)
         drawLine(canvas, projection, scene.fence, LineStyle(R.color.fence, FENCE_DP, isClosed = true))
         for (ring in scene.keepOuts) drawKeepOut(canvas, projection, ring)
         drawLine(canvas, projection, scene.track, LineStyle(R.color.track, TRACK_DP, hasHalo = true))
@@ -78,6 +79,11 @@ internal class MapView(context: Context) : WaterView(context) {
     }
 
     private fun told(map: FieldMap, cell: Int): String {
+        val known = known(map, cell)
+        return if (cell in scene.givenUp.cells) resources.getString(R.string.cell_given_up, known) else known
+    }
+
+    private fun known(map: FieldMap, cell: Int): String {
         val bounds = context.boundsWords(map.lower(cell), map.upper(cell), map.prior)
         if (map.readings(cell) == 0) {
             return resources.getString(R.string.cell_not_measured, bounds, scene.unit).trim()
@@ -98,7 +104,26 @@ internal class MapView(context: Context) : WaterView(context) {
     private fun described(scene: MapScene): String {
         val map = scene.map ?: return resources.getString(R.string.map_empty_said)
         val measured = (0 until map.grid.size).count { map.readings(it) > 0 }
-        return resources.getString(R.string.map_said, measured, map.grid.size)
+        val said = resources.getString(R.string.map_said, measured, map.grid.size)
+        val givenUp = context.givenUpWords(scene.givenUp) ?: return said
+        return resources.getString(R.string.map_said_given_up, said, givenUp)
+    }
+
+    /** A cross in each cell that the boat did not get into, on the map and off it. */
+    private fun drawGivenUp(canvas: Canvas, projection: MapProjection) {
+        val grid = scene.map?.grid ?: return
+        val places = scene.givenUp.run { cells.filter { it < grid.size }.map(grid::center) + offMap }
+        val halfX = CROSS_SHARE * grid.cellWidth
+        val halfY = CROSS_SHARE * grid.cellHeight
+        // The halos first, or one arm's would cut the other.
+        for (style in listOf(LineStyle(R.color.ground, CROSS_DP + HALO), LineStyle(R.color.fence, CROSS_DP))) {
+            for (at in places) {
+                for (rise in listOf(-halfY, halfY)) {
+                    val ends = listOf(Position(at.x - halfX, at.y - rise), Position(at.x + halfX, at.y + rise))
+                    drawLine(canvas, projection, ends, style)
+                }
+            }
+        }
     }
 
     private fun drawCells(canvas: Canvas, projection: MapProjection, map: FieldMap, range: Interval?) {
@@ -147,6 +172,11 @@ internal class MapView(context: Context) : WaterView(context) {
         const val PLAN_DP = 3f
         const val FENCE_DP = 2.5f
         const val TAPPED_DP = 3f
+        const val CROSS_DP = 2f
+        const val HALO = 2f
+
+        /** Of a cell's side, half a cross. */
+        const val CROSS_SHARE = 0.3
         const val MIDDLE = 0.5
     }
 }

@@ -13,6 +13,7 @@ import stillwater.app.service.PreflightNote
 import stillwater.app.service.PreflightReason
 import stillwater.app.setup.words
 import stillwater.control.Danger
+import stillwater.mission.GivenUp
 import stillwater.mission.MissionState
 import stillwater.mission.StopReason
 import stillwater.model.Interval
@@ -24,7 +25,7 @@ internal fun Context.stateWords(snapshot: BoatSnapshot): String {
         if (mission == null || snapshot.activity == BoatActivity.REFUSED) {
             listOfNotNull(getString(snapshot.activity.words()), snapshot.refusal).joinToString(": ")
         } else {
-            missionWords(mission.state)
+            missionWords(mission.state, mission.restsFor)
         }
     return listOfNotNull(first, linkWords(snapshot)).joinToString("\n")
 }
@@ -48,8 +49,11 @@ internal fun isBad(snapshot: BoatSnapshot): Boolean =
         snapshot.activity == BoatActivity.REFUSED ||
         snapshot.mission?.probeSilence != null
 
-/** What a mission is about, with the reason where there is one. */
-internal fun Context.missionWords(state: MissionState): String =
+/**
+ * What a mission is about, with the reason where there is one; [restsFor] s is the time until a boat that was held up
+ * tries again.
+ */
+internal fun Context.missionWords(state: MissionState, restsFor: Double = 0.0): String =
     when (state) {
         MissionState.Idle -> getString(R.string.mission_idle)
         is MissionState.Preflight ->
@@ -61,7 +65,13 @@ internal fun Context.missionWords(state: MissionState): String =
             }
         MissionState.Arming -> getString(R.string.mission_arming)
         MissionState.Surveying -> getString(R.string.mission_surveying)
-        is MissionState.Holding -> getString(R.string.mission_holding, getString(state.danger.words()))
+        is MissionState.Holding -> {
+            val why = getString(state.danger.words())
+            getString(
+                R.string.mission_holding,
+                if (restsFor > 0) getString(R.string.danger_held_up_for, why, duration(restsFor)) else why,
+            )
+        }
         is MissionState.Returning -> getString(R.string.mission_returning, getString(state.danger.words()))
         is MissionState.Stopped -> getString(R.string.mission_stopped, getString(state.reason.words()))
     }
@@ -77,6 +87,12 @@ private fun StopReason.words(): Int =
         StopReason.STRANDED -> R.string.danger_stranded
         StopReason.DISARMED -> R.string.stopped_disarmed
     }
+
+/** How many cells the boat did not get into; null where there is none. */
+internal fun Context.givenUpWords(givenUp: GivenUp): String? {
+    val cells = givenUp.cells.size + givenUp.offMap.size
+    return if (cells == 0) null else resources.getQuantityString(R.plurals.cells_given_up, cells, cells)
+}
 
 /** What the service does, in words. */
 internal fun BoatActivity.words(): Int =

@@ -62,6 +62,7 @@ internal fun Danger.words(): Int =
         Danger.FIX_JUMPING -> R.string.danger_fix_jumping
         Danger.BATTERY_LOW -> R.string.danger_battery
         Danger.STRANDED -> R.string.danger_stranded
+        Danger.HELD_UP -> R.string.danger_held_up
         Danger.PHONE_LOW -> R.string.danger_phone
         Danger.FENCE -> R.string.danger_fence
         Danger.LOG_LOST -> R.string.danger_log
@@ -95,6 +96,7 @@ internal fun DraftField.words(): Int =
         DraftField.CRUISE -> R.string.field_cruise
         DraftField.ARRIVAL -> R.string.field_arrival
         DraftField.LOWEST_VOLTS -> R.string.field_volts
+        DraftField.LOWEST_PHONE -> R.string.field_phone
     }
 
 /** How much has been drawn, in a line. */

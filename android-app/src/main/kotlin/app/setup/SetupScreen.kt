@@ -137,7 +137,7 @@ internal class SetupScreen(
         part(R.string.part_budget, unit)
         numbers(DraftField.BUDGET, DraftField.RESERVE)
         part(R.string.part_failsafe, onBattery)
-        numbers(DraftField.LOWEST_VOLTS)
+        numbers(DraftField.LOWEST_VOLTS, DraftField.LOWEST_PHONE)
         below(onFence)
         below(atEnd)
         below(rearms)

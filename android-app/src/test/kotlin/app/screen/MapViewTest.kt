@@ -12,11 +12,14 @@ import org.junit.runner.RunWith
 import org.robolectric.RobolectricTestRunner
 import org.robolectric.RuntimeEnvironment
 import org.robolectric.annotation.Config
+import stillwater.app.R
 import stillwater.field.FieldMap
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.Position
+import kotlin.math.abs
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
@@ -87,7 +90,39 @@ class MapViewTest {
     fun itSaysWhatItShows() {
         assertEquals("Map, empty: no position and no map yet", map.contentDescription)
         map.scene = Scenes.halfSurveyed()
-        assertEquals("Map: 140 of 240 cells measured. Tap a cell for its bounds.", map.contentDescription)
+        val givenUp = "3 cells that the boat did not get into (crosses)."
+        val said = "Map: 140 of 240 cells measured. Tap a cell for its bounds."
+        assertEquals("$said $givenUp", map.contentDescription)
+        map.scene = MapScene(map = map.scene.map)
+        assertEquals(said, map.contentDescription)
+    }
+
+    /** Edges are drawn with a little of the ground in them. */
+    private fun isOfTheFence(pixel: Int): Boolean {
+        val fence = map.context.getColor(R.color.fence)
+        return listOf(Color::red, Color::green, Color::blue).all { abs(it(pixel) - it(fence)) <= 24 }
+    }
+
+    /** On the map and off it; of the arms of a cross, the middle is drawn over by both. */
+    @Test
+    fun whereTheBoatDidNotGetInIsACross() {
+        val scene = Scenes.halfSurveyed()
+        map.scene = scene
+        val (cells, offMap) = scene.givenUp
+        val grid = scene.map!!.grid
+        val projection = assertNotNull(map.projection())
+        val drawn = Bitmap.createBitmap(map.width, map.height, Bitmap.Config.ARGB_8888)
+        map.draw(Canvas(drawn))
+        for (at in cells.map(grid::center) + offMap) {
+            val pixel = drawn.getPixel(projection.x(at).toInt(), projection.y(at).toInt())
+            assertTrue(isOfTheFence(pixel), "$at")
+        }
+        val next = grid.center(cells.last() + 1)
+        assertFalse(isOfTheFence(drawn.getPixel(projection.x(next).toInt(), projection.y(next).toInt())), "$next")
+        assertEquals(
+            "Not measured; anything from 4.000 to 12.000 mg/L; the boat did not get in",
+            map.tap(grid.center(cells[0])),
+        )
     }
 
     @Test

@@ -21,6 +21,7 @@ import stillwater.field.FieldMap
 import stillwater.mission.AreaSpec
 import stillwater.mission.BudgetSpec
 import stillwater.mission.FailsafePolicy
+import stillwater.mission.GivenUp
 import stillwater.mission.GridSpec
 import stillwater.mission.MissionSpec
 import stillwater.mission.MissionState
@@ -63,6 +64,9 @@ internal object Scenes {
     /** The last lane, shortened by the shore. */
     private val aroundTheIsland =
         listOf(87.5 to 57.5, 80.0 to 62.5, 56.0 to 62.5, 50.0 to 57.5, 12.5 to 57.5).map { (x, y) -> Position(x, y) }
+
+    /** Between two lanes, and east of the map. */
+    private val weeds = GivenUp(listOf(177, 178), listOf(Position(102.5, 42.5)))
     private val trace = ArrayList<TracePoint>()
     private val track = ArrayList<Position>()
     private val map: FieldMap = surveyed()
@@ -139,6 +143,7 @@ internal object Scenes {
         isOver: Boolean = false,
         position: Position? = track.last(),
         probeSilence: Double? = null,
+        restsFor: Double = 0.0,
     ) =
         MissionReport(
             spec = spec,
@@ -155,6 +160,8 @@ internal object Scenes {
             counts = ReadingCounts(1_412, 1_400, 0, 2, 3, 0, 7, 3, 41),
             log = LogReport("2026-07-14T09-31-12-North-pond.log.incomplete", 9_113, 9_110),
             probeSilence = probeSilence,
+            givenUp = weeds,
+            restsFor = restsFor,
             readAt = DoubleArray(grid.size) { if (map.readings(it) > 0) 1.0 * it * SECONDS_A_CELL else Double.NaN },
             now = ROWS_DONE * grid.columns * SECONDS_A_CELL.toDouble(),
         )
@@ -168,6 +175,7 @@ internal object Scenes {
             home = spec.home.position,
             boat = track.last(),
             unit = "mg/L",
+            givenUp = weeds,
             ageOf = { if (map.readings(it) > 0) 125.0 else null },
         )
 

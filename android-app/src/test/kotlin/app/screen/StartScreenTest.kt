@@ -54,6 +54,14 @@ class StartScreenTest {
     }
 
     @Test
+    fun aBoatThatRestsUntilItTriesAgainSaysWhen() {
+        val report = Scenes.report(MissionState.Holding(Danger.HELD_UP), restsFor = 125.0)
+        activity.show(Scenes.surveying.copy(mission = report))
+        val said = "Holding: held up on every way home, motors at rest; tries again in 2 min 5 s"
+        assertTrue(activity.wordsShown().any { it.startsWith(said) }, activity.wordsShown().toString())
+    }
+
+    @Test
     fun eachButtonTellsTheBoat() {
         activity.show(Scenes.loaded)
         window.boat.told.clear()

@@ -86,6 +86,7 @@ class SetupTest {
         assertEquals(78.4, spec.area.corners().maxOf { it.x }, 0.1)
         assertEquals(55.6, spec.area.corners().maxOf { it.y }, 0.1)
         assertEquals(PlannerName.POLYGON_RRT to 13.2, spec.planner to spec.failsafe.lowestVolts)
+        assertEquals(15.0, spec.failsafe.lowestPhonePercent)
         assertTrue(activity.view<View>(R.id.loaded_mission).isShown, "on to the checklist")
     }
 
@@ -310,13 +311,27 @@ class SetupTest {
         window.settle()
     }
 
-    private fun sayVolts() {
+    private fun sayVolts() = say("Low is below", "13.2")
+
+    /** Types [text] into the field whose words have [label]. */
+    private fun say(label: String, text: String) {
         val field =
             activity.shown().filterIsInstance<EditText>().single { edit ->
-                views(edit.parent as View).any { it is TextView && "Low is below" in it.text }
+                views(edit.parent as View).any { it is TextView && label in it.text }
             }
-        field.setText("13.2")
+        field.setText(text)
         window.settle()
+    }
+
+    @Test
+    fun thePhonesOwnLimitIsAskedForAndKeptWithinItsCharge() {
+        activity.desk.change { MissionDraft.of(Scenes.spec) }
+        activity.go(ScreenName.MISSION)
+        window.settle()
+        say("The phone", "120")
+        assertEquals(setOf(DraftField.LOWEST_PHONE), activity.desk.check?.problems?.keys)
+        say("The phone", "30")
+        assertEquals(30.0, activity.desk.check?.spec?.failsafe?.lowestPhonePercent)
     }
 
     private companion object {

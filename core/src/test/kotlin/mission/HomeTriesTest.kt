@@ -1,0 +1,60 @@
+package stillwater.mission
+
+import stillwater.control.Danger
+import stillwater.control.Failsafe
+import stillwater.control.Ruling
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+/** Ways home in vain, each a minute long. */
+class HomeTriesTest {
+    private val tries = HomeTries(nearer = 4.5)
+    private var now = 0.0
+
+    private fun waysUntilRest(left: (Int) -> Double = { 100.0 }, isAlong: (Int) -> Boolean = { false }): Int {
+        var ways = 0
+        do {
+            now += 60
+            ways++
+        } while (tries.heldUp(now, left(ways), isAlong(ways)))
+        return ways
+    }
+
+    @Test
+    fun restsGrowLongerAndTheLastIsForGood() {
+        assertEquals(10, waysUntilRest())
+        for (rest in listOf(600.0, 1200.0, 2400.0, 4800.0, 9600.0)) {
+            assertEquals(rest, tries.restsFor(now))
+            assertFalse(tries.isStranded)
+            now += rest
+            assertEquals(0.0, tries.restsFor(now))
+            assertEquals(3, waysUntilRest())
+        }
+        assertTrue(tries.isStranded)
+    }
+
+    @Test
+    fun waysThatLeadAlongWhatIsInTheWayMayBeMore() {
+        assertEquals(60, waysUntilRest(isAlong = { true }))
+        assertEquals(3, waysUntilRest())
+        now += 3600
+        assertEquals(6, waysUntilRest(isAlong = { it == 2 || it == 4 }))
+    }
+
+    @Test
+    fun aBoatThatComesNearerHasTheFirstTenAgain() {
+        assertEquals(19, waysUntilRest(left = { if (it < 10) 100.0 else 90.0 }))
+    }
+
+    @Test
+    fun whoIsStrandedIsStoppedAndWhoRestsIsNot() {
+        fun next(danger: Danger) = MissionPhases.next(
+            MissionState.Returning(Danger.BUDGET_SPENT),
+            PhaseInput(Ruling.Fall(danger, Failsafe.STOP), board = null, isHome = false, rearms = true),
+        )
+        assertEquals(MissionState.Stopped(StopReason.STRANDED), next(Danger.STRANDED))
+        assertEquals(MissionState.Holding(Danger.HELD_UP), next(Danger.HELD_UP))
+    }
+}
