@@ -84,7 +84,8 @@ internal class ForwardSearch(
             } else {
                 full.score - without.score
             }
-            Evidence.pValue(gain, trial.degrees) * terms.size > settings.level
+            Evidence.pValue(gain, trial.degrees) * terms.size > settings.level &&
+                (trial.term.cause.baseNumbers.isEmpty() || CalibrationPoint.isInLog(without, base))
         }
         if (needless.isEmpty()) return chosen
         val kept = chosen.filter { it !in needless }

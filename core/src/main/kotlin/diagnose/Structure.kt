@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import java.util.Locale
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
@@ -49,7 +50,8 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val directions = Evidence.orthonormal(whitened, basis)
         if (directions.isEmpty()) return Dependence(name, 0.0, 1, 1.0)
         val explained = directions.sumOf { direction -> dot(direction, fit.whitened).let { it * it } }
-        val inflation = Evidence.inflation(directions, fit.whitened)
+        // Of what the columns leave: what they explain would count as correlation of its own score.
+        val inflation = Evidence.inflation(directions, Evidence.without(fit.whitened, directions))
         val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
         val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
         val ratio = (if (worth) maxOf(quick, fitted(columns)) else quick) / inflation
@@ -163,26 +165,27 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val lowest = 3 / maxOf(series.duration, 1e-9)
         val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
         if (count < 2) return Dependence("time, periodically", 0.0, 2, 1.0)
-        var best = 0.0
-        var period = 0.0
-        for (k in 0 until count) {
-            val frequency = lowest + (highest - lowest) * k / (count - 1)
-            var even = 0.0
-            var odd = 0.0
-            for (i in 0 until n) {
-                val phase = 2 * PI * frequency * (series.times[i] - series.times[0])
-                even += fit.whitened[i] * cos(phase)
-                odd += fit.whitened[i] * sin(phase)
-            }
-            val power = 2 * (even * even + odd * odd) / n
-            if (power > best) {
-                best = power
-                period = 1 / frequency
-            }
-        }
+        val step = (highest - lowest) / (count - 1)
+        val powers = DoubleArray(count) { explainedBy(lowest + step * it) }
+        // Halfway between two of them a period shows less than half of its power in either.
+        val near = powers.indices.sortedByDescending { powers[it] }.take(REFINED)
+            .flatMap { k -> NEAR.map { lowest + step * (k + it) } }.associateWith(::explainedBy)
+        val (frequency, best) = near.maxBy { it.value }
         val ratio = Evidence.ratio(square, square - best, fit.noise.rows)
-        val p = minOf(1.0, Evidence.pValue(ratio, 2) * count)
-        return Dependence("time, periodically (every %.3g s)".format(java.util.Locale.ROOT, period), ratio, 2, p)
+        val p = minOf(1.0, Evidence.pValue(ratio, 2) * count * OVERSAMPLED)
+        return Dependence("time, periodically (every %.3g s)".format(Locale.ROOT, 1 / frequency), ratio, 2, p)
+    }
+
+    /** What a wave of [frequency], Hz, explains of the whitened residuals' squares. */
+    private fun explainedBy(frequency: Double): Double {
+        var even = 0.0
+        var odd = 0.0
+        for (i in 0 until n) {
+            val phase = 2 * PI * frequency * (series.times[i] - series.times[0])
+            even += fit.whitened[i] * cos(phase)
+            odd += fit.whitened[i] * sin(phase)
+        }
+        return 2 * (even * even + odd * odd) / n
     }
 
     private fun standard(column: DoubleArray): DoubleArray {
@@ -204,5 +207,10 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
     private companion object {
         const val MOST_FREQUENCIES = 2500
         const val WORTH_A_FIT = 0.3
+
+        /** Frequencies that are looked at more closely, in which places beside them, and as how many more they count. */
+        const val REFINED = 4
+        val NEAR = listOf(-0.5, -0.25, 0.0, 0.25, 0.5)
+        const val OVERSAMPLED = 2
     }
 }
