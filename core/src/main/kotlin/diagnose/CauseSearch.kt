@@ -69,7 +69,7 @@ internal class CauseSearch(
         // differs by chance.
         val cost = searched + 2 * degrees
         val isNone = term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)
-        val p = if (isNone) 1.0 else minOf(1.0, Evidence.pValue(ratio, degrees))
+        val p = if (isNone) 1.0 else maxOf(Evidence.pValue(ratio, degrees), ownPValue(base, best, term))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
@@ -80,6 +80,17 @@ internal class CauseSearch(
         // Where a log has no place for a jump nothing is added.
         val added = if (best === base) term else best.model.terms.last()
         return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
+    }
+
+    /**
+     * Of what [term] itself adds where it leaves a given number open besides; 0 where it does not. A wrong number alone
+     * would make any such cause look likely.
+     */
+    private fun ownPValue(base: ModelFit, best: ModelFit, term: Term): Double {
+        val open = term.cause.conditionalNumber?.takeIf { best.free[it] && !base.free[it] } ?: return 0.0
+        val free = base.free.copyOf().also { it[open] = true }
+        val without = Fitting.fit(base.model, base.numbers, free, used, longest, guess = base.noise)
+        return Evidence.pValue((best.score - without.score) / inflation(without, best), 1)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {

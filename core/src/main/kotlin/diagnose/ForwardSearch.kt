@@ -43,9 +43,16 @@ internal class ForwardSearch(
         return trials.indices.filter { adjusted[it] < settings.level && trials[it].foretells }.map { trials[it] }
     }
 
-    /** A wrong number of the base makes everything else look significant: it comes first, if it is one. */
-    private fun best(worthy: List<Trial>): Trial? =
-        worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }.ifEmpty { worthy }.maxByOrNull { it.worth }
+    /**
+     * The likeliest; a wrong number of the base comes first unless another cause is clearly likelier, because others can
+     * make up for a wrong number: a slow path that is hardly slower is a longer time constant.
+     */
+    private fun best(worthy: List<Trial>): Trial? {
+        val best = worthy.maxByOrNull { it.worth } ?: return null
+        return worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }
+            .filter { (best.worth - it.worth) / 2 / best.inflation < -ln(1 - settings.setProbability) }
+            .maxByOrNull { it.worth } ?: best
+    }
 
     /**
      * The search that begins with [beginning]; nothing where with two causes or more it explains no more than as many
