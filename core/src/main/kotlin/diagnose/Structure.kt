@@ -51,11 +51,25 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         if (directions.isEmpty()) return Dependence(name, 0.0, 1, 1.0)
         val explained = directions.sumOf { direction -> dot(direction, fit.whitened).let { it * it } }
         // Of what the columns leave: what they explain would count as correlation of its own score.
-        val inflation = Evidence.inflation(directions, Evidence.without(fit.whitened, directions))
+        val rest = Evidence.without(fit.whitened, directions)
+        val inflation = Evidence.inflation(directions, rest)
         val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
         val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
-        val ratio = (if (worth) maxOf(quick, fitted(columns)) else quick) / inflation
+        val ratio = (if (worth) minOf(maxOf(quick, fitted(columns)), evenly(rest)) else quick) / inflation
         return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
+    }
+
+    /** The gain of what leaves [rest], where each row counts as much as is left scatters there. */
+    private fun evenly(rest: DoubleArray): Double {
+        val factors = LocalSpread.of(fit, rest)
+        var before = 0.0
+        var after = 0.0
+        for (i in 0 until n) {
+            val weight = 1 / (factors[i] * factors[i])
+            before += weight * fit.whitened[i] * fit.whitened[i]
+            after += weight * rest[i] * rest[i]
+        }
+        return Evidence.ratio(before, after, fit.noise.rows)
     }
 
     /**
