@@ -52,7 +52,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val explained = directions.sumOf { direction -> dot(direction, fit.whitened).let { it * it } }
         // Of what the columns leave: what they explain would count as correlation of its own score.
         val rest = Evidence.without(fit.whitened, directions)
-        val inflation = Evidence.inflation(directions, rest)
+        val inflation = Evidence.inflation(directions, rest, isGivenBack = true)
         val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
         val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
         val ratio = (if (worth) minOf(maxOf(quick, fitted(columns)), evenly(rest)) else quick) / inflation
