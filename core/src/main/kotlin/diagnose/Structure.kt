@@ -101,7 +101,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
             "the rate of change (not in proportion)" to
                 listOf(absolute(slope), times(slope, absolute(slope)), power(slope, 2)),
         )
-        add("time (a slow wandering)" to slow())
+        add(SLOW to slow(series))
         add("what was there before (the response has another shape)" to response())
         add("the rate of change, more at some values than at others" to moved(slope, value))
         val age = standard(DoubleArray(n) { series.times[it] })
@@ -154,11 +154,6 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
     }
 
     private fun moves(): Boolean = median(series.speed) > 0.02
-
-    /** Six slow cosines over the log. */
-    private fun slow() = (1..6).map { k ->
-        DoubleArray(n) { cos(PI * k * (series.times[it] - series.times[0]) / maxOf(series.duration, 1e-9)) }
-    }
 
     /** The truth earlier by several shares of the response's time: any linear response is near a sum of these. */
     private fun response(): List<DoubleArray> {
@@ -218,13 +213,23 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
 
     private fun times(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
 
-    private companion object {
-        const val MOST_FREQUENCIES = 2500
-        const val WORTH_A_FIT = 0.3
+    companion object {
+        /** The description of what wanders slowly with time. */
+        const val SLOW = "time (a slow wandering)"
+
+        /** Six slow cosines over [series]. */
+        fun slow(series: MeasuredSeries): List<DoubleArray> = (1..6).map { k ->
+            DoubleArray(series.size) {
+                cos(PI * k * (series.times[it] - series.times[0]) / maxOf(series.duration, 1e-9))
+            }
+        }
+
+        private const val MOST_FREQUENCIES = 2500
+        private const val WORTH_A_FIT = 0.3
 
         /** Frequencies that are looked at more closely, in which places beside them, and as how many more they count. */
-        const val REFINED = 4
-        val NEAR = listOf(-0.5, -0.25, 0.0, 0.25, 0.5)
-        const val OVERSAMPLED = 2
+        private const val REFINED = 4
+        private val NEAR = listOf(-0.5, -0.25, 0.0, 0.25, 0.5)
+        private const val OVERSAMPLED = 2
     }
 }
