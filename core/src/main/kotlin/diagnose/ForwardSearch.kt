@@ -122,7 +122,7 @@ internal class ForwardSearch(
      * was as likely before.
      */
     private fun alike(trial: Trial, own: Double, trials: List<Trial>): List<Cause> {
-        val rivals = trials.filter { it.term.key != trial.term.key }.sortedByDescending { it.worth }
+        val rivals = trials.filter { it.term.key != trial.term.key && isRival(it) }.sortedByDescending { it.worth }
         val weights = rivals.map { exp(minOf((it.worth - own) / 2 / trial.inflation, 0.0)) }
         val total = 1 + weights.sum()
         var covered = 1.0
@@ -133,6 +133,10 @@ internal class ForwardSearch(
         }
         return set.distinct()
     }
+
+    /** What leaves a given number open may owe all that it explains to that number. */
+    private fun isRival(trial: Trial) =
+        trial.pValue < LIKELY || trial.term.cause.conditionalNumber?.let { base.free[it] } ?: true
 
     private companion object {
         const val OTHER_BEGINNINGS = 2

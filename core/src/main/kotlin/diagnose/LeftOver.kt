@@ -1,12 +1,7 @@
 package stillwater.diagnose
 
 import java.util.Locale
-import kotlin.math.IEEErem
-import kotlin.math.PI
-import kotlin.math.abs
 import kotlin.math.exp
-import kotlin.math.expm1
-import kotlin.math.sqrt
 
 /**
  * What no cause of the list explains, in words that a reader can look for in the field: [base] is the model without
@@ -58,33 +53,7 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         val share = 1 - squares(main.fit.residuals) / maxOf(squares(base.residuals), 1e-300)
         if (share < LEAST_SHARE) return ""
         return "; ${main.term.cause.label} explains ${(100 * share).toInt()} % of what the base model leaves, and not " +
-            "the rest" + if (main.term.cause == Cause.POSITION_OFFSET) turning(main.fit) else ""
-    }
-
-    /** A probe on a rigid arm leaves the track where the boat turns, and no shift along the track shows that. */
-    private fun turning(fit: ModelFit): String {
-        val turned = turned(fit.numbers[ResponseModel.TIME_CONSTANT])
-        val most = turned.sortedArray()[(TURNING * (turned.size - 1)).toInt()]
-        val (inTurns, straight) = turned.indices.partition { turned[it] > most }
-        fun spread(rows: List<Int>) = sqrt(rows.sumOf { fit.residuals[it] * fit.residuals[it] } / maxOf(rows.size, 1))
-        return if (spread(inTurns) > MORE * spread(straight)) {
-            ", which is largest where the boat turns, as with a probe on a rigid arm"
-        } else {
-            ""
-        }
-    }
-
-    /** How fast the boat turns, as a lag of [tau] s shows it. */
-    private fun turned(tau: Double): DoubleArray {
-        val heading = series.heading
-        var state = 0.0
-        return DoubleArray(series.size) { i ->
-            val before = maxOf(i - 1, 0)
-            val dt = series.times[i] - series.times[before]
-            val turn = abs((heading[i] - heading[before]).IEEErem(2 * PI)) / maxOf(dt, series.period / 2)
-            state += -expm1(-dt / tau) * (turn - state)
-            state
-        }
+            "the rest" + if (main.term.cause == Cause.POSITION_OFFSET) ARM else ""
     }
 
     private companion object {
@@ -95,7 +64,8 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         /** Time constants after which 95 % is done. */
         const val SETTLED = 3.0
         const val LEAST_SHARE = 0.1
-        const val TURNING = 0.8
-        const val MORE = 1.5
+
+        /** A shift along the track is all that a log tells of the probe's place. */
+        const val ARM = ": a probe to the side of the track, or on a rigid arm that swings out in turns, leaves such a rest"
     }
 }
