@@ -49,9 +49,13 @@ internal class ForwardSearch(
      */
     private fun best(worthy: List<Trial>): Trial? {
         val best = worthy.maxByOrNull { it.worth } ?: return null
-        return worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }
-            .filter { (best.worth - it.worth) / 2 / best.inflation < -ln(1 - settings.setProbability) }
-            .maxByOrNull { it.worth } ?: best
+        return worthy.filter { given ->
+            val numbers = given.term.cause.baseNumbers
+            // What leaves the same number open holds it already: whether it is wrong besides is asked afterwards.
+            val other = worthy.filter { it.term.cause.conditionalNumber !in numbers }.maxBy { it.worth }
+            numbers.isNotEmpty() &&
+                (other.worth - given.worth) / 2 / other.inflation < -ln(1 - settings.setProbability)
+        }.maxByOrNull { it.worth } ?: best
     }
 
     /**
@@ -109,6 +113,10 @@ internal class ForwardSearch(
     /** For each of [chosen], those that would explain what it explains as well on this track; itself first. */
     fun alike(chosen: List<Trial>): List<List<Cause>> = chosen.map { trial ->
         if (chosen.size == 1) return@map alike(trial, trial.worth, first)
+        // A given number that is wrong at all conditions of the log is not asked by likelihood: another cause holds it.
+        if (chosen.any { it.term.cause.conditionalNumber in trial.term.cause.baseNumbers }) {
+            return@map listOf(trial.term.cause)
+        }
         val others = chosen.filter { it !== trial }.map { it.term.key }
         val last = chosen.last().fit
         val rest = search.without(last, trial.term, base)
