@@ -10,8 +10,8 @@ import kotlin.math.exp
  */
 internal object CalibrationPoint {
     /**
-     * Whether the numbers of [base] that [fit] has let go are those of some row of the log; an offset beside a drift also
-     * those of any time before it.
+     * Whether the numbers of [base] that [fit] has let go are those of some row of the log; an offset beside a drift
+     * also those of any time before it.
      */
     fun isInLog(fit: ModelFit, base: ModelFit): Boolean =
         isWithin(fit, base, ResponseModel.TIME_CONSTANT) && isWithin(fit, base, ResponseModel.OFFSET)

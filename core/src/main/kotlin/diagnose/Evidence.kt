@@ -38,9 +38,9 @@ internal object Evidence {
      *
      * Columns are whitened, and orthogonal to what else was fitted. The variance is that of sums over blocks of rows:
      * what the whitening has missed of the residuals' correlation shows there, and so does noise that is larger where a
-     * column is (White 1980, doi:10.2307/1912934). [z] are the whitened residuals; where [columns], of length 1 each, were
-     * taken off them and [isGivenBack], each block's score is what it would be had it had no part in that (MacKinnon and
-     * White 1985, doi:10.1016/0304-4076(85)90158-7).
+     * column is (White 1980, doi:10.2307/1912934). [z] are the whitened residuals; where [columns], of length 1 each,
+     * were taken off them and [isGivenBack], each block's score is what it would be had it had no part in that
+     * (MacKinnon and White 1985, doi:10.1016/0304-4076(85)90158-7).
      */
     fun inflation(columns: List<DoubleArray>, z: DoubleArray, isGivenBack: Boolean = false): Double {
         if (columns.isEmpty()) return 1.0

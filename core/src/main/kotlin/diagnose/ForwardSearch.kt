@@ -44,8 +44,8 @@ internal class ForwardSearch(
     }
 
     /**
-     * The likeliest; a wrong number of the base comes first unless another cause is clearly likelier, because others can
-     * make up for a wrong number: a slow path that is hardly slower is a longer time constant.
+     * The likeliest; a wrong number of the base comes first unless another cause is clearly likelier, because others
+     * can make up for a wrong number: a slow path that is hardly slower is a longer time constant.
      */
     private fun best(worthy: List<Trial>): Trial? {
         val best = worthy.maxByOrNull { it.worth } ?: return null

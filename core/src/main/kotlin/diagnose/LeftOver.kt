@@ -23,8 +23,8 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         val slow = all - leftBy(Structure.slow(series))
         // As one curve it explains nearly all that six do.
         if (all - best.left < MOST_OF * slow) return ""
-        return ": an offset that moves by %.2g and settles within some %.2g s, as of a probe that warms up or is overgrown"
-            .format(Locale.ROOT, best.size, SETTLED * best.time)
+        return ": an offset that moves by %.2g and settles within some %.2g s, as of a probe that warms up or is "
+            .format(Locale.ROOT, best.size, SETTLED * best.time) + "overgrown"
     }
 
     private class Settled(val time: Double, val size: Double, val left: Double)
@@ -52,8 +52,8 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         val main = chosen.firstOrNull() ?: return ""
         val share = 1 - squares(main.fit.residuals) / maxOf(squares(base.residuals), 1e-300)
         if (share < LEAST_SHARE) return ""
-        return "; ${main.term.cause.label} explains ${(100 * share).toInt()} % of what the base model leaves, and not " +
-            "the rest" + if (main.term.cause == Cause.POSITION_OFFSET) ARM else ""
+        return "; ${main.term.cause.label} explains ${(100 * share).toInt()} % of what the base model leaves, and " +
+            "not the rest" + if (main.term.cause == Cause.POSITION_OFFSET) ARM else ""
     }
 
     private companion object {
@@ -66,6 +66,6 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         const val LEAST_SHARE = 0.1
 
         /** A shift along the track is all that a log tells of the probe's place. */
-        const val ARM = ": a probe to the side of the track, or on a rigid arm that swings out in turns, leaves such a rest"
+        const val ARM = ": a probe to the side of the track, or on a rigid arm that swings out in turns, leaves such"
     }
 }

@@ -9,8 +9,8 @@ internal val Cause.baseNumbers: List<Int>
     }
 
 /**
- * The number of a given sensor that is known for one speed, temperature, time or other condition only once this cause is
- * at work: an index into a model's numbers; null for none. Which condition the sensor was calibrated at is not said.
+ * The number of a given sensor that is known for one speed, temperature, time or other condition only once this cause
+ * is at work: an index into a model's numbers; null for none. Which condition the sensor was calibrated at is not said.
  */
 internal val Cause.conditionalNumber: Int?
     get() = when (this) {

@@ -227,7 +227,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         private const val MOST_FREQUENCIES = 2500
         private const val WORTH_A_FIT = 0.3
 
-        /** Frequencies that are looked at more closely, in which places beside them, and as how many more they count. */
+        /** Frequencies that are looked at more closely, in which places beside them, and as how many they count. */
         private const val REFINED = 4
         private val NEAR = listOf(-0.5, -0.25, 0.0, 0.25, 0.5)
         private const val OVERSAMPLED = 2

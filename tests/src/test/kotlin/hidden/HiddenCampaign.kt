@@ -33,8 +33,8 @@ private val KINDS = mapOf<String, (HiddenTruth) -> Boolean>(
 )
 
 /**
- * `FIRST COUNT reference|blind [CASES.tsv] [strong|outside|none]`: prints the tables of a campaign; CASES.tsv gets a line
- * a case, CASES.tsv.md the tables so far. With the last word only single effects at the detectable size and above,
+ * `FIRST COUNT reference|blind [CASES.tsv] [strong|outside|none]`: prints the tables of a campaign; CASES.tsv gets a
+ * line a case, CASES.tsv.md the tables so far. With the last word only single effects at the detectable size and above,
  * effects outside the list, or cases without an effect are asked about.
  */
 fun main(arguments: Array<String>) {
