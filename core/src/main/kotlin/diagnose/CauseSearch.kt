@@ -45,6 +45,7 @@ internal class CauseSearch(
             for (k in 0 until minOf(model.width(old), before.model.width(old))) free[to + k] = before.free[from + k]
         }
         for (i in term.cause.baseNumbers) free[i] = true
+        if (before.model.slotOrNull(term) == null) term.cause.conditionalNumber?.let { free[it] = true }
         model.slotOrNull(term)?.let { at -> for (k in 0 until model.width(term)) free[at + k] = true }
         return free
     }
@@ -68,7 +69,7 @@ internal class CauseSearch(
         // differs by chance.
         val cost = searched + 2 * degrees
         val isNone = term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)
-        val p = if (isNone) 1.0 else minOf(1.0, Evidence.pValue(ratio, degrees))
+        val p = if (isNone) 1.0 else maxOf(Evidence.pValue(ratio, degrees), ownPValue(base, best, term))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
@@ -79,6 +80,17 @@ internal class CauseSearch(
         // Where a log has no place for a jump nothing is added.
         val added = if (best === base) term else best.model.terms.last()
         return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
+    }
+
+    /**
+     * Of what [term] itself adds where it leaves a given number open besides; 0 where it does not. A wrong number alone
+     * would make any such cause look likely.
+     */
+    private fun ownPValue(base: ModelFit, best: ModelFit, term: Term): Double {
+        val open = term.cause.conditionalNumber?.takeIf { best.free[it] && !base.free[it] } ?: return 0.0
+        val free = base.free.copyOf().also { it[open] = true }
+        val without = Fitting.fit(base.model, base.numbers, free, used, longest, guess = base.noise)
+        return Evidence.pValue((best.score - without.score) / inflation(without, best), 1)
     }
 
     private fun extended(base: ModelFit, term: Term): ModelFit {
@@ -147,27 +159,33 @@ internal class CauseSearch(
     }
 
     private fun inflation(base: ModelFit, best: ModelFit): Double {
-        val old = base.free.indices.count { base.free[it] }
         val columns = best.jacobian.toList()
-        if (columns.size <= old) return 1.0
-        val basis = Evidence.orthonormal(columns.take(old))
-        val extra = Evidence.orthonormal(columns.drop(old), basis)
+        // What the base and its terms have fitted comes first in each; new terms stand last.
+        val terms = base.free.indices.count { it >= ResponseModel.BASE && base.free[it] }
+        var seen = 0
+        val (old, new) = best.free.indices.filter { best.free[it] }.withIndex().partition { (_, i) ->
+            if (i < ResponseModel.BASE) base.free[i] else seen++ < terms
+        }
+        if (new.isEmpty()) return 1.0
+        val basis = Evidence.orthonormal(old.map { columns[it.index] })
+        val extra = Evidence.orthonormal(new.map { columns[it.index] }, basis)
         return Evidence.inflation(extra, best.whitened)
     }
 
-    /** [fit] without [term], fitted anew; a number of the [base] that was wrong is as given again. */
+    /**
+     * [fit] without [term], fitted anew; a number of the [base] that was wrong is as given again, unless another cause
+     * leaves it open.
+     */
     fun without(fit: ModelFit, term: Term, base: ModelFit): ModelFit {
         val rest = fit.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, rest, fit.model.held, scales)
         val start = DoubleArray(model.parameters.size)
         val free = BooleanArray(model.parameters.size)
+        val open = rest.filter { base.model.slotOrNull(it) == null }
+            .flatMap { it.cause.baseNumbers + listOfNotNull(it.cause.conditionalNumber) }
         for (i in 0 until ResponseModel.BASE) {
-            start[i] = fit.numbers[i]
-            free[i] = fit.free[i]
-        }
-        for (i in term.cause.baseNumbers) {
-            start[i] = base.numbers[i]
-            free[i] = base.free[i]
+            free[i] = base.free[i] || i in open
+            start[i] = if (free[i]) fit.numbers[i] else base.numbers[i]
         }
         for (old in rest) {
             val from = fit.model.slotOrNull(old) ?: continue

@@ -10,6 +10,9 @@ internal object Evidence {
     /** Blocks over which scores are summed to see whether they are as independent as the noise model says. */
     private const val BLOCKS = 40
 
+    /** A block that has more than the rest of this of a column says nothing by itself. */
+    private const val SMALLEST_REST = 0.05
+
     /** Probability of a likelihood ratio (twice the difference of logarithms) of at least [ratio] by chance. */
     fun pValue(ratio: Double, degrees: Int): Double =
         if (!(ratio > 0)) 1.0 else Gamma.regularizedGammaQ(degrees / 2.0, ratio / 2)
@@ -35,9 +38,11 @@ internal object Evidence {
      *
      * Columns are whitened, and orthogonal to what else was fitted. The variance is that of sums over blocks of rows:
      * what the whitening has missed of the residuals' correlation shows there, and so does noise that is larger where a
-     * column is (White 1980, doi:10.2307/1912934). [z] are the whitened residuals.
+     * column is (White 1980, doi:10.2307/1912934). [z] are the whitened residuals; where [columns], of length 1 each,
+     * were taken off them and [isGivenBack], each block's score is what it would be had it had no part in that
+     * (MacKinnon and White 1985, doi:10.1016/0304-4076(85)90158-7).
      */
-    fun inflation(columns: List<DoubleArray>, z: DoubleArray): Double {
+    fun inflation(columns: List<DoubleArray>, z: DoubleArray, isGivenBack: Boolean = false): Double {
         if (columns.isEmpty()) return 1.0
         val length = maxOf(z.size / BLOCKS, 1)
         val variance = squares(z) / maxOf(z.size, 1)
@@ -46,13 +51,17 @@ internal object Evidence {
             var blocks = 0.0
             var rows = 0.0
             var sum = 0.0
+            var part = 0.0
             for (i in z.indices) {
                 val score = column[i] * z[i]
                 sum += score
                 rows += score * score
+                if (isGivenBack) part += column[i] * column[i]
                 if ((i + 1) % length == 0 || i == z.size - 1) {
-                    blocks += sum * sum
+                    val own = sum / maxOf(1 - part, SMALLEST_REST)
+                    blocks += own * own
                     sum = 0.0
+                    part = 0.0
                 }
             }
             val expected = minOf(rows, variance * squares(column))

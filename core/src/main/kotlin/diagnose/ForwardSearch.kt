@@ -43,9 +43,20 @@ internal class ForwardSearch(
         return trials.indices.filter { adjusted[it] < settings.level && trials[it].foretells }.map { trials[it] }
     }
 
-    /** A wrong number of the base makes everything else look significant: it comes first, if it is one. */
-    private fun best(worthy: List<Trial>): Trial? =
-        worthy.filter { it.term.cause.baseNumbers.isNotEmpty() }.ifEmpty { worthy }.maxByOrNull { it.worth }
+    /**
+     * The likeliest; a wrong number of the base comes first unless another cause is clearly likelier, because others
+     * can make up for a wrong number: a slow path that is hardly slower is a longer time constant.
+     */
+    private fun best(worthy: List<Trial>): Trial? {
+        val best = worthy.maxByOrNull { it.worth } ?: return null
+        return worthy.filter { given ->
+            val numbers = given.term.cause.baseNumbers
+            // What leaves the same number open holds it already: whether it is wrong besides is asked afterwards.
+            val other = worthy.filter { it.term.cause.conditionalNumber !in numbers }.maxBy { it.worth }
+            numbers.isNotEmpty() &&
+                (other.worth - given.worth) / 2 / other.inflation < -ln(1 - settings.setProbability)
+        }.maxByOrNull { it.worth } ?: best
+    }
 
     /**
      * The search that begins with [beginning]; nothing where with two causes or more it explains no more than as many
@@ -84,7 +95,8 @@ internal class ForwardSearch(
             } else {
                 full.score - without.score
             }
-            Evidence.pValue(gain, trial.degrees) * terms.size > settings.level
+            Evidence.pValue(gain, trial.degrees) * terms.size > settings.level &&
+                (trial.term.cause.baseNumbers.isEmpty() || CalibrationPoint.isInLog(without, base))
         }
         if (needless.isEmpty()) return chosen
         val kept = chosen.filter { it !in needless }
@@ -101,6 +113,10 @@ internal class ForwardSearch(
     /** For each of [chosen], those that would explain what it explains as well on this track; itself first. */
     fun alike(chosen: List<Trial>): List<List<Cause>> = chosen.map { trial ->
         if (chosen.size == 1) return@map alike(trial, trial.worth, first)
+        // A given number that is wrong at all conditions of the log is not asked by likelihood: another cause holds it.
+        if (chosen.any { it.term.cause.conditionalNumber in trial.term.cause.baseNumbers }) {
+            return@map listOf(trial.term.cause)
+        }
         val others = chosen.filter { it !== trial }.map { it.term.key }
         val last = chosen.last().fit
         val rest = search.without(last, trial.term, base)
@@ -114,7 +130,7 @@ internal class ForwardSearch(
      * was as likely before.
      */
     private fun alike(trial: Trial, own: Double, trials: List<Trial>): List<Cause> {
-        val rivals = trials.filter { it.term.key != trial.term.key }.sortedByDescending { it.worth }
+        val rivals = trials.filter { it.term.key != trial.term.key && isRival(it) }.sortedByDescending { it.worth }
         val weights = rivals.map { exp(minOf((it.worth - own) / 2 / trial.inflation, 0.0)) }
         val total = 1 + weights.sum()
         var covered = 1.0
@@ -125,6 +141,10 @@ internal class ForwardSearch(
         }
         return set.distinct()
     }
+
+    /** What leaves a given number open may owe all that it explains to that number. */
+    private fun isRival(trial: Trial) =
+        trial.pValue < LIKELY || trial.term.cause.conditionalNumber?.let { base.free[it] } ?: true
 
     private companion object {
         const val OTHER_BEGINNINGS = 2

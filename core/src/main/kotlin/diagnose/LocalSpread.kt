@@ -26,8 +26,9 @@ internal object LocalSpread {
         if (rows.size < FEWEST_GATHERED) return false
         return columns(fit).filter { column -> column.any { it != column[0] } }.any { column ->
             val sorted = column.sortedArray()
-            val ranks = rows.map { row -> rank(sorted, column[row]) }
-            val lone = sqrt(12.0 * rows.size)
+            // Correlated noise makes two of a single wild reading.
+            val ranks = rows.filterNot { it - 1 in rows }.map { row -> rank(sorted, column[row]) }
+            val lone = sqrt(12.0 * ranks.size)
             abs(ranks.average() - 0.5) * lone > GATHERED ||
                 abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED
         }

@@ -8,6 +8,17 @@ internal val Cause.baseNumbers: List<Int>
         else -> emptyList()
     }
 
+/**
+ * The number of a given sensor that is known for one speed, temperature, time or other condition only once this cause
+ * is at work: an index into a model's numbers; null for none. Which condition the sensor was calibrated at is not said.
+ */
+internal val Cause.conditionalNumber: Int?
+    get() = when (this) {
+        Cause.FLOW_DEPENDENT_RESPONSE, Cause.TEMPERATURE_DEPENDENT_RESPONSE -> ResponseModel.TIME_CONSTANT
+        Cause.CROSS_SENSITIVITY, Cause.DRIFT -> ResponseModel.OFFSET
+        else -> null
+    }
+
 /** Which number of a model stands where. */
 internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales: Scales) {
     /** Index of the first parameter of each term, by its key. */

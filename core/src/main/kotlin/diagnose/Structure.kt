@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import java.util.Locale
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
@@ -49,11 +50,26 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val directions = Evidence.orthonormal(whitened, basis)
         if (directions.isEmpty()) return Dependence(name, 0.0, 1, 1.0)
         val explained = directions.sumOf { direction -> dot(direction, fit.whitened).let { it * it } }
-        val inflation = Evidence.inflation(directions, fit.whitened)
+        // Of what the columns leave: what they explain would count as correlation of its own score.
+        val rest = Evidence.without(fit.whitened, directions)
+        val inflation = Evidence.inflation(directions, rest, isGivenBack = true)
         val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
         val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
-        val ratio = (if (worth) maxOf(quick, fitted(columns)) else quick) / inflation
+        val ratio = (if (worth) minOf(maxOf(quick, fitted(columns)), evenly(rest)) else quick) / inflation
         return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
+    }
+
+    /** The gain of what leaves [rest], where each row counts as much as is left scatters there. */
+    private fun evenly(rest: DoubleArray): Double {
+        val factors = LocalSpread.of(fit, rest)
+        var before = 0.0
+        var after = 0.0
+        for (i in 0 until n) {
+            val weight = 1 / (factors[i] * factors[i])
+            before += weight * fit.whitened[i] * fit.whitened[i]
+            after += weight * rest[i] * rest[i]
+        }
+        return Evidence.ratio(before, after, fit.noise.rows)
     }
 
     /**
@@ -85,7 +101,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
             "the rate of change (not in proportion)" to
                 listOf(absolute(slope), times(slope, absolute(slope)), power(slope, 2)),
         )
-        add("time (a slow wandering)" to slow())
+        add(SLOW to slow(series))
         add("what was there before (the response has another shape)" to response())
         add("the rate of change, more at some values than at others" to moved(slope, value))
         val age = standard(DoubleArray(n) { series.times[it] })
@@ -139,11 +155,6 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
 
     private fun moves(): Boolean = median(series.speed) > 0.02
 
-    /** Six slow cosines over the log. */
-    private fun slow() = (1..6).map { k ->
-        DoubleArray(n) { cos(PI * k * (series.times[it] - series.times[0]) / maxOf(series.duration, 1e-9)) }
-    }
-
     /** The truth earlier by several shares of the response's time: any linear response is near a sum of these. */
     private fun response(): List<DoubleArray> {
         val truth = requireNotNull(series.reference) { "structure needs a reference" }
@@ -163,26 +174,27 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val lowest = 3 / maxOf(series.duration, 1e-9)
         val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
         if (count < 2) return Dependence("time, periodically", 0.0, 2, 1.0)
-        var best = 0.0
-        var period = 0.0
-        for (k in 0 until count) {
-            val frequency = lowest + (highest - lowest) * k / (count - 1)
-            var even = 0.0
-            var odd = 0.0
-            for (i in 0 until n) {
-                val phase = 2 * PI * frequency * (series.times[i] - series.times[0])
-                even += fit.whitened[i] * cos(phase)
-                odd += fit.whitened[i] * sin(phase)
-            }
-            val power = 2 * (even * even + odd * odd) / n
-            if (power > best) {
-                best = power
-                period = 1 / frequency
-            }
-        }
+        val step = (highest - lowest) / (count - 1)
+        val powers = DoubleArray(count) { explainedBy(lowest + step * it) }
+        // Halfway between two of them a period shows less than half of its power in either.
+        val near = powers.indices.sortedByDescending { powers[it] }.take(REFINED)
+            .flatMap { k -> NEAR.map { lowest + step * (k + it) } }.associateWith(::explainedBy)
+        val (frequency, best) = near.maxBy { it.value }
         val ratio = Evidence.ratio(square, square - best, fit.noise.rows)
-        val p = minOf(1.0, Evidence.pValue(ratio, 2) * count)
-        return Dependence("time, periodically (every %.3g s)".format(java.util.Locale.ROOT, period), ratio, 2, p)
+        val p = minOf(1.0, Evidence.pValue(ratio, 2) * count * OVERSAMPLED)
+        return Dependence("time, periodically (every %.3g s)".format(Locale.ROOT, 1 / frequency), ratio, 2, p)
+    }
+
+    /** What a wave of [frequency], Hz, explains of the whitened residuals' squares. */
+    private fun explainedBy(frequency: Double): Double {
+        var even = 0.0
+        var odd = 0.0
+        for (i in 0 until n) {
+            val phase = 2 * PI * frequency * (series.times[i] - series.times[0])
+            even += fit.whitened[i] * cos(phase)
+            odd += fit.whitened[i] * sin(phase)
+        }
+        return 2 * (even * even + odd * odd) / n
     }
 
     private fun standard(column: DoubleArray): DoubleArray {
@@ -201,8 +213,23 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
 
     private fun times(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
 
-    private companion object {
-        const val MOST_FREQUENCIES = 2500
-        const val WORTH_A_FIT = 0.3
+    companion object {
+        /** The description of what wanders slowly with time. */
+        const val SLOW = "time (a slow wandering)"
+
+        /** Six slow cosines over [series]. */
+        fun slow(series: MeasuredSeries): List<DoubleArray> = (1..6).map { k ->
+            DoubleArray(series.size) {
+                cos(PI * k * (series.times[it] - series.times[0]) / maxOf(series.duration, 1e-9))
+            }
+        }
+
+        private const val MOST_FREQUENCIES = 2500
+        private const val WORTH_A_FIT = 0.3
+
+        /** Frequencies that are looked at more closely, in which places beside them, and as how many they count. */
+        private const val REFINED = 4
+        private val NEAR = listOf(-0.5, -0.25, 0.0, 0.25, 0.5)
+        private const val OVERSAMPLED = 2
     }
 }

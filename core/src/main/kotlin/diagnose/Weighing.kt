@@ -138,9 +138,7 @@ internal class Weighing(
                 "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
                     "went in between might explain what is left",
             )
-            structured && left.ratio > LEFT * least -> Verdict.Unexplained(
-                "the residuals depend on ${left.description}",
-            )
+            structured && left.ratio > LEFT * least -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
             all.isEmpty() -> Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })

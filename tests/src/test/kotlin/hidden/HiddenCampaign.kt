@@ -41,18 +41,26 @@ internal object HiddenCampaign {
 /** After so many cases the tables so far are written beside the table of cases. */
 private const val OFTEN = 10
 
+/** Cases by what they hide, so that a few of one kind need no campaign of all. */
+private val KINDS = mapOf<String, (HiddenTruth) -> Boolean>(
+    "strong" to { it.isStrong },
+    "outside" to { truth -> truth.effects.keys.any { !it.listed } },
+    "none" to { it.effects.isEmpty() },
+)
+
 /**
- * `FIRST COUNT reference|blind [CASES.tsv] [strong]`: prints the tables of a campaign; CASES.tsv gets a line a case,
- * CASES.tsv.md the tables so far. With `strong` only single effects at the detectable size and above are asked about,
- * for work on the finder.
+ * `FIRST COUNT reference|blind [CASES.tsv] [strong|outside|none]`: prints the tables of a campaign; CASES.tsv gets a
+ * line a case, CASES.tsv.md the tables so far. With the last word only single effects at the detectable size and above,
+ * effects outside the list, or cases without an effect are asked about.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
     val withReference = arguments[2] == "reference"
     val directory = Files.createTempDirectory("hidden-effects")
     val all = first until first + arguments[1].toLong()
-    val seeds = if ("strong" in arguments) all.filter { HiddenCase(it, withReference).truth.isStrong } else all.toList()
-    val table = arguments.getOrNull(3)?.takeIf { it != "strong" }?.let { Path.of(it) }
+    val kind = KINDS[arguments.last()]
+    val seeds = if (kind != null) all.filter { kind(HiddenCase(it, withReference).truth) } else all.toList()
+    val table = arguments.getOrNull(3)?.takeIf { it !in KINDS }?.let { Path.of(it) }
     val lines = ArrayList<String>()
     val done = ArrayList<ScoredCase>()
     val cases = HiddenCampaign.run(seeds, withReference, directory) { case ->

@@ -1,0 +1,71 @@
+package stillwater.diagnose
+
+import java.util.Locale
+import kotlin.math.exp
+
+/**
+ * What no cause of the list explains, in words that a reader can look for in the field: [base] is the model without
+ * causes, and [chosen] are not enough.
+ */
+internal class LeftOver(private val base: ModelFit, private val chosen: List<Trial>) {
+    private val series = base.model.series
+
+    /** What is left, where it depends on [most]. */
+    fun words(most: Dependence): String = "the residuals depend on ${most.description}" +
+        (if (most.description == Structure.SLOW) settling() else "") + beside()
+
+    /** An offset that settles: most drifts of a probe that warms up, or is overgrown, level off. */
+    private fun settling(): String {
+        val residuals = base.residuals
+        val mean = residuals.average()
+        val all = residuals.sumOf { (it - mean) * (it - mean) }
+        val best = TIMES.map { it * series.duration }.map(::settled).minBy { it.left }
+        val slow = all - leftBy(Structure.slow(series))
+        // As one curve it explains nearly all that six do.
+        if (all - best.left < MOST_OF * slow) return ""
+        return ": an offset that moves by %.2g and settles within some %.2g s, as of a probe that warms up or is "
+            .format(Locale.ROOT, best.size, SETTLED * best.time) + "overgrown"
+    }
+
+    private class Settled(val time: Double, val size: Double, val left: Double)
+
+    private fun settled(time: Double): Settled {
+        val curve = DoubleArray(series.size) { 1 - exp(-(series.times[it] - series.times[0]) / time) }
+        val mean = curve.average()
+        val middle = base.residuals.average()
+        val squares = curve.sumOf { (it - mean) * (it - mean) }
+        val size = if (squares > 0) curve.indices.sumOf { (curve[it] - mean) * base.residuals[it] } / squares else 0.0
+        val left = curve.indices.sumOf { i ->
+            (base.residuals[i] - middle - size * (curve[i] - mean)).let { it * it }
+        }
+        return Settled(time, size, left)
+    }
+
+    /** Squares that [columns] and a mean leave of the base's residuals. */
+    private fun leftBy(columns: List<DoubleArray>): Double {
+        val directions = Evidence.orthonormal(listOf(DoubleArray(series.size) { 1.0 }) + columns)
+        return squares(Evidence.without(base.residuals, directions))
+    }
+
+    /** What explains most of it, and where the rest is. */
+    private fun beside(): String {
+        val main = chosen.firstOrNull() ?: return ""
+        val share = 1 - squares(main.fit.residuals) / maxOf(squares(base.residuals), 1e-300)
+        if (share < LEAST_SHARE) return ""
+        return "; ${main.term.cause.label} explains ${(100 * share).toInt()} % of what the base model leaves, and " +
+            "not the rest" + if (main.term.cause == Cause.POSITION_OFFSET) ARM else ""
+    }
+
+    private companion object {
+        /** Over the log's duration. */
+        val TIMES = listOf(0.02, 0.03, 0.05, 0.08, 0.12, 0.18, 0.25, 0.35, 0.5, 0.7)
+        const val MOST_OF = 0.9
+
+        /** Time constants after which 95 % is done. */
+        const val SETTLED = 3.0
+        const val LEAST_SHARE = 0.1
+
+        /** A shift along the track is all that a log tells of the probe's place. */
+        const val ARM = ": a probe to the side of the track, or on a rigid arm that swings out in turns, leaves such"
+    }
+}

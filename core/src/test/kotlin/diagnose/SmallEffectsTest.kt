@@ -1,0 +1,90 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import kotlin.math.PI
+import kotlin.math.exp
+import kotlin.math.pow
+import kotlin.math.sin
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertIs
+
+/** Effects that a careful look just shows, by what is said of them. Seeds are fixed, the cases no tuned ones. */
+class SmallEffectsTest {
+    private val n = 1200
+    private val noise = 0.01
+    private val random = java.util.Random(7)
+    private val waves = List(24) {
+        val period = 12 * exp(random.nextDouble() * 2.8)
+        Triple(2 * PI / period, 2 * PI * random.nextDouble(), 0.2 * minOf(period / 40, 1.0))
+    }
+    private val times = DoubleArray(n) { it.toDouble() }
+    private val truth = DoubleArray(n) { water(it.toDouble()) }
+    private val speeds = DoubleArray(n) { 0.8 + 0.4 * sin(it / 37.0) }
+
+    private fun water(time: Double) = waves.sumOf { (rate, phase, height) -> height * sin(rate * time + phase) }
+
+    private fun shown(stage: SensorStage): DoubleArray {
+        val sensor = SensorSpec("", listOf(stage)).build(truth[0], kotlin.random.Random(1))
+        return DoubleArray(n) { row ->
+            var shown = sensor.step(truth[row], 0.0, Conditions.NONE)
+            if (row > 0) {
+                repeat(10) { k ->
+                    val share = (k + 0.5) / 10
+                    val speed = speeds[row - 1] + share * (speeds[row] - speeds[row - 1])
+                    shown = sensor.step(water(row - 1 + share), 0.1, Conditions(mapOf(Conditions.SPEED to speed)))
+                }
+            }
+            shown
+        }
+    }
+
+    private fun diagnosed(clean: DoubleArray, base: SensorSpec? = null): Verdict {
+        val values = DoubleArray(n) { clean[it] + noise * random.nextGaussian() }
+        val conditions = mapOf(Conditions.SPEED to speeds)
+        val series = MeasuredSeries(times, times, DoubleArray(n), values, truth, conditions)
+        return Diagnosis(series, DiagnosisSettings(base = base)).run().verdict
+    }
+
+    /** Twelve standard errors of it: what it does itself must not count as correlation of what is left. */
+    @Test
+    fun aSlightlyCurvedCalibrationIsUnexplained() {
+        val clean = shown(SensorStage.Lag(8.0))
+        val verdict = assertIs<Verdict.Unexplained>(diagnosed(DoubleArray(n) { clean[it] + 0.004 * clean[it].pow(2) }))
+        assertContains(verdict.what, "value")
+    }
+
+    /** Halfway between two frequencies of which the log holds whole periods; seven standard errors. */
+    @Test
+    fun aPeriodBetweenTwoFrequenciesIsSeen() {
+        val clean = shown(SensorStage.Lag(8.0))
+        val frequency = 63.5 / (n - 1)
+        val verdict = diagnosed(DoubleArray(n) { clean[it] + 0.003 * sin(2 * PI * frequency * it) })
+        assertContains(assertIs<Verdict.Unexplained>(verdict).what, "every 18.9 s")
+    }
+
+    @Test
+    fun anOffsetThatSettlesIsToldAsOne() {
+        val clean = shown(SensorStage.Lag(8.0))
+        val verdict = diagnosed(DoubleArray(n) { clean[it] + 0.08 * (1 - exp(-it / 200.0)) })
+        assertContains(assertIs<Verdict.Unexplained>(verdict).what, "and settles within some")
+    }
+
+    /** At which speed the given time constant was found nobody said: 0.9 m/s is as good as the log's usual 0.8 m/s. */
+    @Test
+    fun aGivenTimeConstantThatGoesWithSpeedIsNotWrongBesides() {
+        val given = SensorSpec("given", listOf(SensorStage.Lag(8.0), SensorStage.Calibration(1.0, 0.0)))
+        val verdict = diagnosed(shown(SensorStage.FlowLag(8.0, 0.9, 0.3)), given)
+        assertEquals(Verdict.Named(listOf(Cause.FLOW_DEPENDENT_RESPONSE)), verdict)
+    }
+
+    @Test
+    fun aGivenTimeConstantOfNoSpeedOfTheLogIsWrongBesides() {
+        val given = SensorSpec("given", listOf(SensorStage.Lag(4.0), SensorStage.Calibration(1.0, 0.0)))
+        val verdict = diagnosed(shown(SensorStage.FlowLag(8.0, 0.9, 0.3)), given)
+        assertEquals(Verdict.Named(listOf(Cause.TIME_CONSTANT, Cause.FLOW_DEPENDENT_RESPONSE)), verdict)
+    }
+}
