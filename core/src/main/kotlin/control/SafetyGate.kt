@@ -133,7 +133,6 @@ public data class SafetySettings(
     }
 }
 
-
 /**
  * What the gate looks at; one object, refilled each step.
  *

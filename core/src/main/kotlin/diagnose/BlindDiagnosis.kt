@@ -276,7 +276,11 @@ internal class BlindDiagnosis(
         var covered = 1.0
         val set = ArrayList<Cause>()
         others.forEachIndexed { i, rival ->
-            if (covered < settings.setProbability * total || !isBehind(rival, own)) set += checkNotNull(rival.term).cause
+            if (covered < settings.setProbability * total ||
+                !isBehind(rival, own)
+            ) {
+                set += checkNotNull(rival.term).cause
+            }
             covered += odds[i]
         }
         return set

@@ -285,7 +285,8 @@ internal class BlindSearch(
         val last = shownLast
         val isSame = shownAs != null && shownAs == Triple(terms, numbers.toList(), modes)
         if (last != null && isSame) return last
-        val fading = DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / numbers[ResponseModel.TIME_CONSTANT]) }
+        val fading =
+            DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / numbers[ResponseModel.TIME_CONSTANT]) }
         return (seen(terms, numbers, modes.columns) + fading).also {
             shownLast = it
             shownAs = Triple(terms, numbers.toList(), modes)

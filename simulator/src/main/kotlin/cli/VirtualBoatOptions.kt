@@ -175,8 +175,9 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
         /** Of the virtual boat, s. */
         const val TICK = 0.02
 
-        fun firmwareHelp() = "of the board: v4.2.0 (the default), which has to be told to arm and what is on its port " +
-            "and waits 3 s for a command, or master, the branch before it, which arms itself and waits 0.5 s"
+        fun firmwareHelp() =
+            "of the board: v4.2.0 (the default), which has to be told to arm and what is on its port " +
+                "and waits 3 s for a command, or master, the branch before it, which arms itself and waits 0.5 s"
 
         fun waterHelp() = "water: uniform (each cell its own value), gaussian (the default) or smooth (which changes " +
             "within a cell)"

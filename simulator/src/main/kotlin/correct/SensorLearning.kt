@@ -120,6 +120,7 @@ internal object SensorLearning {
         fault(series, part, learner)?.let { return byRevisits(series).copy(fault = it) }
         val choice =
             requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
+
         // What is undone is a response to water that changes all the time.
         fun undone(open: LikelyResponse) =
             if (held) LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight) else open

@@ -2,8 +2,8 @@ package stillwater.app.mission
 
 import stillwater.app.pose.Pose
 import stillwater.control.FixCheck
-import stillwater.mission.LogStart
 import stillwater.mission.GivenUp
+import stillwater.mission.LogStart
 import stillwater.mission.Mission
 import stillwater.mission.MissionLog
 import stillwater.mission.MissionSpec
