@@ -89,8 +89,7 @@ internal class BlindDiagnosis(
         /** Whether [trial] may be worth water and noise of its own. */
         private fun isLikely(trial: BlindTrial): Boolean {
             val isSlow = trial.term?.cause in SLOW
-            val isBelow = isSlow && trial.ratio * trial.inflation < changing / 2 && trial.pValue > settings.level
-            return trial.ratio > LIKELY && !isBelow
+            return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
         }
 
         /**
@@ -276,11 +275,8 @@ internal class BlindDiagnosis(
         var covered = 1.0
         val set = ArrayList<Cause>()
         others.forEachIndexed { i, rival ->
-            if (covered < settings.setProbability * total ||
-                !isBehind(rival, own)
-            ) {
-                set += checkNotNull(rival.term).cause
-            }
+            val isOpen = covered < settings.setProbability * total || !isBehind(rival, own)
+            if (isOpen) set += checkNotNull(rival.term).cause
             covered += odds[i]
         }
         return set

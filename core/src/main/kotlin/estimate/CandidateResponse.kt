@@ -36,6 +36,9 @@ public class CandidateResponse internal constructor(
         return minOf(parameters[index] / factor, most)..minOf(parameters[index] * factor, most)
     }
 
+    /** Whether the log limits each parameter from above: that of a share may reach [ResponseKind.LARGEST_SHARE]. */
+    public val isBounded: Boolean get() = parameters.indices.all { interval(it).endInclusive < kind.most(it) }
+
     /** Sum of [heldOut]. */
     public val heldOutScore: Double get() = heldOut.sum()
 

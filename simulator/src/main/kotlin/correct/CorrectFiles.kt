@@ -115,7 +115,10 @@ class CorrectFiles(
             putJsonArray("held_out") { scores.forEach { add(split(it)) } }
         }
         put("mean_half_width", finite(summary.halfWidth))
-        summary.unhintedHalfWidth?.let { put("mean_half_width_without_hint", finite(it)) }
+        summary.hintedHalfWidths?.let { (without, with) ->
+            put("mean_half_width_without_hint", finite(without))
+            put("mean_half_width_with_hint", finite(with))
+        }
         putJsonObject("agreement") {
             put("crossings", result.agreement.crossings)
             put("ratio", finite(result.agreement.ratio))

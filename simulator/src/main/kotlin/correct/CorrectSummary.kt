@@ -95,16 +95,22 @@ internal class CorrectSummary(
     /** Mean half width of the intervals, sensor units. */
     val halfWidth: Double get() = halfWidth(result.track)
 
-    /** The same if there is nothing of what the log only hints at, sensor units; null where it hints at nothing. */
-    val unhintedHalfWidth: Double? get() = result.choice?.hinted?.let { halfWidth(result.unhinted) }
+    /** The same without, and with, what the log only hints at, sensor units; null where it hints at nothing. */
+    val hintedHalfWidths: Pair<Double, Double>?
+        get() = result.hinted?.let { halfWidth(result.unhinted) to halfWidth(it) }
 
     private fun halfWidth(track: CorrectedTrack) =
         track.lower.indices.sumOf { track.upper[it] - track.lower[it] } / (2 * maxOf(1, track.lower.size))
 
     private fun interval(): String {
-        val unhinted = unhintedHalfWidth?.let { " (${digits(it, 3)}$unitAfter if there is no slow path)" }.orEmpty()
-        return "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average$unhinted; ${trust.words}"
+        val other = hintedHalfWidths?.let { (without, with) ->
+            val words = if (holdsHint) "if there is no slow path" else "with the slow path that the log hints at"
+            " (${digits(if (holdsHint) without else with, 3)}$unitAfter $words)"
+        }.orEmpty()
+        return "95 %, ${digits(halfWidth, 3)}$unitAfter either way on average$other; ${trust.words}"
     }
+
+    private val holdsHint: Boolean get() = result.track === result.hinted
 
     /** Names and values, in order; the first six go to the terminal. */
     val facts: List<Pair<String, String>>
@@ -220,9 +226,15 @@ internal class CorrectSummary(
     private fun hint(twoPaths: CandidateResponse): String {
         val share = twoPaths.kind.parameters.lastIndex
         val range = twoPaths.interval(share)
-        return "the log hints at a slow path with a share of ${percent(twoPaths.parameter(share))} " +
-            "(${percent(range.start)} to ${percent(range.endInclusive)}), too weakly to undo it: " +
-            "the values are without it, the intervals were widened to hold it"
+        val hint = "the log hints at a slow path with a share of ${percent(twoPaths.parameter(share))} " +
+            "(${percent(range.start)} to ${percent(range.endInclusive)})"
+        return if (holdsHint) {
+            "$hint, too weakly to undo it: the values are without it, the intervals were widened to hold it"
+        } else {
+            "$hint and does not bound it: values and intervals are without it. Slow changes of the water look alike; " +
+                "if the sensor has such a path, its intervals are ${digits(checkNotNull(hintedHalfWidths).second, 2)}" +
+                "$unitAfter either way"
+        }
     }
 
     /** What the user should know, one line each. */

@@ -39,9 +39,9 @@ enum class SensorOrigin(val label: String) {
  *
  * @property log the log. @property pass what reading it came to. @property series its readings.
  * @property learned where the sensor comes from, and what it may be.
- * @property spec the sensor, the most likely if several are open. @property track the field along the track.
- * @property unhinted the same with intervals that do not hold what the log only hints at; [track] where it hints at
- * nothing.
+ * @property spec the sensor, the most likely if several are open.
+ * @property unhinted the field along the track, with intervals that do not hold what the log only hints at.
+ * @property hinted the same with intervals that do; null where it hints at nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
  * for it.
@@ -53,8 +53,8 @@ class CorrectedLog internal constructor(
     val series: TrackSeries,
     internal val learned: Learned,
     val spec: SensorSpec,
-    val track: CorrectedTrack,
     val unhinted: CorrectedTrack,
+    val hinted: CorrectedTrack?,
     val statistics: SurveyStatistics,
     val before: LegMismatch?,
     val after: LegMismatch?,
@@ -66,6 +66,12 @@ class CorrectedLog internal constructor(
 
     /** The candidates and what is left open, or null where nothing was chosen. */
     val choice: ResponseChoice? get() = learned.choice
+
+    /**
+     * The field along the track. Its intervals hold what the log hints at where the log bounds it: a slow path that may
+     * have any share leaves the water's level to belief, and no interval would be the log's.
+     */
+    val track: CorrectedTrack get() = hinted?.takeIf { choice?.hinted?.isBounded == true } ?: unhinted
 
     private val resolution: Double = resolution(statistics, series)
 
@@ -171,8 +177,8 @@ class CorrectedLog internal constructor(
                 series,
                 learned,
                 spec,
-                if (hinted == null) unhinted else unhinted.holding(hinted),
                 unhinted,
+                hinted?.let(unhinted::holding),
                 statistics,
                 legs(series, series.values),
                 legs(series, unhinted.values),
