@@ -283,7 +283,18 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
         isLost(situation) -> Danger.FIX_STALE
         situation.jumps > settings.mostJumps -> Danger.FIX_JUMPING
         situation.stranded -> Danger.STRANDED
-        situation.heldUp -> Danger.HELD_UP
+        else -> call(situation).let { if (situation.heldUp && mayWait(it)) Danger.HELD_UP else it }
+    }
+
+    /**
+     * Whether a boat that is held up on every way home may rest while [danger] waits: not where it is to stop for good, and
+     * not beyond the fence, where it would drift on.
+     */
+    private fun mayWait(danger: Danger?) =
+        danger == null || (danger != Danger.FENCE && (settings.answers[danger] ?: Failsafe.STOP) != Failsafe.STOP)
+
+    /** What calls a boat that knows where it is and is heard. */
+    private fun call(situation: Situation): Danger? = when {
         fence.distance(situation.x, situation.y) < 0 -> Danger.FENCE
         boatCharge.isLow -> Danger.BATTERY_LOW
         phoneCharge.isLow -> Danger.PHONE_LOW

@@ -90,7 +90,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     /**
      * How far the boat may be from where it is believed to be, besides its deviation, m: as far as fixes have lately
      * moved that place, where it is more than their noise explains; 0 where it is not. Then they were wrong before or
-     * are wrong now, which nothing but later ones tell. Fades while they agree again.
+     * are wrong now, which nothing but later ones tell. Fades with time.
      */
     public var doubt: Double = 0.0
         private set
@@ -104,6 +104,8 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     private var turnedX = 0.0
     private var turnedY = 0.0
     private var movedVariance = 0.0
+    private var turnedVariance = 0.0
+    private var movedWithTurned = 0.0
 
     /** Whether a fix was taken since the start or the last [reset]. */
     public val isKnown: Boolean get() = !x.isNaN()
@@ -166,8 +168,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     }
 
     /**
-     * Corrections of a filter that is right are white. C is what they have moved the place by, with D, what they have
-     * changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e, V ← κ² V + K² s. |C| above k √V is no chance.
+     * Corrections of a filter that is right are white, of variance s. C is what they have moved the place by, with D, what
+     * they have changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e; V, W and U, the variances of C and D and
+     * their covariance, follow. |C| above k √V is no chance.
      */
     private fun watchMoves(errorX: Double, errorY: Double, gainP: Double, gainC: Double) {
         val kept = exp(-sinceFix / REMEMBERED)
@@ -175,7 +178,10 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         movedY = kept * (movedY + turnedY * sinceFix) + gainP * errorY
         turnedX = kept * turnedX + gainC * errorX
         turnedY = kept * turnedY + gainC * errorY
-        movedVariance = kept * kept * movedVariance + gainP * pp
+        val carried = movedVariance + sinceFix * (2 * movedWithTurned + sinceFix * turnedVariance)
+        movedVariance = kept * kept * carried + gainP * pp
+        movedWithTurned = kept * kept * (movedWithTurned + sinceFix * turnedVariance) + gainP * pc
+        turnedVariance = kept * kept * turnedVariance + gainC * pc
         doubt *= exp(-sinceFix / FADING)
         if (doubt < LEAST_DOUBT) doubt = 0.0
         val moved = hypot(movedX, movedY)
@@ -199,6 +205,8 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         turnedX = 0.0
         turnedY = 0.0
         movedVariance = 0.0
+        turnedVariance = 0.0
+        movedWithTurned = 0.0
     }
 
     /** Speed over ground, m/s. */
@@ -214,7 +222,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         /** Less than this the deviation's multiples cover, m. */
         const val LEAST_DOUBT = 0.5
 
-        /** Standard deviations. White fixes made it so in 0.1 % of the time. */
-        const val UNLIKELY = 3.0
+        /** Standard deviations: more would miss jumps, fewer take water that changes for them (TrackEstimatorTest). */
+        const val UNLIKELY = 2.0
     }
 }

@@ -10,11 +10,13 @@ import kotlin.math.exp
  */
 internal object CalibrationPoint {
     /**
-     * Whether the numbers of [base] that [fit] has let go are those of some row of the log; an offset beside a drift
-     * also those of any time before it.
+     * Whether those of [numbers] of [base] that a cause of [fit] lets change with a condition are those of some row of the
+     * log; an offset beside a drift also those of any time before it.
      */
-    fun isInLog(fit: ModelFit, base: ModelFit): Boolean =
-        isWithin(fit, base, ResponseModel.TIME_CONSTANT) && isWithin(fit, base, ResponseModel.OFFSET)
+    fun isInLog(fit: ModelFit, base: ModelFit, numbers: List<Int>): Boolean {
+        val changing = fit.model.terms.mapNotNull { it.cause.conditionalNumber }
+        return numbers.filter { it in changing }.all { isWithin(fit, base, it) }
+    }
 
     private fun isWithin(fit: ModelFit, base: ModelFit, number: Int): Boolean {
         if (base.free[number] || !fit.free[number]) return true

@@ -96,7 +96,7 @@ internal class ForwardSearch(
                 full.score - without.score
             }
             Evidence.pValue(gain, trial.degrees) * terms.size > settings.level &&
-                (trial.term.cause.baseNumbers.isEmpty() || CalibrationPoint.isInLog(without, base))
+                CalibrationPoint.isInLog(without, base, trial.term.cause.baseNumbers)
         }
         if (needless.isEmpty()) return chosen
         val kept = chosen.filter { it !in needless }

@@ -21,8 +21,9 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         val all = residuals.sumOf { (it - mean) * (it - mean) }
         val best = TIMES.map { it * series.duration }.map(::settled).minBy { it.left }
         val slow = all - leftBy(Structure.slow(series))
-        // As one curve it explains nearly all that six do.
-        if (all - best.left < MOST_OF * slow) return ""
+        val line = listOf(DoubleArray(series.size) { series.times[it] - series.times[0] })
+        // As one curve it explains nearly all that six do, and more than a straight line.
+        if (all - best.left < MOST_OF * slow || best.left >= leftBy(line)) return ""
         return ": an offset that moves by %.2g and settles within some %.2g s, as of a probe that warms up or is "
             .format(Locale.ROOT, best.size, SETTLED * best.time) + "overgrown"
     }
@@ -57,8 +58,8 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
     }
 
     private companion object {
-        /** Over the log's duration. */
-        val TIMES = listOf(0.02, 0.03, 0.05, 0.08, 0.12, 0.18, 0.25, 0.35, 0.5, 0.7)
+        /** Over the log's duration, within which it is to settle. */
+        val TIMES = listOf(0.02, 0.03, 0.05, 0.08, 0.12, 0.18, 0.25, 0.33)
         const val MOST_OF = 0.9
 
         /** Time constants after which 95 % is done. */

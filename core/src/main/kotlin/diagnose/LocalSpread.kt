@@ -27,7 +27,7 @@ internal object LocalSpread {
         return columns(fit).filter { column -> column.any { it != column[0] } }.any { column ->
             val sorted = column.sortedArray()
             // Correlated noise makes two of a single wild reading.
-            val ranks = rows.filterNot { it - 1 in rows }.map { row -> rank(sorted, column[row]) }
+            val ranks = rows.filterNot { it - 1 in rows && it - 2 !in rows && it + 1 !in rows }.map { row -> rank(sorted, column[row]) }
             val lone = sqrt(12.0 * ranks.size)
             abs(ranks.average() - 0.5) * lone > GATHERED ||
                 abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED

@@ -39,13 +39,24 @@ internal class HomeTries(private val nearer: Double) {
         inAll++
         if (onEnd < (if (rests == 0) MOST_WAYS else MOST_WAYS_AGAIN) && inAll < MOST_IN_ALL) return true
         isStranded = rests == MOST_RESTS
-        restsUntil = now + REST * (1 shl rests)
+        restsUntil = if (isStranded) Double.NaN else now + REST * (1 shl rests)
         rests++
+        beginCount()
+        return false
+    }
+
+    /** Ends a rest and forgets all ways and rests so far; a boat that is stranded stays so. */
+    fun beginAnew() {
+        restsUntil = Double.NaN
+        rests = 0
+        beginCount()
+    }
+
+    private fun beginCount() {
         onEnd = 0
         inAll = 0
         // It may have drifted off by then.
         nearest = Double.POSITIVE_INFINITY
-        return false
     }
 
     private companion object {

@@ -102,7 +102,10 @@ public class Mission(
     /** What a person wants of it once it is armed. */
     public var wish: Wish = Wish.GO_ON
         set(value) {
-            if (value != field) log.order(value.word)
+            if (value != field) {
+                log.order(value.word)
+                navigator.tryAnew()
+            }
             field = value
         }
 

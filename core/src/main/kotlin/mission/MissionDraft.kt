@@ -49,9 +49,12 @@ public data class MissionDraft(
     val rearms: Boolean = true,
     val loaded: MissionSpec? = null,
 ) {
-    /** The text of [field], as typed or as it starts. */
-    public fun text(field: DraftField): String =
-        if (field == DraftField.NAME) name else texts[field] ?: field.start.orEmpty()
+    /** The text of [field], as typed or as it starts; drafts of versions that had no phone's limit keep their mission's. */
+    public fun text(field: DraftField): String = when (field) {
+        DraftField.NAME -> name
+        DraftField.LOWEST_PHONE -> texts[field] ?: loaded?.failsafe?.lowestPhonePercent?.let(::written)
+        else -> texts[field]
+    } ?: field.start.orEmpty()
 
     /** The number in [field] as typed, with a point where a comma was: what a program reads. */
     internal fun numeral(field: DraftField): String = text(field).trim().replace(',', '.')

@@ -116,6 +116,9 @@ internal class Navigator(
     /** For how long a boat that was held up on every way home rests before it tries again, s, [now] in s; else 0. */
     fun restsFor(now: Double): Double = tries.restsFor(now)
 
+    /** Begins the count of ways home anew, as where a person wants something else of a boat that rests. */
+    fun tryAnew() = tries.beginAnew()
+
     /** Whether the boat came home on purpose. */
     val isHome: Boolean get() = aim == Aim.HOME && knowsWay && next >= plan.size && (follower.arrived || isNearHome)
 
@@ -181,7 +184,7 @@ internal class Navigator(
 
     /** So near that what keeps the boat off may be no more than how well its place is known. */
     private fun isNear(place: Position) =
-        hypot(track.x - place.x, track.y - place.y) <= HOLDING * (spec.boat.arrival + track.deviation)
+        hypot(track.x - place.x, track.y - place.y) <= HOLDING * (spec.boat.arrival + track.deviation) + track.doubt
 
     /** Answers whether something else is to be tried. */
     private fun giveUp(now: Double, here: Position, goal: Position): Boolean {
@@ -246,7 +249,7 @@ internal class Navigator(
     }
 
     /**
-     * Stays where the boat is, and comes back when it was carried off; while fixes jump it is not known whether it was.
+     * Stays where the boat is, and comes back when it was carried off, by more than fixes that jump could make believe.
      */
     fun hold() {
         if (turnTo(Aim.HOLD)) {
@@ -254,7 +257,7 @@ internal class Navigator(
             next = plan.size
         }
         val off = hypot(track.x - plan.x(0), track.y - plan.y(0))
-        if (follower.arrived && track.doubt == 0.0 && off > HOLDING * spec.boat.arrival) {
+        if (follower.arrived && off > HOLDING * spec.boat.arrival + track.doubt) {
             follower.leg(track.x, track.y, plan.x(0), plan.y(0))
         }
     }
@@ -267,6 +270,7 @@ internal class Navigator(
     private fun turnTo(wanted: Aim): Boolean {
         if (aim == wanted) return false
         aim = wanted
+        if (wanted == Aim.SURVEY) tries.beginAnew()
         startLegs()
         return true
     }

@@ -95,7 +95,8 @@ public fun interface CommandEncoder {
  * Commands as a Platypus board reads them: one JSON object and LF each, two targets at most.
  *
  * Source: Platypus firmware v4.2.0, whose input buffer has 512 bytes and whose JSON tree 200. Shares are sent with three
- * decimals. Stateless.
+ * decimals, but a rest as `0`, the shortest that means it: each digit is one that a spoilt byte can make a drive of, and
+ * the lines have no checksum. The boats' own server, whose numbers Android's JSONObject writes, says rest so, too. Stateless.
  */
 public object PlatypusEncoder : CommandEncoder {
     override fun encode(command: Command): ByteArray = (json(command) + "\n").encodeToByteArray()
@@ -118,7 +119,9 @@ public object PlatypusEncoder : CommandEncoder {
         is Command.Sample -> """{"s${command.port}":{"sample":true}}"""
     }
 
-    private fun share(value: Double) = fixed(value, 3)
+    private fun share(value: Double) = fixed(value, 3).let { if (it == NONE) "0" else it }
+
+    private const val NONE = "0.000"
 }
 
 /**

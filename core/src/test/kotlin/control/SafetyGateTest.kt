@@ -111,6 +111,16 @@ class SafetyGateTest {
         assertEquals(Ruling.Fall(Danger.BATTERY_LOW, Failsafe.RETURN_HOME), at(22, 13.0))
     }
 
+    @Test
+    fun aBoatThatIsHeldUpRestsUnlessItIsBeyondTheFenceOrIsToStop() {
+        val gate = gate()
+        fun ruling(change: Situation.() -> Unit) = gate.assess(sound().apply { heldUp = true }.apply(change)) as Ruling.Fall
+        assertEquals(Danger.HELD_UP, ruling {}.danger)
+        assertEquals(Danger.HELD_UP, ruling { budgetSpent = true }.danger)
+        assertEquals(Danger.FENCE, ruling { x = 51.0 }.danger)
+        assertEquals(Danger.OPERATOR_STOP, ruling { operatorStop = true }.danger)
+    }
+
     /** Each is wide of the fence by more than its stopping distance, and would pass but for the doubt. */
     @Test
     fun aPlaceThatIsDoubtedIsKeptFromTheFenceByAsMuch() {

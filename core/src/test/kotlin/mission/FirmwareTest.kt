@@ -284,6 +284,6 @@ class FirmwareTest {
 
     private companion object {
         const val NOISE = 1152
-        const val REST = "{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}"
+        const val REST = "{\"m0\":{\"v\":0},\"m1\":{\"v\":0}}"
     }
 }

@@ -33,6 +33,7 @@ class HomeTriesTest {
             assertEquals(3, waysUntilRest())
         }
         assertTrue(tries.isStranded)
+        assertEquals(0.0, tries.restsFor(now))
     }
 
     @Test
@@ -46,6 +47,15 @@ class HomeTriesTest {
     @Test
     fun aBoatThatComesNearerHasTheFirstTenAgain() {
         assertEquals(19, waysUntilRest(left = { if (it < 10) 100.0 else 90.0 }))
+    }
+
+    @Test
+    fun aRestThatIsEndedBeginsTheCountAnew() {
+        assertEquals(10, waysUntilRest())
+        tries.beginAnew()
+        assertEquals(0.0, tries.restsFor(now))
+        assertEquals(10, waysUntilRest())
+        assertEquals(600.0, tries.restsFor(now))
     }
 
     @Test

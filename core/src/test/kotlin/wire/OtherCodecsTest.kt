@@ -39,7 +39,7 @@ class OtherCodecsTest {
         val cases = mapOf(
             Command.Move(Actuation.Differential(0.3, -0.5)) to """{"m0":{"v":0.300},"m1":{"v":-0.500}}""",
             Command.Move(Actuation.Vectored(0.3, 0.2)) to """{"m0":{"v":0.300},"s0":{"p":-0.200}}""",
-            Command.Move(Actuation.Differential(-0.0, -0.0001)) to """{"m0":{"v":0.000},"m1":{"v":0.000}}""",
+            Command.Move(Actuation.Differential(-0.0, -0.0001)) to """{"m0":{"v":0},"m1":{"v":0}}""",
             Command.Arm to """{"e":{"cmd":"arm"}}""",
             Command.Disarm to """{"e":{"cmd":"disarm"}}""",
             Command.AskState to """{"e":{"info":"state"}}""",

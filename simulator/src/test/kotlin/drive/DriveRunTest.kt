@@ -188,7 +188,7 @@ class DriveRunTest {
             }
         }
         assertEquals("a mistake", assertFailsWith<IllegalStateException> { afloat.sail() }.message)
-        assertContains(said, "{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}\n{\"e\":{\"cmd\":\"disarm\"}}\n")
+        assertContains(said, "{\"m0\":{\"v\":0},\"m1\":{\"v\":0}}\n{\"e\":{\"cmd\":\"disarm\"}}\n")
         afloat.world.advance(0.5)
         assertTrue(afloat.world.boat.board.actuation.isAtRest)
         assertTrue(LogOnDisk.unfinished(directory) != null, "the log can be gone on with")

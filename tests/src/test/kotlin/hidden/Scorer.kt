@@ -108,6 +108,9 @@ internal class ScoredCase(
     }
 }
 
+/** Gain in held-out mean square over the noise's variance that is worth asking for: a fifth of what 1x is in a long log. */
+private const val LEAST_POSSIBLE = 0.01
+
 /** Counts over many cases, as text for docs/diagnosis.md. */
 internal class Scores(private val cases: List<ScoredCase>) {
     private fun share(of: List<ScoredCase>, holds: (ScoredCase) -> Boolean): String {
@@ -158,12 +161,13 @@ internal class Scores(private val cases: List<ScoredCase>) {
             "| number of the named cause within 10 % at 2x and above | ${share(numbers) { it.numberError < 0.1 }}; " +
                 "median error ${percent(median(numbers.map { it.numberError }))} |",
         )
-        val gains = strong.filter { it.possibleGain.isFinite() }
+        // An effect that leaves no more to gain than that is not worth a share of it.
+        val gains = strong.filter { it.possibleGain > LEAST_POSSIBLE }
         appendLine(
             "| held-out gain over the true model's, all single effects at 1x and above | " +
-                "${percent(gains.sumOf { it.gain } / gains.sumOf { it.possibleGain })} (median of " +
+                "${percent(gains.sumOf { minOf(it.gain, it.possibleGain) } / gains.sumOf { it.possibleGain })} (median of " +
                 "${gains.size} cases ${percent(median(gains.map { it.gain / it.possibleGain }))}; at least 85 % in " +
-                "${share(gains) { it.gain >= 0.85 * it.possibleGain }}) |",
+                "${share(gains) { it.gain >= 0.85 * it.possibleGain }}; ${strong.size - gains.size} left out) |",
         )
         appendLine("\nPower: share of single effects named correctly, by strength over the detectable size.\n")
         appendLine("| cause | 0.25 to 0.5 | 0.5 to 1 | 1 to 2 | 2 to 4 |\n| --- | --- | --- | --- | --- |")

@@ -69,7 +69,7 @@ internal fun Context.missionWords(state: MissionState, restsFor: Double = 0.0): 
             val why = getString(state.danger.words())
             getString(
                 R.string.mission_holding,
-                if (restsFor > 0) getString(R.string.danger_held_up_for, why, duration(restsFor)) else why,
+                if (state.danger == Danger.HELD_UP && restsFor > 0) getString(R.string.danger_held_up_for, why, duration(restsFor)) else why,
             )
         }
         is MissionState.Returning -> getString(R.string.mission_returning, getString(state.danger.words()))

@@ -351,7 +351,7 @@ class BoatServiceTest {
 
     private companion object {
         val standStill =
-            listOf("{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}\n", "{\"e\":{\"cmd\":\"disarm\"}}\n")
+            listOf("{\"m0\":{\"v\":0},\"m1\":{\"v\":0}}\n", "{\"e\":{\"cmd\":\"disarm\"}}\n")
         val board = LinkChoice.Bluetooth("00:11:22:33:AA:BB", "Boat 3")
     }
 }

@@ -202,7 +202,7 @@ class MissionServiceTest {
         shadowOf(desk.service.watchdogLooper).idleFor(Duration.ofMillis(300))
         assertEquals("", String(wire.fromPhone()), "not at once")
         shadowOf(desk.service.watchdogLooper).idleFor(Duration.ofMillis(200))
-        assertTrue(String(wire.fromPhone()).startsWith("{\"m0\":{\"v\":0.000},\"m1\":{\"v\":0.000}}"))
+        assertTrue(String(wire.fromPhone()).startsWith("{\"m0\":{\"v\":0},\"m1\":{\"v\":0}}"))
         boat.unPause()
     }
 
