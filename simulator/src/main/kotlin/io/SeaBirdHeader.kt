@@ -117,8 +117,8 @@ internal class SeaBirdHeader private constructor(
         }
 
         /**
-         * Whether a file that begins with [head] is one of Sea-Bird's. What [AnnotatedLog] makes of one has its remarks,
-         * but is a table with a header.
+         * Whether a file that begins with [head] is one of Sea-Bird's. What [AnnotatedLog] makes of one has its
+         * remarks, but is a table with a header.
          */
         private fun isSeaBird(head: List<String>): Boolean {
             val isNamed = head[0].startsWith("* Sea-Bird") || head.any { NAME.matches(it) }
