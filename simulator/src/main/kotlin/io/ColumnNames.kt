@@ -31,10 +31,13 @@ internal object ColumnNames {
     private val OWN = setOf("time_s", "unix_time_s", "lat_deg", "lon_deg", "x_m", "y_m")
     private val COUNTERS = setOf("#", "record", "record_number", "row")
 
-    /** What Sea-Bird calls times, the count of scans and the mark of bad ones. */
+    /** What Sea-Bird calls times. */
     private val SEA_BIRD = setOf(
-        "scan", "flag", "times", "timem", "timeh", "timej", "timejv2", "timescp", "timek", "timeq", "timen", "timey",
+        "times", "timem", "timeh", "timej", "timejv2", "timescp", "timek", "timeq", "timen", "timey",
     )
+
+    /** What Sea-Bird calls the count of scans and the mark of bad ones: words that stand in other tables, too. */
+    private val SCANS = setOf("scan", "flag")
     private val KNOWN = TIMES.toSet() + DATES + LATITUDES + LONGITUDES + EASTS + NORTHS + COUNTERS + SEA_BIRD
 
     /** Seconds in the unit at the end of a name, as in `unix_ms`, `Time (min)` and `Time, h`. */
@@ -86,8 +89,11 @@ internal object ColumnNames {
     /** Whether [name] is one for metres east or north, but states another unit. */
     fun isInOtherUnit(name: String): Boolean = plain(name) in EASTS + NORTHS && !isMetres(stated(name))
 
-    /** Whether [name] is one of time, place or row number, so that no readings are looked for there. */
+    /** Whether [name] is one of time, place or row number, which shows that a table has readings. */
     fun isKnown(name: String): Boolean = name in OWN || plain(name) in KNOWN || "fract" in name.lowercase()
+
+    /** Whether no readings are looked for in a column [name]: what [isKnown], and Sea-Bird's scans and their marks. */
+    fun isNoReading(name: String): Boolean = isKnown(name) || plain(name) in SCANS
 
     /** Seconds in the unit that the [name] of a time states; null where it states seconds or none. */
     fun unit(name: String): Double? = UNITS.firstOrNull { it.first.containsMatchIn(name.trim()) }?.second

@@ -206,7 +206,7 @@ internal data class CsvColumns(
             if (names[index].isEmpty()) return false
             val field = sample.getOrNull(index).orEmpty()
             val isNumeric = CellText.isMissing(field) || CellText.isNumber(field, comma = true)
-            return isNumeric && names[index] !in RECOGNISED && !ColumnNames.isKnown(names[index])
+            return isNumeric && names[index] !in RECOGNISED && !ColumnNames.isNoReading(names[index])
         }
     }
 }

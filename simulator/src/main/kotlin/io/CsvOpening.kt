@@ -25,7 +25,13 @@ internal object CsvOpening {
                 header.names.joinToString(", "),
             )
         }
-        val isTimed = timed !== content || timed.seaBird?.clock?.name == short.time
+        val clock = timed.seaBird?.clock
+        val isTimed = timed !== content || clock?.name == short.time
+        if (choice.timeUnit != null && (isTimed || short.time == null)) {
+            val expected = "no --time-unit, for a Sea-Bird file states its own (${clock?.note})"
+            val found = "--time-unit ${choice.timeUnit.flag}"
+            throw LogProblem(content.file, header.endLine.toLong(), null, expected, found)
+        }
         return ofTable(timed, if (isTimed) short.copy(time = null) else short)
     }
 

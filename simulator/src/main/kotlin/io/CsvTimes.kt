@@ -37,6 +37,10 @@ internal class CsvTimes(
             if (choice.timeUnit != null && number.isNaN()) {
                 throw problem(content, layout, name, "a number, as --time-unit says", quoted(text))
             }
+            if (choice.overnight != null && (columns.date != CsvColumns.NONE || DateText.ofDay(text).isNaN())) {
+                val found = quoted(text) + if (columns.date == CsvColumns.NONE) "" else " and a date beside it"
+                throw problem(content, layout, name, "a time of day without a date, as --overnight says", found)
+            }
             return when {
                 !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number, choice.timeUnit)
                 !IsoTime.seconds(text).isNaN() -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)

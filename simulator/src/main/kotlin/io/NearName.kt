@@ -7,7 +7,8 @@ internal object NearName {
         val bare = bare(wrong)
         if (bare.isEmpty()) return null
         names.firstOrNull { bare(it) == bare }?.let { return it }
-        val near = maxOf(1, bare.length / LETTERS_A_MISTAKE)
+        // Of a name that is wrong in every letter nothing is near.
+        val near = minOf(maxOf(1, bare.length / LETTERS_A_MISTAKE), bare.length - 1)
         names.minByOrNull { distance(bare, bare(it)) }?.takeIf { distance(bare, bare(it)) <= near }?.let { return it }
         return names.filter { bare.length >= LETTERS_A_MISTAKE && bare in bare(it) }.singleOrNull()
     }

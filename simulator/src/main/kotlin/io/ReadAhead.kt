@@ -56,7 +56,8 @@ internal class ReadAhead(private val source: Reader) : Reader() {
         at += count
         if (at == block.length) {
             this.block = null
-            used.put(block)
+            // There is room for all blocks, so that nobody waits who could be interrupted.
+            used.add(block)
         }
         return count
     }

@@ -13,6 +13,8 @@ import java.util.Locale
  * Sources: headers of public files and the readers of such files; which zero a time has was held against files that
  * give the same moment twice (timeK and timeJV2, timeQ and the header's clock).
  *
+ * @param longNames long names of the columns, as `Temperature [ITS-90, deg C]`. @param start when the first scan was
+ * taken, or null. @param bins what the scans were averaged by, as `decibars: 1`, or null where nothing says so.
  * @property names short names of the columns, as `t090C`. @property endLine line of `*END*`, from 1.
  * @property badFlag number that stands for none. @property clock what the times are made of, or null where there is
  * nothing to make them of.
@@ -24,7 +26,7 @@ internal class SeaBirdHeader private constructor(
     val badFlag: Double,
     val clock: Clock?,
     private val start: Start?,
-    private val interval: String,
+    private val bins: String?,
 ) {
     /** When the first scan was taken: as written, and seconds since 1970 if that is UTC. */
     class Start(val text: String, val seconds: Double, val year: Int)
@@ -34,9 +36,15 @@ internal class SeaBirdHeader private constructor(
      *
      * @property column index of the column, or [BY_COUNT] for scans at a fixed interval. @property factor seconds in
      * one of its units. @property zero seconds since 1970 where it is 0, or null where nothing says so.
-     * @property note for people.
+     * @property note for people. @property fromFirst whether the column counts scans, and the first is to be 0.
      */
-    class Clock(val column: Int, val factor: Double, val zero: Double?, val note: String) {
+    class Clock(
+        val column: Int,
+        val factor: Double,
+        val zero: Double?,
+        val note: String,
+        val fromFirst: Boolean = false,
+    ) {
         /** Name of the column of times that is put before the file's own. */
         val name: String get() = if (zero == null) "time_s" else "unix_time_s"
     }
@@ -44,7 +52,7 @@ internal class SeaBirdHeader private constructor(
     /** What was taken for what, for people. */
     fun notes(): List<String> = listOfNotNull(
         clock?.note,
-        "averaged into bins of $interval".takeIf { isBinned(interval) },
+        bins?.let { "averaged into bins of $it" },
     )
 
     /** The names of a table with a column of times before the file's own, as a line of CSV. */
@@ -75,7 +83,7 @@ internal class SeaBirdHeader private constructor(
     /** The same with times from the column [name]; null where that is no time as Sea-Bird writes it. */
     fun timedBy(name: String): SeaBirdHeader? {
         val found = clock(names.indexOf(name), names, longNames, start) ?: return null
-        return SeaBirdHeader(names, longNames, endLine, badFlag, found, start, interval)
+        return SeaBirdHeader(names, longNames, endLine, badFlag, found, start, bins)
     }
 
     companion object {
@@ -83,6 +91,9 @@ internal class SeaBirdHeader private constructor(
         const val BY_COUNT = -1
         private const val END = "*END*"
         private const val DAY = 86_400.0
+
+        /** The column that counts scans. */
+        private const val SCAN = "scan"
 
         /** Times that count from 1 January 2000. */
         private val SINCE_2000 = setOf("timeK", "timeQ")
@@ -92,16 +103,22 @@ internal class SeaBirdHeader private constructor(
         private val TIMES = listOf("timeS", "timeM", "timeH", "timeK", "timeQ", "timeJV2", "timeSCP", "timeJ")
         private val UNITS = mapOf("timeS" to 1.0, "timeM" to 60.0, "timeH" to 3600.0)
         private val NAME = Regex("""#\s*name\s+(\d+)\s*=\s*([^:]*?)\s*(?::\s*(.*?))?\s*""")
-        private val ENTRY = Regex("""#\s*(interval|start_time|bad_flag|file_type)\s*=\s*(.*?)\s*""")
+        private val ENTRY =
+            Regex("""#\s*(interval|start_time|bad_flag|file_type|binavg_bintype|binavg_binsize)\s*=\s*(.*?)\s*""")
         private val START = Regex("""([A-Za-z]{3} +\d{1,2} +\d{4} +\d{2}:\d{2}:\d{2}).*""")
         private val STAMP = DateTimeFormatter.ofPattern("MMM d yyyy HH:mm:ss", Locale.ENGLISH)
         private val SECONDS = Regex("""seconds:\s*(\S+)""")
 
-        private fun isBinned(interval: String) = interval.isNotEmpty() && !interval.startsWith("seconds")
+        /** What the scans were averaged by: the unit of the interval, or what the program that averages says. */
+        private fun bins(entries: Map<String, String>): String? {
+            val interval = entries["interval"].orEmpty()
+            if (interval.isNotEmpty() && !interval.startsWith("seconds")) return interval
+            return entries["binavg_bintype"]?.let { "$it: ${entries["binavg_binsize"] ?: "unknown"}" }
+        }
 
         /**
-         * Whether a file that begins with [head] is one of Sea-Bird's. What [AnnotatedLog] makes of one has its remarks,
-         * but is a table with a header.
+         * Whether a file that begins with [head] is one of Sea-Bird's. What [AnnotatedLog] makes of one has its
+         * remarks, but is a table with a header.
          */
         private fun isSeaBird(head: List<String>): Boolean {
             val isNamed = head[0].startsWith("* Sea-Bird") || head.any { NAME.matches(it) }
@@ -138,9 +155,10 @@ internal class SeaBirdHeader private constructor(
             val flag = entries["bad_flag"]?.let { DecimalText.parse(it) } ?: Double.NaN
             val start = entries["start_time"]?.let(::start)
             val interval = entries["interval"].orEmpty()
+            val bins = bins(entries)
             val clock = TIMES.firstNotNullOfOrNull { clock(names.indexOf(it), names, longNames, start) }
-                ?: byCount(interval, start)
-            return SeaBirdHeader(names, longNames, end + 1, flag, clock, start, interval)
+                ?: byCount(interval, start, if (bins == null) names.indexOf(SCAN) else BY_COUNT)
+            return SeaBirdHeader(names, longNames, end + 1, flag, clock, start, bins)
         }
 
         /** Times from the column [index]; null where it is no time, or one of days and nothing says of which year. */
@@ -159,10 +177,16 @@ internal class SeaBirdHeader private constructor(
             }
         }
 
-        private fun byCount(interval: String, start: Start?): Clock? {
+        /**
+         * Times from a scan every [interval], counted by the column [scan], for scans may have been taken out; or by
+         * rows where that is [BY_COUNT], as of bins, which have the mean of their scans' numbers there.
+         */
+        private fun byCount(interval: String, start: Start?, scan: Int): Clock? {
             val seconds = SECONDS.matchEntire(interval)?.let { DecimalText.parse(it.groupValues[1]) }
             if (seconds == null || !(seconds > 0) || seconds.isInfinite()) return null
-            return Clock(BY_COUNT, seconds, start?.seconds, "times from a scan every $seconds s${after(start)}")
+            val counted = if (scan == BY_COUNT) "" else ", as $SCAN counts them,"
+            val note = "times from a scan every $seconds s$counted${after(start)}".removeSuffix(",")
+            return Clock(scan, seconds, start?.seconds, note, fromFirst = scan != BY_COUNT)
         }
 
         private fun after(start: Start?) = if (start == null) "" else " after ${start.text}"

@@ -26,6 +26,9 @@ internal class SeaBirdTable(
     private var lines = 0
     private var scans = 0L
 
+    /** What the column of scans has, or would have, in the first row; NaN before that is known. */
+    private var firstScan = Double.NaN
+
     /** The bytes of a line without its end, and where its fields are. */
     private class Line {
         var text = CharArray(WIDE)
@@ -147,7 +150,9 @@ internal class SeaBirdTable(
 
     private fun time(clock: SeaBirdHeader.Clock) {
         val units = if (clock.column == SeaBirdHeader.BY_COUNT) scans.toDouble() else field(clock.column)
-        val seconds = units * clock.factor + (clock.zero ?: 0.0)
+        if (clock.fromFirst && firstScan.isNaN() && units != header.badFlag) firstScan = units - scans
+        val sinceZero = if (clock.fromFirst) units - firstScan else units
+        val seconds = sinceZero * clock.factor + (clock.zero ?: 0.0)
         output.text(if (units == header.badFlag || !seconds.isFinite()) NONE else decimal(seconds))
     }
 

@@ -14,7 +14,11 @@ import kotlin.math.floor
  * @param times how the log writes them. @param sample one of them as it stands.
  */
 internal class TimeWording(private val times: CsvTimes, sample: String) {
+    private val hasOffset = OFFSET.containsMatchIn(sample)
     private val isNumber = times.form.kind == TimeForm.Kind.PLAIN && IsoTime.seconds(sample).isNaN()
+
+    /** Whether dates are with times that may be those of a clock on the wall. */
+    private val isLocal = !isNumber && !hasOffset && times.form.kind != TimeForm.Kind.NUMBER
 
     /** [seconds] of the log: a number, a time of day, or a date with the time, UTC. */
     fun of(seconds: Double): String = when {
@@ -30,7 +34,7 @@ internal class TimeWording(private val times: CsvTimes, sample: String) {
         val hint = when {
             fault == TimeFault.DUPLICATE -> ""
             times.form.kind == TimeForm.Kind.OF_ANY_DAY -> ", or --overnight HOURS if the next day begins here"
-            !isNumber && other - seconds in SUMMER_TIME -> " (summer time may end here: only times with an offset tell)"
+            isLocal && other - seconds in SUMMER_TIME -> " (summer time may end here: only times with an offset tell)"
             else -> ""
         }
         return "a time after ${of(other)}$hint"
@@ -40,9 +44,10 @@ internal class TimeWording(private val times: CsvTimes, sample: String) {
         BigDecimal(seconds).setScale(DECIMALS, RoundingMode.HALF_UP).stripTrailingZeros().toPlainString()
 
     private fun ofDay(seconds: Double): String {
-        val day = floor(seconds / DAY)
-        val time = LocalTime.ofNanoOfDay(((seconds - day * DAY) * NANOS).toLong())
-        return time.toString() + if (day > 0) " (day ${day.toInt() + 1})" else ""
+        val millis = Math.round(seconds * MILLIS)
+        val day = Math.floorDiv(millis, DAY)
+        val time = LocalTime.ofNanoOfDay(Math.floorMod(millis, DAY) * NANOS_A_MILLI)
+        return time.toString() + if (day > 0) " (day ${day + 1})" else ""
     }
 
     private fun date(seconds: Double): String {
@@ -52,8 +57,11 @@ internal class TimeWording(private val times: CsvTimes, sample: String) {
     }
 
     private companion object {
-        const val DAY = 86_400.0
-        const val NANOS = 1e9
+        /** What follows a time of day that says where on Earth it is meant. */
+        val OFFSET = Regex("""(?i):\d{2}.*(z|utc|gmt|[+-]\d{2}(:?\d{2})*|])\s*$""")
+
+        /** Milliseconds in a day. */
+        const val DAY = 86_400_000L
         const val MILLIS = 1000
         const val NANOS_A_MILLI = 1_000_000L
         const val DECIMALS = 6

@@ -171,6 +171,12 @@ class LoggerExportTest {
                 mapOf("lines of units" to 1),
             ),
             Case(
+                "a table of flags before that of readings",
+                "Flag,Meaning\n1,good\n2,bad\n\nTime (s),x_m,y_m,DO,Flag\n0,0,0,8.1,1\n60,1,0,8.2,1\n120,2,0,8.3,1\n",
+                "header in line 5",
+                0.0,
+            ),
+            Case(
                 "HOBO: title, short years, AM and PM, rows of events",
                 "\"Plot Title: 7\"\n" +
                     "\"#\",\"Date Time, GMT-05:00\",\"DO, mg/L (LGR S/N: 1)\",\"x_m\",\"y_m\",\"Detached\"\n" +

@@ -74,6 +74,36 @@ class MisreadLogTest {
         assertTrue(expected in refused, refused)
     }
 
+    @Test
+    fun summerTimeEndsOnClocksOnTheWallOnly() {
+        fun refusal(first: String, second: String, name: String = "Time") =
+            assertThrows<LogProblem> { open("$name,x_m,y_m,v\n$first,0,0,8.1\n$second,1,0,8.2\n").readings() }
+                .message.orEmpty()
+        for (local in listOf(
+            refusal("26/10/2025 02:59", "26/10/2025 02:00"),
+            refusal("2025-10-26T02:59:59", "2025-10-26T02:00:00"),
+        )) assertTrue("summer time may end" in local, local)
+        for (other in listOf(
+            refusal("2025-10-26T02:59:59Z", "2025-10-26T02:00:00Z"),
+            refusal("2025-10-26T02:59:59.5+02:00", "2025-10-26T02:00:00.5+02:00"),
+            refusal("26/10/2025 02:59 UTC", "26/10/2025 02:00 UTC"),
+            refusal("59", "0", "Time (min)"),
+        )) assertTrue("expected a time after" in other && "summer time" !in other, other)
+    }
+
+    @Test
+    fun nothingIsNearAWordOfOneLetter() {
+        assertEquals(null, NearName.of("t", listOf("x", "y")))
+        assertEquals("T", NearName.of("t", listOf("x", "T")))
+    }
+
+    @Test
+    fun timesOfDayAreToldToTheMillisecond() {
+        val rows = "00:00:04.2,0,0,1\n00:00:04.1,1,0,1\n"
+        val refused = assertThrows<LogProblem> { open("time,x_m,y_m,v\n$rows").readings() }.message.orEmpty()
+        assertTrue("expected a time after 00:00:04.200, " in refused && "found 00:00:04.100" in refused, refused)
+    }
+
     /** A fix of four decimals: 0 for 20 rows, then 11 m, at 5 m/s all along. */
     @Test
     fun coarseFixesAreNoFlight() {
@@ -160,6 +190,24 @@ class MisreadLogTest {
                 "Time,x_m,y_m,v\n08:00:00,0,0,8.1\n08:01:00,30,0,8.2\n",
                 "column Time: expected a number, as --time-unit says, found '08:00:00'",
                 LogChoice(timeUnit = TimeUnit.MINUTES),
+            ),
+            Case(
+                "--overnight for times with dates",
+                "Time,x_m,y_m,v\n2025-10-26 08:00:00,0,0,8.1\n2025-10-26 08:01:00,30,0,8.2\n",
+                "column Time: expected a time of day without a date, as --overnight says, found '2025-10-26 08:00:00'",
+                LogChoice(overnight = 8 * 3600.0),
+            ),
+            Case(
+                "--overnight for seconds",
+                "Time (s),x_m,y_m,v\n0,0,0,8.1\n60,30,0,8.2\n",
+                "column Time (s): expected a time of day without a date, as --overnight says, found '0'",
+                LogChoice(overnight = 8 * 3600.0),
+            ),
+            Case(
+                "--overnight for times of day beside dates",
+                "Date,Time,x_m,y_m,v\n2025-10-26,08:00:00,0,0,8.1\n2025-10-26,08:01:00,30,0,8.2\n",
+                "column Time: expected a time of day without a date, as --overnight says, found '08:00:00' and a date",
+                LogChoice(overnight = 8 * 3600.0, value = "v"),
             ),
             Case(
                 "the end of summer time",

@@ -2,6 +2,7 @@ package stillwater.io
 
 import org.junit.jupiter.api.Test
 import java.io.IOException
+import java.io.InterruptedIOException
 import java.io.Reader
 import java.io.StringReader
 import kotlin.random.Random
@@ -62,6 +63,20 @@ class ReadAheadTest {
             repeat(2) { assertEquals("the disk is gone", assertFailsWith<IOException> { ahead.read() }.message) }
         }
         assertTrue(source.isClosed)
+    }
+
+    @Test
+    fun aReaderThatIsInterruptedHasWhatIsThereAndThenAnIOException() {
+        ReadAhead(Source(1_000_000)).use { ahead ->
+            ahead.read()
+            Thread.currentThread().interrupt()
+            try {
+                assertTrue(ahead.read(CharArray(100_000)) > 0)
+                assertFailsWith<InterruptedIOException> { ahead.read() }
+            } finally {
+                assertTrue(Thread.interrupted())
+            }
+        }
     }
 
     @Test

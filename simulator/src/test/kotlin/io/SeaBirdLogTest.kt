@@ -135,6 +135,39 @@ class SeaBirdLogTest {
         assertTimes(listOf(0.0, 0.25, 0.5), file(cast, rows, "seconds: 0.25", start = null, end = "\n"), choice)
     }
 
+    @Test
+    fun scansThatWereTakenOutMakeNoLaterOneEarly() {
+        val cast = listOf("scan: Scan Count", "prdM: Pressure [db]", "tv290C: Temperature [ITS-90, deg C]")
+        val choice = LogChoice(x = "prdM", value = "tv290C")
+        val rows = listOf("1001 1.0 20.0", "1002 2.0 19.0", "1401 3.0 18.0")
+        val gapped = file(cast, rows, "seconds: 0.25")
+        assertTimes(listOf(begin, begin + 0.25, begin + 100), gapped, choice)
+        val said = "times from a scan every 0.25 s, as scan counts them, after Oct 08 2023 12:26:20"
+        assertTrue(said in SurveyLog.open(gapped, choice).format)
+        // The mean of the scans' numbers in a bin is none.
+        val type = "seconds: 10\n# binavg_bintype = seconds\n# binavg_binsize = 10"
+        val means = listOf("20.5 1.0 20.0", "60.5 2.0 19.0", "100.5 3.0 18.0")
+        val binned = file(cast, means, type, end = "\n")
+        assertTimes(listOf(begin, begin + 10, begin + 20), binned, choice)
+        val format = SurveyLog.open(binned, choice).format
+        assertTrue("averaged into bins of seconds: 10" in format, format)
+    }
+
+    @Test
+    fun aUnitThatTheFileStatesIsNotAskedFor() {
+        val choice = LogChoice(value = "sbeox0Mg/L", timeUnit = TimeUnit.MINUTES)
+        for (time in listOf(null, "timeS", "unix_time_s")) {
+            val refused = refusal(file(track, scans), choice.copy(time = time))
+            val expected = "expected no --time-unit, for a Sea-Bird file states its own (times from timeS after " +
+                "Oct 08 2023 12:26:20), found --time-unit min"
+            assertTrue(expected in refused, refused)
+        }
+        // Of a column that is none of Sea-Bird's times nothing is known.
+        val own = file(listOf("timeS: Time [seconds]", "minute: Time", "v: V"), listOf("0 0 1", "1 2 1"))
+        val named = LogChoice(time = "minute", value = "v", timeUnit = TimeUnit.MINUTES, needsPlace = false)
+        assertTimes(listOf(0.0, 120.0), own, named)
+    }
+
     private fun refusal(file: Path, choice: LogChoice = LogChoice()) =
         assertThrows<LogProblem> { SurveyLog.open(file, choice).readings() }.message.orEmpty()
 
