@@ -24,10 +24,11 @@ internal object LocalSpread {
      */
     fun isConcentrated(fit: ModelFit, rows: List<Int>): Boolean {
         if (rows.size < FEWEST_GATHERED) return false
+        // Correlated noise makes two of a single wild reading.
+        val alone = rows.filterNot { it - 1 in rows && it - 2 !in rows && it + 1 !in rows }
         return columns(fit).filter { column -> column.any { it != column[0] } }.any { column ->
             val sorted = column.sortedArray()
-            // Correlated noise makes two of a single wild reading.
-            val ranks = rows.filterNot { it - 1 in rows && it - 2 !in rows && it + 1 !in rows }.map { row -> rank(sorted, column[row]) }
+            val ranks = alone.map { row -> rank(sorted, column[row]) }
             val lone = sqrt(12.0 * ranks.size)
             abs(ranks.average() - 0.5) * lone > GATHERED ||
                 abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED

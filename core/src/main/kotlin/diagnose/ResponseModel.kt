@@ -10,10 +10,10 @@ import kotlin.math.sqrt
 /**
  * The reading that a sensor with the causes [terms] would give along a log whose truth is the log's reference.
  *
- * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag
- * or slow
- * path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The truth
- * is taken as a cubic spline through the rows, or as held over each step where [held]; each lag is exact for that.
+ * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag or
+ * slow path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The
+ * truth is taken as a cubic spline through the rows, or as held over each step where [held]; each lag is exact for
+ * that.
  *
  * @property series the log; its reference must be there. @property terms what acts beside the base.
  */

@@ -54,8 +54,8 @@ public data class BoundedFilterSettings(
  *
  * Guaranteed to contain the truth for a noise-free first-order or slew-limited sensor in a field that is constant
  * within a cell and inside the prior, with windows cleared on entry and a reading, be it without a value, from every
- * cell passed. Noise, dead time, a second-order response or uncleared windows
- * can make a bound wrong; what the caller then sees is conflicts.
+ * cell passed. Noise, dead time, a second-order response or uncleared windows can make a bound wrong; what the caller
+ * then sees is conflicts.
  *
  * Source: the report, section 5, Algorithm 1. Differs: both branches there read "gradient < ε"; the first is taken as
  * gradient > ε, the second as gradient < −ε. Crossing policies and clearing are not in the report. O(windows), no

@@ -9,9 +9,8 @@ import kotlin.math.sqrt
 
 /**
  * Readings put where a response took them from, and nothing else done to them: each frequency gets back the phase that
- * the response took, and keeps its amplitude. So no noise is amplified, nothing is smoothed, and the readings'
- * spectrum is
- * the same whatever the response: passes in different directions can be compared for any response on equal terms.
+ * the response took, and keeps its amplitude. So no noise is amplified, nothing is smoothed, and the readings' spectrum
+ * is the same whatever the response: passes in different directions can be compared for any response on equal terms.
  *
  * The readings are resampled to even steps of the series' median first. See core/docs/TrackCorrection.md, (1) to (3).
  *

@@ -50,9 +50,8 @@ public class RevisitLearner private constructor(
     }
 
     /**
-     * First the delay with which the passes agree best under any of some guesses at the water, then the water's
-     * scales at
-     * that delay: at no delay water would be found that changes from pass to pass.
+     * First the delay with which the passes agree best under any of some guesses at the water, then the water's scales
+     * at that delay: at no delay water would be found that changes from pass to pass.
      */
     private fun learnField() {
         val delays =
@@ -129,8 +128,7 @@ public class RevisitLearner private constructor(
 
     /**
      * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect
-     * on
-     * the score would otherwise hide that of a dead time.
+     * on the score would otherwise hide that of a dead time.
      */
     private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
         even.correct(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }), corrected)

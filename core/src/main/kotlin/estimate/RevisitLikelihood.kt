@@ -25,9 +25,8 @@ internal enum class Smoothness(val nu: Double) {
 
 /**
  * How alike readings are at two places and times: k = M(|Δx| / length) + own · M(Δt / ownTime) + noise, M Matérn's
- * covariance. The first part is the water's and shared by all passes; the second is each pass's own, because the
- * water has
- * changed in between, or the sensor's mood.
+ * covariance. The first part is the water's and shared by all passes; the second is each pass's own, because the water
+ * has changed in between, or the sensor's mood.
  *
  * @property length m. @property own variance over that of the shared part. @property ownTime s. @property noise
  * variance of

@@ -124,8 +124,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
 }
 
 /**
- * The rate at which the sensor of these readings often runs and which it hardly ever exceeds, sensor units/s; NaN
- * where there
- * is none. No lag and no water does that: slopes thin out towards their largest.
+ * The rate at which the sensor of these readings often runs and which it hardly ever exceeds, sensor units/s; NaN where
+ * there is none. No lag and no water does that: slopes thin out towards their largest.
  */
 public fun TrackSeries.rateLimit(): Double = SensorSides.rateLimit(this)

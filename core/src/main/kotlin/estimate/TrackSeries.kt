@@ -42,9 +42,8 @@ public class TrackSeries(
 
     /**
      * The same readings where the boat was when they were taken, if its receiver repeats a fix until it has a new one:
-     * positions that repeat the one before are put on the straight way between the first rows of successive fixes.
-     * Left as
-     * they are, they would be late and hide part of a sensor's delay.
+     * positions that repeat the one before are put on the straight way between the first rows of successive fixes. Left
+     * as they are, they would be late and hide part of a sensor's delay.
      */
     public fun withFreshPositions(): TrackSeries {
         val freshXs = xs.copyOf()

@@ -27,8 +27,7 @@ internal class Stretch(
 
 /**
  * The field along a stretch given all its readings: Kalman filter forwards, then Bryson and Frazier's smoother
- * backwards
- * (Bierman 1977, doi:10.1137/0714031), which inverts no matrix.
+ * backwards (Bierman 1977, doi:10.1137/0714031), which inverts no matrix.
  *
  * @param stretch the readings. @param response the sensor's. @param along the water's.
  * @param agitation factor on the variance of the field's change over each reading, length n. Retained.

@@ -10,8 +10,7 @@ import stillwater.model.LatLon
  * JSON:
  * `{"order":["start"],"phone":[percent],"fix":[[t_s,lat_deg,lon_deg]],"compass":[[t_s,heading_rad,yaw_rate_rad_s]],
  * "heard":["line"]}`, each only where something came. An order is `start`, `stop`, `log-lost` or the word of a [Wish].
- * `heard` has the board's lines whole, whether they could be read or not, one byte a
- * character. Confined to one thread.
+ * `heard` has the board's lines whole, whether they could be read or not, one byte a character. Confined to one thread.
  */
 internal class InputRecord {
     private val orders = StringBuilder()

@@ -37,15 +37,14 @@ public fun interface ReadingSink {
 /**
  * Keeps back readings that are likelier a digit changed on the wire than water: the lines carry no checksum.
  *
- * A reading outside [range] is dropped. Readings equal to the one before wait for one that is not; where there are [stuckAfter]
- * of them or more, that one included, the probe is taken to be stuck and they are dropped, all but the first, which was
- * true when it was read. One other reading among them, a digit changed on the wire, does not end them: it waits for the
- * next and is dropped with them; once the probe is taken to be stuck any number of such may come. The first, and one
- * that differs from the reading before by more than
- * [largestJump], is held until the next: if it lies between its neighbours, or beyond them by no more than a jump, it
- * passes, else it was alone and is dropped. So a probe that moves fast loses nothing, and a jump of a few deviations of the
- * noise is a good choice. Every reading is counted under
- * what became of it. Never throws on data. Confined to one thread.
+ * A reading outside [range] is dropped. Readings equal to the one before wait for one that is not; where there are
+ * [stuckAfter] of them or more, that one included, the probe is taken to be stuck and they are dropped, all but the
+ * first, which was true when it was read. One other reading among them, a digit changed on the wire, does not end them:
+ * it waits for the next and is dropped with them; once the probe is taken to be stuck any number of such may come. The
+ * first, and one that differs from the reading before by more than [largestJump], is held until the next: if it lies
+ * between its neighbours, or beyond them by no more than a jump, it passes, else it was alone and is dropped. So a
+ * probe that moves fast loses nothing, and a jump of a few deviations of the noise is a good choice. Every reading is
+ * counted under what became of it. Never throws on data. Confined to one thread.
  *
  * @property range what the water can have, sensor units.
  * @property largestJump from one reading to the next that needs no confirmation, sensor units, above 0; may be infinite.

@@ -114,7 +114,9 @@ class SafetyGateTest {
     @Test
     fun aBoatThatIsHeldUpRestsUnlessItIsBeyondTheFenceOrIsToStop() {
         val gate = gate()
-        fun ruling(change: Situation.() -> Unit) = gate.assess(sound().apply { heldUp = true }.apply(change)) as Ruling.Fall
+        fun ruling(
+            change: Situation.() -> Unit,
+        ) = gate.assess(sound().apply { heldUp = true }.apply(change)) as Ruling.Fall
         assertEquals(Danger.HELD_UP, ruling {}.danger)
         assertEquals(Danger.HELD_UP, ruling { budgetSpent = true }.danger)
         assertEquals(Danger.FENCE, ruling { x = 51.0 }.danger)

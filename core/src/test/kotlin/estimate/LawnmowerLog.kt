@@ -10,9 +10,8 @@ import kotlin.math.sqrt
 import kotlin.random.Random
 
 /**
- * A survey of legs up and down over random smooth water, read by a sensor that runs ten times as fine as it is
- * logged, with
- * noise, a last digit and a receiver that repeats its fix more often than not.
+ * A survey of legs up and down over random smooth water, read by a sensor that runs ten times as fine as it is logged,
+ * with noise, a last digit and a receiver that repeats its fix more often than not.
  */
 internal class LawnmowerLog(seed: Int, stages: List<SensorStage>, legs: Int = 12, noise: Double = 0.01) {
     val series: TrackSeries

@@ -7,8 +7,7 @@ import stillwater.wire.LineFramer
 /**
  * The side of a virtual boat that tells its phone's program time, fixes and compass, one report at a time.
  *
- * One report is under way at a time. What cannot be read is counted. Confined to
- * one thread.
+ * One report is under way at a time. What cannot be read is counted. Confined to one thread.
  *
  * @param wire to the program. Retained, closed with this.
  */

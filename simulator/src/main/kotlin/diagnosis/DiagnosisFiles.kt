@@ -9,12 +9,10 @@ import stillwater.report.writeFigures
  * Writes a [Diagnosed] log: diagnosis.json, extended-sensor.json, residuals.csv, the figures and report.html.
  *
  * extended-sensor.json is written where something was named; without it the base sensor is the best there is, and
- * stands in
- * diagnosis.json.
+ * stands in diagnosis.json.
  *
  * @param diagnosed what to write. @param command the command as typed, for the report. @param numbersOnly whether
- * figures
- * and report are left out.
+ * figures and report are left out.
  */
 internal class DiagnosisFiles(
     private val diagnosed: Diagnosed,

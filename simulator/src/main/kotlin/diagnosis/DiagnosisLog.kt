@@ -14,10 +14,9 @@ import java.nio.file.Path
  * A log as the diagnosis takes it.
  *
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
- * truth,
- * or null. @property series its columns. @property pass what was read. @property missing rows left out for want of a
- * reference. @property cut rows at the end that were not looked at. @property frame frame of its places, or null where
- * the log has metres. @property heading what its headings are in, or null where none were given.
+ * truth, or null. @property series its columns. @property pass what was read. @property missing rows left out for want
+ * of a reference. @property cut rows at the end that were not looked at. @property frame frame of its places, or null
+ * where the log has metres. @property heading what its headings are in, or null where none were given.
  */
 class DiagnosisLog private constructor(
     val file: Path,

@@ -11,8 +11,7 @@ import stillwater.sensor.SensorStage
 
 /**
  * What a better model of the sensor is worth for a map: the benchmark's Gaussian fields, sampled by the extended
- * sensor,
- * mapped by the interval filter with the limits of the old and of the new model.
+ * sensor, mapped by the interval filter with the limits of the old and of the new model.
  *
  * @property before mean error of the map with the base model's limits, share of the field's range.
  * @property after the same with the extended model's. @property error standard error of their difference.

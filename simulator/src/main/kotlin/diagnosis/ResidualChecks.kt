@@ -8,8 +8,7 @@ import kotlin.math.sqrt
  * A number that residuals have, and what it would be for independent normal noise.
  *
  * @property name what it is. @property value what these residuals have. @property lower and [upper] hold it in 95 of
- * 100
- * cases of such noise.
+ * 100 cases of such noise.
  */
 internal class ResidualCheck(val name: String, val value: Double, val lower: Double, val upper: Double)
 

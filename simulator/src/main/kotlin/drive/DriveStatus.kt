@@ -64,7 +64,9 @@ internal class DriveStatus(
     private fun line(mission: Mission, time: BoatTime): String {
         val state = mission.state
         val why = when (state) {
-            is MissionState.Holding -> " (${words(state.danger.name)}${if (state.danger == Danger.HELD_UP) rest(mission) else ""})"
+            is MissionState.Holding -> " (${words(
+                state.danger.name,
+            )}${if (state.danger == Danger.HELD_UP) rest(mission) else ""})"
             is MissionState.Returning -> " (${words(state.danger.name)})"
             is MissionState.Stopped -> " (${words(state.reason.name)})"
             else -> Waiting.of(mission, time).takeIf { it.isNotEmpty() }?.joinToString("; ", " (", ")").orEmpty()

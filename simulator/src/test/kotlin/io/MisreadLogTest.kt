@@ -82,13 +82,17 @@ class MisreadLogTest {
         for (local in listOf(
             refusal("26/10/2025 02:59", "26/10/2025 02:00"),
             refusal("2025-10-26T02:59:59", "2025-10-26T02:00:00"),
-        )) assertTrue("summer time may end" in local, local)
+        )) {
+            assertTrue("summer time may end" in local, local)
+        }
         for (other in listOf(
             refusal("2025-10-26T02:59:59Z", "2025-10-26T02:00:00Z"),
             refusal("2025-10-26T02:59:59.5+02:00", "2025-10-26T02:00:00.5+02:00"),
             refusal("26/10/2025 02:59 UTC", "26/10/2025 02:00 UTC"),
             refusal("59", "0", "Time (min)"),
-        )) assertTrue("expected a time after" in other && "summer time" !in other, other)
+        )) {
+            assertTrue("expected a time after" in other && "summer time" !in other, other)
+        }
     }
 
     @Test

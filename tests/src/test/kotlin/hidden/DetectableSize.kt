@@ -8,9 +8,8 @@ import kotlin.math.sqrt
  * How strong an effect must be to be detectable in a log, from theory.
  *
  * The best test of one effect, for someone who knows the noise and the effect's shape but not the time constant, gain,
- * offset and first state, has the noncentrality λ = |P W (y(strength) − y(0))|², with W the whitening of the noise
- * and P
- * the projection off what the unknowns can imitate. Strength 1x is where √λ = 6.36: at a level of 0.1 %, shared by 18
+ * offset and first state, has the noncentrality λ = |P W (y(strength) − y(0))|², with W the whitening of the noise and
+ * P the projection off what the unknowns can imitate. Strength 1x is where √λ = 6.36: at a level of 0.1 %, shared by 18
  * causes (two-sided 4.03 standard deviations), the test then has a power of 99 % (2.33 more).
  *
  * Where a sensor is given ([isGiven], with [offset]) its numbers are not unknown: only the first state is.

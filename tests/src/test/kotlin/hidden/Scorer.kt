@@ -165,7 +165,11 @@ internal class Scores(private val cases: List<ScoredCase>) {
         val gains = strong.filter { it.possibleGain > LEAST_POSSIBLE }
         appendLine(
             "| held-out gain over the true model's, all single effects at 1x and above | " +
-                "${percent(gains.sumOf { minOf(it.gain, it.possibleGain) } / gains.sumOf { it.possibleGain })} (median of " +
+                "${percent(
+                    gains.sumOf {
+                        minOf(it.gain, it.possibleGain)
+                    } / gains.sumOf { it.possibleGain },
+                )} (median of " +
                 "${gains.size} cases ${percent(median(gains.map { it.gain / it.possibleGain }))}; at least 85 % in " +
                 "${share(gains) { it.gain >= 0.85 * it.possibleGain }}; ${strong.size - gains.size} left out) |",
         )

@@ -66,11 +66,10 @@ internal fun Context.missionWords(state: MissionState, restsFor: Double = 0.0): 
         MissionState.Arming -> getString(R.string.mission_arming)
         MissionState.Surveying -> getString(R.string.mission_surveying)
         is MissionState.Holding -> {
-            val why = getString(state.danger.words())
-            getString(
-                R.string.mission_holding,
-                if (state.danger == Danger.HELD_UP && restsFor > 0) getString(R.string.danger_held_up_for, why, duration(restsFor)) else why,
-            )
+            val danger = getString(state.danger.words())
+            val rests = state.danger == Danger.HELD_UP && restsFor > 0
+            val why = if (rests) getString(R.string.danger_held_up_for, danger, duration(restsFor)) else danger
+            getString(R.string.mission_holding, why)
         }
         is MissionState.Returning -> getString(R.string.mission_returning, getString(state.danger.words()))
         is MissionState.Stopped -> getString(R.string.mission_stopped, getString(state.reason.words()))

@@ -41,8 +41,7 @@ import kotlin.test.assertTrue
  * half an hour read back, the map drawn. No disk and no link on the main thread meanwhile.
  *
  * What the main thread does for it does not grow with the log. How long it takes is written to `target/cold-start.txt`
- * beside what an empty window takes on the same machine, and
- * judged by whoever reads it: a busy machine proves nothing.
+ * beside what an empty window takes on the same machine, and judged by whoever reads it: a busy machine proves nothing.
  */
 @RunWith(RobolectricTestRunner::class)
 @Config(sdk = [35])
