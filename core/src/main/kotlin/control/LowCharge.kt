@@ -2,8 +2,9 @@ package stillwater.control
 
 /**
  * Tells that a battery is low: once it has been below [lowest] for [lowFor] s on end, for a single word of it may be
- * wrong and a load makes a voltage sag. What was low under way stays low: a battery at rest recovers, and is empty
- * all the same. Before, another may have been put in, which is so once it has not been low for as long. Confined to one thread.
+ * wrong and a load makes a voltage sag. What was low under way stays low: a battery at rest recovers, and is empty all
+ * the same. Before, another may have been put in, which is so once it has not been low for as long. Confined to one
+ * thread.
  *
  * @param lowest in the unit of what is watched; 0 where nothing is to be.
  * @param lowFor s, at least 0.

@@ -70,8 +70,8 @@ public enum class Danger {
 /**
  * Limits and answers of a [SafetyGate].
  *
- * @property longestSilence of the board, s, above 0; while its motors have power it speaks at about 10 Hz. With two steps of 0.1 s, of which a line
- *   that is hit on the way takes one, motors rest within 0.6 s of a lost link.
+ * @property longestSilence of the board, s, above 0; while its motors have power it speaks at about 10 Hz. With two
+ *   steps of 0.1 s, of which a line that is hit on the way takes one, motors rest within 0.6 s of a lost link.
  * @property oldestFix s, above 0.
  * @property mostJumps fixes refused in a row that are borne, at least 0.
  * @property fenceMargin how far beyond the fence the boat may be led back under power, m, at least 0; where it may be
@@ -217,9 +217,9 @@ public sealed interface Ruling {
  *
  * [assess] says whether the boat may go on and what to do otherwise; [permit] lets through of a drive what is safe,
  * whoever asks for it. A boat that holds or returns needs the link and its place: without one of them its motors rest,
- * whatever the policy. Near the fence, be it the shore or a keep-out's outline, nearer than it takes to stop, only thrust
- * and turns that lead to the water pass; beyond the margin none does. So a fence wants to lie that distance outside of what
- * is surveyed. A boat that drifts is carried on by the water: that, too, is for the fence to allow.
+ * whatever the policy. Near the fence, be it the shore or a keep-out's outline, nearer than it takes to stop, only
+ * thrust and turns that lead to the water pass; beyond the margin none does. So a fence wants to lie that distance
+ * outside of what is surveyed. A boat that drifts is carried on by the water: that, too, is for the fence to allow.
  *
  * Derivation of the stopping distance: core/docs/SafetyGate.md. Never throws on data. Confined to one thread.
  *
@@ -287,8 +287,8 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
     }
 
     /**
-     * Whether a boat that is held up on every way home may rest while [danger] waits: not where it is to stop for good, and
-     * not beyond the fence, where it would drift on.
+     * Whether a boat that is held up on every way home may rest while [danger] waits: not where it is to stop for good,
+     * and not beyond the fence, where it would drift on.
      */
     private fun mayWait(danger: Danger?) =
         danger == null || (danger != Danger.FENCE && (settings.answers[danger] ?: Failsafe.STOP) != Failsafe.STOP)

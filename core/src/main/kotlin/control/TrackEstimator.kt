@@ -50,8 +50,9 @@ public enum class FixUse {
  * Where the boat is and how the water carries it, from fixes, heading and speed through the water.
  *
  * A Kalman filter an axis: position p and drift c, with ṗ = w + c, w the velocity through the water from compass and
- * thrust, c a random walk. What the speed is wrongly believed ends up in c, which is what a course needs. Both axes have
- * the same covariance. White fix noise is assumed: an error that stays for a minute is followed, whatever the filter.
+ * thrust, c a random walk. What the speed is wrongly believed ends up in c, which is what a course needs. Both axes
+ * have the same covariance. White fix noise is assumed: an error that stays for a minute is followed, whatever the
+ * filter.
  *
  * Source: Kalman (1960), doi:10.1115/1.3662552; derivation in core/docs/WaypointFollower.md. Never throws on data. No
  * allocation. Confined to one thread.
@@ -168,9 +169,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     }
 
     /**
-     * Corrections of a filter that is right are white, of variance s. C is what they have moved the place by, with D, what
-     * they have changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e; V, W and U, the variances of C and D and
-     * their covariance, follow. |C| above k √V is no chance.
+     * Corrections of a filter that is right are white, of variance s. C is what they have moved the place by, with D,
+     * what they have changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e; V, W and U, the variances of C and D
+     * and their covariance, follow. |C| above k √V is no chance.
      */
     private fun watchMoves(errorX: Double, errorY: Double, gainP: Double, gainC: Double) {
         val kept = exp(-sinceFix / REMEMBERED)

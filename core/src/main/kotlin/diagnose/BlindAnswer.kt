@@ -279,9 +279,9 @@ internal class BlindAnswer(
         private const val NORMAL_95 = 1.96
 
         /**
-         * Standard errors to either end of an interval of 95 %, 1.6 times the usual ones: box and lengths of the waves, noise
-         * and their spread are chosen by the same readings and then taken for known. Set on 28 simulated surveys, of which
-         * 22 held the true lag without it; docs/diagnosis.md.
+         * Standard errors to either end of an interval of 95 %, 1.6 times the usual ones: box and lengths of the waves,
+         * noise and their spread are chosen by the same readings and then taken for known. Set on 28 simulated surveys,
+         * of which 22 held the true lag without it; docs/diagnosis.md.
          */
         const val REACH = 1.6 * NORMAL_95
         private const val MOST_REACH = 50.0

@@ -313,9 +313,9 @@ internal class BlindDiagnosis(
 
     companion object {
         /**
-         * Whether what [term] shows may as well be the water's own where nobody knows the water: a change of the sensor's
-         * offset is like one of all the water, and what else is measured in the water may go with the value there, so
-         * that where the water changed between two passes both changed. Speed and heading are the boat's.
+         * Whether what [term] shows may as well be the water's own where nobody knows the water: a change of the
+         * sensor's offset is like one of all the water, and what else is measured in the water may go with the value
+         * there, so that where the water changed between two passes both changed. Speed and heading are the boat's.
          */
         fun mayBeWaters(term: Term): Boolean = term.cause in SLOW ||
             (term.cause == Cause.CROSS_SENSITIVITY && term.condition !in setOf(Conditions.SPEED, Conditions.HEADING))

@@ -10,8 +10,8 @@ import kotlin.math.exp
  */
 internal object CalibrationPoint {
     /**
-     * Whether those of [numbers] of [base] that a cause of [fit] lets change with a condition are those of some row of the
-     * log; an offset beside a drift also those of any time before it.
+     * Whether those of [numbers] of [base] that a cause of [fit] lets change with a condition are those of some row of
+     * the log; an offset beside a drift also those of any time before it.
      */
     fun isInLog(fit: ModelFit, base: ModelFit, numbers: List<Int>): Boolean {
         val changing = fit.model.terms.mapNotNull { it.cause.conditionalNumber }

@@ -51,8 +51,8 @@ internal class CauseSearch(
     }
 
     /**
-     * [base] with [term] on top, fitted; where it is likely, four fits more say what it foretells, and more where it acts now
-     * and then only. [root] is the model without any term.
+     * [base] with [term] on top, fitted; where it is likely, four fits more say what it foretells, and more where it
+     * acts now and then only. [root] is the model without any term.
      */
     fun attempt(base: ModelFit, baseHeldOut: HeldOutScore, term: Term, root: ModelFit): Trial {
         val best = if (term.cause == Cause.OFFSET_STEPS) jumps(base) else extended(base, term)

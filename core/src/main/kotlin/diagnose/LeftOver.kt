@@ -16,16 +16,14 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
 
     /** An offset that settles: most drifts of a probe that warms up, or is overgrown, level off. */
     private fun settling(): String {
-        val residuals = base.residuals
-        val mean = residuals.average()
-        val all = residuals.sumOf { (it - mean) * (it - mean) }
+        val all = leftBy(emptyList())
         val best = TIMES.map { it * series.duration }.map(::settled).minBy { it.left }
         val slow = all - leftBy(Structure.slow(series))
         val line = listOf(DoubleArray(series.size) { series.times[it] - series.times[0] })
         // As one curve it explains nearly all that six do, and more than a straight line.
         if (all - best.left < MOST_OF * slow || best.left >= leftBy(line)) return ""
-        return ": an offset that moves by %.2g and settles within some %.2g s, as of a probe that warms up or is "
-            .format(Locale.ROOT, best.size, SETTLED * best.time) + "overgrown"
+        return ": an offset that moves by %.2g and settles within some %.2g s"
+            .format(Locale.ROOT, best.size, SETTLED * best.time) + ", as of a probe that warms up or is overgrown"
     }
 
     private class Settled(val time: Double, val size: Double, val left: Double)
@@ -33,13 +31,9 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
     private fun settled(time: Double): Settled {
         val curve = DoubleArray(series.size) { 1 - exp(-(series.times[it] - series.times[0]) / time) }
         val mean = curve.average()
-        val middle = base.residuals.average()
         val squares = curve.sumOf { (it - mean) * (it - mean) }
         val size = if (squares > 0) curve.indices.sumOf { (curve[it] - mean) * base.residuals[it] } / squares else 0.0
-        val left = curve.indices.sumOf { i ->
-            (base.residuals[i] - middle - size * (curve[i] - mean)).let { it * it }
-        }
-        return Settled(time, size, left)
+        return Settled(time, size, leftBy(listOf(curve)))
     }
 
     /** Squares that [columns] and a mean leave of the base's residuals. */
@@ -67,6 +61,7 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
         const val LEAST_SHARE = 0.1
 
         /** A shift along the track is all that a log tells of the probe's place. */
-        const val ARM = ": a probe to the side of the track, or on a rigid arm that swings out in turns, leaves such"
+        const val ARM =
+            ": a probe to the side of the track, or on a rigid arm that swings out in turns, leaves such a rest"
     }
 }

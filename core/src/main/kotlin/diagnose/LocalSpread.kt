@@ -19,8 +19,8 @@ internal object LocalSpread {
     fun of(fit: ModelFit, z: DoubleArray): DoubleArray = of(z, columns(fit))
 
     /**
-     * Whether [rows] are gathered at some times, values, rates or conditions: then it is the noise that is larger there.
-     * By the mean of their ranks, and by how far these are from the middle.
+     * Whether [rows] are gathered at some times, values, rates or conditions: then it is the noise that is larger
+     * there. By the mean of their ranks, and by how far these are from the middle.
      */
     fun isConcentrated(fit: ModelFit, rows: List<Int>): Boolean {
         if (rows.size < FEWEST_GATHERED) return false

@@ -12,8 +12,8 @@ internal object Spikes {
     private const val HALF_WINDOW = 3
     private const val TIMES_SPREAD = 5.5
     private const val NORMAL = 1.4826
-    private val FREEDOMS = doubleArrayOf(3.0, 5.0, 8.0, 15.0, 30.0).toList()
-    private val WIDTHS = doubleArrayOf(0.85, 0.9, 0.95, 1.0, 1.05).toList()
+    private val FREEDOMS = listOf(3.0, 5.0, 8.0, 15.0, 30.0)
+    private val WIDTHS = listOf(0.85, 0.9, 0.95, 1.0, 1.05)
 
     /** Of the way there the way back, less half: of a single row it is 1, of a jump a half. */
     private const val RETURNED = 0.75

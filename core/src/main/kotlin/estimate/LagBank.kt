@@ -6,10 +6,10 @@ import kotlin.math.sqrt
 /**
  * Three Kalman filters that differ in nothing but the sensor's time constant: at θ − h, θ and θ + h with θ = ln τ.
  *
- * Each tracks the sensor's state and the truth of the cell the boat is in and of the one before, for a visit alone; when
- * a visit is two cells back its result is pooled with those of the cell's other visits. The sums of squared, scaled
- * innovations of the three make a parabola in θ: its minimum is the time constant that fits best, its curvature how
- * sure that is. A cell's truth at that time constant is interpolated likewise.
+ * Each tracks the sensor's state and the truth of the cell the boat is in and of the one before, for a visit alone;
+ * when a visit is two cells back its result is pooled with those of the cell's other visits. The sums of squared,
+ * scaled innovations of the three make a parabola in θ: its minimum is the time constant that fits best, its curvature
+ * how sure that is. A cell's truth at that time constant is interpolated likewise.
  *
  * Everything is in scaled values: readings minus the prior's midpoint, over its width; variances are over the noise's.
  * Derivation: core/docs/SelfCalibratingEstimator.md, whose equations are cited. O(1) a reading; no call allocates once

@@ -1,8 +1,9 @@
 package stillwater.estimate
 
 /**
- * Seven Kalman filters of one [ResponseBankKind] at six pairs of its two parameters: the middle, a step either way in each,
- * and one either way in both. What they say, misfit and truth of every cell, is a quadratic in the two parameters.
+ * Seven Kalman filters of one [ResponseBankKind] at six pairs of its two parameters: the middle, a step either way in
+ * each, and one either way in both. What they say, misfit and truth of every cell, is a quadratic in the two
+ * parameters.
  *
  * As [LagBank], with the sensor as two lags in a row (the second without time where there is only one), the water seen
  * with a dead time, and each visit followed twice where rising and falling differ. Scaled values; variances over the

@@ -188,8 +188,8 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     }
 
     /**
-     * Largest second parameter. A dead time longer by a whole stay is the same sensor to a survey whose stays are of one
-     * length, with the map moved by a cell: none longer than a mean stay is looked for.
+     * Largest second parameter. A dead time longer by a whole stay is the same sensor to a survey whose stays are of
+     * one length, with the map moved by a cell: none longer than a mean stay is looked for.
      */
     private var most = 0.0
 

@@ -26,8 +26,8 @@ internal enum class ResponseBankKind(
     DEAD_TIME(lags = 1, branches = 1, least = 0.0, most = Double.MAX_VALUE),
 
     /**
-     * Two lags in a row; second parameter: p, the product of their time constants over the square of their sum T. First:
-     * ln T + [SHEAR] (p − 1/4), because readings tell that better than ln T.
+     * Two lags in a row; second parameter: p, the product of their time constants over the square of their sum T.
+     * First: ln T + [SHEAR] (p − 1/4), because readings tell that better than ln T.
      */
     SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25),
     ;

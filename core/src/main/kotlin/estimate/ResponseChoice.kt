@@ -31,8 +31,8 @@ public class CandidateStanding internal constructor(
  * errors and the log says more of the slow path than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
- * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is not ruled out, and
- *   its share is known better than it was believed beforehand. Null without one, or where two paths are open.
+ * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is not ruled out,
+ *   and its share is known better than it was believed beforehand. Null without one, or where two paths are open.
  */
 public class ResponseChoice private constructor(
     public val standings: List<CandidateStanding>,

@@ -25,8 +25,9 @@ import stillwater.wire.PlatypusEncoder
  *
  * What it believes of boards was read in the Platypus firmware's source. Both generations, v4.2.0 and the master branch
  * before it, speak of motors ten times a second exactly while motors have power and obey, so that a motor line is the
- * one sure sign of a board that runs. Else they speak of their battery every 1 to 5 s, of their probes, and v4.2.0 of its
- * state when asked and when it changes. v4.2.0 says active from the moment it is told to arm, seconds before it has.
+ * one sure sign of a board that runs. Else they speak of their battery every 1 to 5 s, of their probes, and v4.2.0 of
+ * its state when asked and when it changes. v4.2.0 says active from the moment it is told to arm, seconds before it
+ * has.
  *
  * @param link to the board. Retained.
  * @param mixing how a drive becomes thrust.
@@ -70,8 +71,8 @@ public class BoardPort(
     public val isRunning: Boolean get() = echoedAt > Double.NEGATIVE_INFINITY
 
     /**
-     * Whether the board has said that it has to be armed before it drives. v4.2.0 is connected after it was told to disarm,
-     * after its watchdog and after a reset; in none of these a drive makes it go on.
+     * Whether the board has said that it has to be armed before it drives. v4.2.0 is connected after it was told to
+     * disarm, after its watchdog and after a reset; in none of these a drive makes it go on.
      */
     public val isDisarmed: Boolean get() = state != null && state != BoardState.ACTIVE
 
@@ -119,10 +120,10 @@ public class BoardPort(
     }
 
     /**
-     * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate. Where
-     * [isCalm] a rest is not repeated for as long as the board says that its motors rest: each line may be spoilt on the
-     * way and become a drive. Questions keep the board awake meanwhile; where one is not answered at once and the board is
-     * to stay armed, [staysArmed], rests do.
+     * Drives; [drive] has passed the safety gate. Rest is sent at once, the rest of drives at the heartbeat's rate.
+     * Where [isCalm] a rest is not repeated for as long as the board says that its motors rest: each line may be spoilt
+     * on the way and become a drive. Questions keep the board awake meanwhile; where one is not answered at once and
+     * the board is to stay armed, [staysArmed], rests do.
      */
     public fun tell(now: BoatTime, drive: Drive, isCalm: Boolean = false, staysArmed: Boolean = false) {
         val actuation = mixing.mix(drive)
@@ -154,8 +155,8 @@ public class BoardPort(
     internal fun saysItRuns(now: BoatTime): Boolean = now.seconds - ranAt <= ECHO
 
     /**
-     * Sends [command] at once. One to arm or to disarm makes what the board said before worthless, and so the answer to a
-     * question that it was asked before; one that only repeats the last does not.
+     * Sends [command] at once. One to arm or to disarm makes what the board said before worthless, and so the answer to
+     * a question that it was asked before; one that only repeats the last does not.
      */
     public fun order(command: Command) {
         if (command == Command.Arm || (command == Command.Disarm && ordered != Command.Disarm)) {
@@ -168,8 +169,8 @@ public class BoardPort(
     }
 
     /**
-     * Asks the board for its state, unless that was done less than [pause] s ago, or less than [PATIENCE] s and it has not
-     * answered yet: which question an answer is to must not be in doubt.
+     * Asks the board for its state, unless that was done less than [pause] s ago, or less than [PATIENCE] s and it has
+     * not answered yet: which question an answer is to must not be in doubt.
      */
     public fun askState(now: BoatTime, pause: Double = PATIENCE) {
         if (now.seconds - askedAt < if (isAsked) PATIENCE else pause) return
@@ -211,8 +212,9 @@ public class BoardPort(
     }
 
     /**
-     * The master branch has no target "e" at all: it says "Unknown command target.", its older versions "Unknown command
-     * entry.". Its reader of JSON cuts up what it reads, so that of the line it got it may echo no more than the target.
+     * The master branch has no target "e" at all: it says "Unknown command target.", its older versions "Unknown
+     * command entry.". Its reader of JSON cuts up what it reads, so that of the line it got it may echo no more than
+     * the target.
      */
     private fun takeRefusal(refused: Message.Refused) {
         refusals++
@@ -233,8 +235,8 @@ public class BoardPort(
         internal const val RESTING: Double = 0.5
 
         /**
-         * Time between questions that keep a board awake to which no drives are said, s: twice that is within the watchdog
-         * of 0.5 s.
+         * Time between questions that keep a board awake to which no drives are said, s: twice that is within the
+         * watchdog of 0.5 s.
          */
         public const val KEEPING: Double = 0.2 - 1e-6
 

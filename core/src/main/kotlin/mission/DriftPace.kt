@@ -6,8 +6,8 @@ import kotlin.math.hypot
 import kotlin.math.sqrt
 
 /**
- * How much longer a leg takes in the drift that [track] believed in at the last [look], for a boat of [cruise] m/s through
- * the water.
+ * How much longer a leg takes in the drift that [track] believed in at the last [look], for a boat of [cruise] m/s
+ * through the water.
  *
  * Over ground v = c∥ + √(u² − c⊥²), c the drift and u the cruise speed. A drift in the boat's favour may have turned by
  * then and is not reckoned with, nor is one below [LEAST]. A boat that is held up seems to drift as fast as it drives:

@@ -4,10 +4,10 @@ package stillwater.mission
  * How often a boat that is held up on its way home tries another way, and for how long it rests when it has tried
  * enough: what holds it, as a current does, may turn.
  *
- * [MOST_WAYS] ways on end on which it came no nearer to home are enough, or [MOST_WAYS_AGAIN] after a rest. One on which
- * it got on before it was held up, and learned of something new that is in the way, led along it, as along a wall: with
- * it the count begins anew, up to [MOST_IN_ALL]. Each rest takes twice as long as the one before; after [MOST_RESTS] it
- * [isStranded]. Confined to one thread.
+ * [MOST_WAYS] ways on end on which it came no nearer to home are enough, or [MOST_WAYS_AGAIN] after a rest. One on
+ * which it got on before it was held up, and learned of something new that is in the way, led along it, as along a
+ * wall: with it the count begins anew, up to [MOST_IN_ALL]. Each rest takes twice as long as the one before; after
+ * [MOST_RESTS] it [isStranded]. Confined to one thread.
  *
  * @param nearer is as much nearer to home as counts, m.
  */

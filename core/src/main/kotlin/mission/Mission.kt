@@ -32,8 +32,8 @@ import stillwater.wire.Message
  * @property spec the mission.
  * @param link to the board. Retained.
  * @param log where it is written down. Retained.
- * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null to
- *   begin anew.
+ * @param recovered what a log tells of this mission, to go on with: idle and disarmed. Its estimator is retained. Null
+ *   to begin anew.
  * @param taken takes the readings that go into the map, after they did. Retained.
  * @throws IllegalArgumentException if [recovered] is of another mission.
  */
@@ -334,10 +334,10 @@ public class Mission(
     }
 
     /**
-     * Rest is said before the board is told to arm, for what it was told before it goes on: v4.2.0 does not forget a drive
-     * when it arms. Then questions keep its watchdog quiet, which cannot be spoilt on the way and become a drive as rests
-     * can. The slowest pair of motor controllers takes 36 s; a board that is armed already does not begin anew (v4.2.0),
-     * but one that says that it is not was not reached.
+     * Rest is said before the board is told to arm, for what it was told before it goes on: v4.2.0 does not forget a
+     * drive when it arms. Then questions keep its watchdog quiet, which cannot be spoilt on the way and become a drive
+     * as rests can. The slowest pair of motor controllers takes 36 s; a board that is armed already does not begin anew
+     * (v4.2.0), but one that says that it is not was not reached.
      */
     private fun arm(before: MissionState) {
         val since = now.seconds - armedAt

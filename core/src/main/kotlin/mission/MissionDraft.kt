@@ -49,7 +49,7 @@ public data class MissionDraft(
     val rearms: Boolean = true,
     val loaded: MissionSpec? = null,
 ) {
-    /** The text of [field], as typed or as it starts; drafts of versions that had no phone's limit keep their mission's. */
+    /** The text of [field], as typed or as it starts; drafts of before the phone's limit keep their mission's. */
     public fun text(field: DraftField): String = when (field) {
         DraftField.NAME -> name
         DraftField.LOWEST_PHONE -> texts[field] ?: loaded?.failsafe?.lowestPhonePercent?.let(::written)

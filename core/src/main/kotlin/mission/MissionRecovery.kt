@@ -66,9 +66,9 @@ public interface RecoveryListener {
 /**
  * Reads a [MissionLog] back: the same readings in the same order into a fresh estimator give the same map, bit for bit.
  *
- * A line that was cut, or is not of the log's form, is counted and passed over. What is not in the log is forgotten: the
- * plan, and whether the board was armed. Track and trace grow with the log, so they go to [listener] and are not kept
- * here. Confined to one thread.
+ * A line that was cut, or is not of the log's form, is counted and passed over. What is not in the log is forgotten:
+ * the plan, and whether the board was armed. Track and trace grow with the log, so they go to [listener] and are not
+ * kept here. Confined to one thread.
  *
  * @param listener hears of readings and places; null where nobody asks. Retained.
  */

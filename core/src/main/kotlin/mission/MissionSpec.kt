@@ -144,16 +144,18 @@ public enum class Quantity(public val unit: String) {
  * @property port of the board; null where only one probe measures it.
  * @property lowest least value the water can have, sensor units; the map's prior and the range of what is taken.
  * @property highest greatest value.
- * @property largestJump from one reading to the next that needs no confirmation, sensor units; null for a fifth of the range.
- * @property stuckAfter equal readings in a row that a sound probe does not give, at least 2: where it is noisy beside its
- *   resolution, so that one that says the same again and again is stuck; null where equal readings are nothing special.
+ * @property largestJump from one reading to the next that needs no confirmation, sensor units; null for a fifth of the
+ *   range.
+ * @property stuckAfter equal readings in a row that a sound probe does not give, at least 2: where it is noisy beside
+ *   its resolution, so that one that says the same again and again is stuck; null where equal readings are nothing
+ *   special.
  * @property latency from sample to arrival of its line, s, at least 0.
  * @property longestTimeConstant slowest response that is possible, s, for the interval filter; median of what the
  *   self-calibrating and the Bayesian estimator believe beforehand.
- * @property smallestSlope that counts as one for the bounded filter, sensor units/s, at least 0; null for [DEFAULT_SLOPE] of
- *   the range.
- * @property readingError most that a reading may be off for noise and resolution, for the interval filter, sensor units, at
- *   least 0; null for [DEFAULT_ERROR] of the range.
+ * @property smallestSlope that counts as one for the bounded filter, sensor units/s, at least 0; null for
+ *   [DEFAULT_SLOPE] of the range.
+ * @property readingError most that a reading may be off for noise and resolution, for the interval filter, sensor
+ *   units, at least 0; null for [DEFAULT_ERROR] of the range.
  */
 @Serializable
 public data class ProbeSpec(
@@ -322,8 +324,8 @@ public data class FailsafePolicy(
  * @property boat its speeds and thrusters.
  * @property failsafe policy.
  * @property seed of planners that draw.
- * @throws IllegalArgumentException if the parts do not fit together: home off the water, a grid off the water, or a planner
- *   that goes from cell to cell where land lies between two cells, or home where no way leads away from it.
+ * @throws IllegalArgumentException if the parts do not fit together: home off the water, a grid off the water, or a
+ *   planner that goes from cell to cell where land lies between two cells, or home where no way leads away from it.
  */
 @Serializable
 public data class MissionSpec(
@@ -381,8 +383,8 @@ public data class MissionSpec(
         /**
          * Reads the JSON form.
          *
-         * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the message
-         *   is one line that says where and what was expected.
+         * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the
+         *   message is one line that says where and what was expected.
          */
         public fun fromJson(json: String): MissionSpec = FORM.read(json)
 

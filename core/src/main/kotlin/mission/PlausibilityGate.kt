@@ -47,7 +47,8 @@ public fun interface ReadingSink {
  * counted under what became of it. Never throws on data. Confined to one thread.
  *
  * @property range what the water can have, sensor units.
- * @property largestJump from one reading to the next that needs no confirmation, sensor units, above 0; may be infinite.
+ * @property largestJump from one reading to the next that needs no confirmation, sensor units, above 0; may be
+ *   infinite.
  * @property stuckAfter equal readings in a row that a sound probe does not give, at least 2; null where it may.
  * @param sink where readings go that pass, in order. Retained.
  * @throws IllegalArgumentException if [largestJump] is not above 0 or [stuckAfter] below 2.

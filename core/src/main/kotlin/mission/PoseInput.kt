@@ -71,8 +71,8 @@ internal class PoseInput(
     }
 
     /**
-     * Lets [dt] s pass until [now] under [drive], and takes the fix that came meanwhile. A phone that slept told the board
-     * nothing: its watchdog has put the motors to rest, and the boat came to rest in the water.
+     * Lets [dt] s pass until [now] under [drive], and takes the fix that came meanwhile. A phone that slept told the
+     * board nothing: its watchdog has put the motors to rest, and the boat came to rest in the water.
      */
     fun advance(now: BoatTime, dt: Double, drive: Drive) {
         this.now = now.seconds

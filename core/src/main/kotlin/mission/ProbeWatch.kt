@@ -8,8 +8,8 @@ import stillwater.wire.PortSensor
 private val SERIAL_PORTS = 1..3
 
 /**
- * What a board is to be told of the probe's port before it reads it; null where the mission names no port, or one that has
- * no choice.
+ * What a board is to be told of the probe's port before it reads it; null where the mission names no port, or one that
+ * has no choice.
  */
 public val ProbeSpec.setUp: Command?
     get() = if (port !in SERIAL_PORTS) {
@@ -28,10 +28,10 @@ public val ProbeSpec.setUp: Command?
 /**
  * Knows what the board is to be told of the probe's port, and keeps watch whether the probe speaks.
  *
- * Firmware v4.2.0 reads a port only once it was told what is there, and forgets it at each reset; a probe whose answer it
- * missed it waits for for ever, until it is told anew. Older firmware has its probes built in and refuses the words, which
- * does no harm. To be told anew starts a probe over and costs readings: so the board is told only of a probe that is
- * silent, [MOST] times until it speaks, and when the boat rests. Confined to one thread.
+ * Firmware v4.2.0 reads a port only once it was told what is there, and forgets it at each reset; a probe whose answer
+ * it missed it waits for for ever, until it is told anew. Older firmware has its probes built in and refuses the words,
+ * which does no harm. To be told anew starts a probe over and costs readings: so the board is told only of a probe that
+ * is silent, [MOST] times until it speaks, and when the boat rests. Confined to one thread.
  */
 internal class ProbeWatch(probe: ProbeSpec) {
     private var begunAt = Double.NaN

@@ -9,7 +9,8 @@ import kotlin.math.hypot
  * What travel costs, in the budget's unit: metres, seconds or moves.
  *
  * @property perMetre cost of a metre, at least 0.
- * @property perWaypoint cost of going to a waypoint, however far, and of staying where the boat is for a turn; at least 0.
+ * @property perWaypoint cost of going to a waypoint, however far, and of staying where the boat is for a turn; at least
+ *   0.
  * @throws IllegalArgumentException if a number is negative or not finite, or both are 0.
  */
 public data class TravelCost(val perMetre: Double, val perWaypoint: Double) {

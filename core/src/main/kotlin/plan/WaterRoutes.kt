@@ -207,8 +207,8 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
         public const val MAX_POINTS: Int = 250_000
 
         /**
-         * The least distance of a lattice's points over [area], m, that is at least [wanted] m and needs no more points than
-         * [most]. Passages narrower than some two of it may not be found.
+         * The least distance of a lattice's points over [area], m, that is at least [wanted] m and needs no more points
+         * than [most]. Passages narrower than some two of it may not be found.
          */
         public fun resolution(area: WaterArea, wanted: Double, most: Int = MAX_POINTS): Double {
             var resolution = wanted

@@ -94,9 +94,10 @@ public fun interface CommandEncoder {
 /**
  * Commands as a Platypus board reads them: one JSON object and LF each, two targets at most.
  *
- * Source: Platypus firmware v4.2.0, whose input buffer has 512 bytes and whose JSON tree 200. Shares are sent with three
- * decimals, but a rest as `0`, the shortest that means it: each digit is one that a spoilt byte can make a drive of, and
- * the lines have no checksum. The boats' own server, whose numbers Android's JSONObject writes, says rest so, too. Stateless.
+ * Source: Platypus firmware v4.2.0, whose input buffer has 512 bytes and whose JSON tree 200. Shares are sent with
+ * three decimals, but a rest as `0`, the shortest that means it: each digit is one that a spoilt byte can make a drive
+ * of, and the lines have no checksum. The boats' own server, whose numbers Android's JSONObject writes, says rest so,
+ * too. Stateless.
  */
 public object PlatypusEncoder : CommandEncoder {
     override fun encode(command: Command): ByteArray = (json(command) + "\n").encodeToByteArray()
@@ -127,8 +128,8 @@ public object PlatypusEncoder : CommandEncoder {
 /**
  * Drive commands as a board of the original Amarino protocol reads them: flag `v`, six velocities parted by `;`, 0x13.
  *
- * The first velocity is forward and the last the turn, as in `v0.5;0.0;0.0;0.0;0.0;0.1`. Of the other commands the board
- * knows only the sampler's, `q`. Source: CRW Amarino firmware. Stateless.
+ * The first velocity is forward and the last the turn, as in `v0.5;0.0;0.0;0.0;0.0;0.1`. Of the other commands the
+ * board knows only the sampler's, `q`. Source: CRW Amarino firmware. Stateless.
  */
 public object AmarinoEncoder : CommandEncoder {
     override fun encode(command: Command): ByteArray = when (command) {

@@ -12,14 +12,15 @@ public interface LineCodec : LineSink {
  * An object is taken whole or not at all, so that a line that was cut says nothing. Where a line's beginning is broken,
  * reading starts again at its next brace: a line whose terminator was lost costs neither itself nor its neighbour. What
  * the board echoes inside an error is not read: it is this side's own words. Every line that holds something unreadable
- * is counted once, under the kind met first. A number is never guessed: what is not finite or not all digits is counted.
+ * is counted once, under the kind met first. A number is never guessed: what is not finite or not all digits is
+ * counted.
  *
  * The lines carry no checksum: a digit that was changed on the way reads as another number. The mission's plausibility
  * test is there for that.
  *
  * Source: Platypus firmware v4.2.0 (`{"m0":{"v":..,"c":..}}`, `{"s1":{"type":..,"data":".."}}`, `{"e":{..}}`,
- * `{"error":..,"args":..}` with args not escaped) and the master branch (no `c`). Confined to one thread. About the time
- * of one pass over the bytes; allocates only the messages.
+ * `{"error":..,"args":..}` with args not escaped) and the master branch (no `c`). Confined to one thread. About the
+ * time of one pass over the bytes; allocates only the messages.
  *
  * @param sink where messages go. Retained.
  */

@@ -68,8 +68,7 @@ class TrackEstimatorTest {
                 if (off > 3 * track.deviation + track.doubt + SLACK) missed++
             }
         }
-        // What the filter's own three deviations do not cover most of the time they do with the doubt, within a metre, in
-        // nineteen seconds of twenty.
+        // What the filter's own three deviations do not cover most of the time they do with the doubt, within a metre.
         assertTrue(missedWithoutDoubt > looks / 2, "$missedWithoutDoubt of $looks without it")
         assertTrue(missed < looks / 10, "$missed of $looks")
     }

@@ -59,7 +59,8 @@ fun <T> RawOption.someOf(choices: Map<String, T>): NullableOption<List<T>, List<
     chosen
 }
 
-/** One of [choices]. */
-fun <T : Any> RawOption.oneOf(choices: Map<String, T>): NullableOption<T, T> = convert { text ->
-    choices[text] ?: throw BadFlag(name, "one of ${choices.keys.joinToString(", ")}", "'$text'")
-}
+/** One of [choices], which [expected] names in an error. */
+fun <T : Any> RawOption.oneOf(
+    choices: Map<String, T>,
+    expected: String = "one of ${choices.keys.joinToString(", ")}",
+): NullableOption<T, T> = convert { text -> choices[text] ?: throw BadFlag(name, expected, "'$text'") }

@@ -1,7 +1,6 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
-import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.multiple
@@ -32,16 +31,12 @@ class LogOptions : OptionGroup(
         "--date-order",
         metavar = DateOrder.entries.joinToString("|") { it.flag },
         help = "order of day, month and year in dates such as 05/06/2025; needed where no date in the log shows it",
-    ).convert { text ->
-        DateOrder.entries.firstOrNull { it.flag == text } ?: throw BadFlag(name, "dmy, mdy or ymd", "'$text'")
-    }
+    ).oneOf(DateOrder.entries.associateBy { it.flag }, "dmy, mdy or ymd")
     private val timeUnit by option(
         "--time-unit",
         metavar = TimeUnit.entries.joinToString("|") { it.flag },
         help = "unit of times that are numbers; without it the name or the line of units says it, or they are seconds",
-    ).convert { text ->
-        TimeUnit.entries.firstOrNull { it.flag == text } ?: throw BadFlag(name, "ms, s, min, h or d", "'$text'")
-    }
+    ).oneOf(TimeUnit.entries.associateBy { it.flag }, "ms, s, min, h or d")
     private val overnight by option(
         "--overnight",
         metavar = "HOURS",

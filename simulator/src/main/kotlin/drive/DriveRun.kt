@@ -68,7 +68,8 @@ internal class DriveRun(
 
     /**
      * Steps until the mission is over and the board has said that it is disarmed, or has not said so for [PARTING] s: a
-     * wire that is lost just then is soon open again. Whatever is thrown, the board is told to rest and to disarm first.
+     * wire that is lost just then is soon open again. Whatever is thrown, the board is told to rest and to disarm
+     * first.
      *
      * @return why it was over; null where it was stopped before it began.
      * @throws OutputException if the log cannot be written for hours; the motors then rest.
@@ -138,8 +139,8 @@ internal class DriveRun(
 
     companion object {
         /**
-         * How long the board is waited for to say that it is disarmed, s on the boat's clock: one that is not heard is told
-         * every 5 s.
+         * How long the board is waited for to say that it is disarmed, s on the boat's clock: one that is not heard is
+         * told every 5 s.
          */
         const val PARTING = 6.0
 

@@ -11,8 +11,8 @@ import stillwater.report.SignificantDigits
 import stillwater.report.counted
 
 /**
- * What to beware of in a mission's map, as far as the mission itself can tell: the same words for a simulated, a real and
- * a replayed one.
+ * What to beware of in a mission's map, as far as the mission itself can tell: the same words for a simulated, a real
+ * and a replayed one.
  */
 internal object MapCautions {
     /** Estimators whose cells all get bounds once there are readings enough in them. */

@@ -9,7 +9,8 @@ internal object NearName {
         names.firstOrNull { bare(it) == bare }?.let { return it }
         // Of a name that is wrong in every letter nothing is near.
         val near = minOf(maxOf(1, bare.length / LETTERS_A_MISTAKE), bare.length - 1)
-        names.minByOrNull { distance(bare, bare(it)) }?.takeIf { distance(bare, bare(it)) <= near }?.let { return it }
+        names.map { it to distance(bare, bare(it)) }.minByOrNull { it.second }
+            ?.let { (name, distance) -> if (distance <= near) return name }
         return names.filter { bare.length >= LETTERS_A_MISTAKE && bare in bare(it) }.singleOrNull()
     }
 

@@ -18,9 +18,9 @@ import kotlin.math.abs
  * Writes what a [SurveyMap] gives: cells.csv, cells.geojson, the figures and report.html.
  *
  * cells.csv has every cell of every filter, visited or not, with its status; where nothing was measured the value is
- * empty, and so are the bounds, as they are for filters without bounds. The end of a one-sided cell that no evidence set is
- * that of the range taken for the water. cells.geojson has the visited cells only, and is left out for logs without
- * latitudes, because RFC 7946 knows no other coordinates.
+ * empty, and so are the bounds, as they are for filters without bounds. The end of a one-sided cell that no evidence
+ * set is that of the range taken for the water. cells.geojson has the visited cells only, and is left out for logs
+ * without latitudes, because RFC 7946 knows no other coordinates.
  *
  * @param map what to write. @param summary the same in words. @param command the command as typed, for the report.
  */

@@ -65,15 +65,7 @@ class LoggerExportTest {
     fun everyRowIsFoundAgainWhenItIsWrittenWithMore(case: Case) {
         val log = SurveyLog.open(file(case), case.choice)
         val readings = log.readings()
-        fun of(number: (Int) -> Double) = DoubleArray(readings.size, number)
-        val added = AddedColumns(
-            log,
-            listOf("twice"),
-            of { readings[it].time.seconds },
-            of { readings[it].position.x },
-            of { readings[it].position.y },
-            of { readings[it].value },
-        ) { k -> listOf((2 * readings[k].value).toString()) }
+        val added = twice(log)
         val again = directory.resolve("again.csv")
         AnnotatedLog(listOf(added)).write(again.toFile().outputStream())
         val twice = SurveyLog.open(again, case.choice.copy(value = "twice")).readings()

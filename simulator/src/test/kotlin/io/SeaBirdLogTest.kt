@@ -82,15 +82,7 @@ class SeaBirdLogTest {
         val choice = LogChoice(value = "sbeox0Mg/L")
         val log = SurveyLog.open(file(track, scans), choice)
         val readings = log.readings()
-        fun of(number: (Int) -> Double) = DoubleArray(readings.size, number)
-        val added = AddedColumns(
-            log,
-            listOf("twice"),
-            of { readings[it].time.seconds },
-            of { readings[it].position.x },
-            of { readings[it].position.y },
-            of { readings[it].value },
-        ) { k -> listOf((2 * readings[k].value).toString()) }
+        val added = twice(log)
         val again = directory.resolve("again.csv")
         assertEquals(listOf(2L), AnnotatedLog(listOf(added)).write(again.toFile().outputStream()))
         val text = again.readText(Charsets.ISO_8859_1)

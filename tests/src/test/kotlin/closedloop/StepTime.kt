@@ -107,9 +107,10 @@ private const val LAG = """{"type":"first-order-lag","time_constant_s":6.0}"""
 
 /**
  * `STEPS [PLANNER ESTIMATOR [PERIOD [STAGES [reef]]]]`: prints a table of the times of a mission's first so many steps,
- * ms of processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named (`all` for
- * each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6 s, as with
- * `-`); with `reef` on water part of which the boat does not get into, and behind the times how many cells it gave up.
+ * ms of processor time: median, 99th percentile, longest; of all planners and estimators, or of the two that are named
+ * (`all` for each), with a probe that reads each PERIOD seconds (1) and has the STAGES of a sensor's file (a lag of 6
+ * s, as with `-`); with `reef` on water part of which the boat does not get into, and behind the times how many cells
+ * it gave up.
  */
 fun main(arguments: Array<String>) {
     val steps = arguments[0].toInt()

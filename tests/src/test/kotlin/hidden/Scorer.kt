@@ -108,7 +108,7 @@ internal class ScoredCase(
     }
 }
 
-/** Gain in held-out mean square over the noise's variance that is worth asking for: a fifth of what 1x is in a long log. */
+/** Least gain in held-out mean square, over the noise's variance, that is asked for: a fifth of 1x in a long log. */
 private const val LEAST_POSSIBLE = 0.01
 
 /** Counts over many cases, as text for docs/diagnosis.md. */

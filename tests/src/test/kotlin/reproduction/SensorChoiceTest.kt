@@ -29,8 +29,8 @@ class SensorChoiceTest {
     private fun timeConstant(alpha: Double) = FirstOrderLag.timeConstant(alpha, period = 1.0)
 
     /**
-     * Means over environments: the [error]; [errors] of a right prior and of priors 3 times too long and too short, over
-     * the same third of the environments.
+     * Means over environments: the [error]; [errors] of a right prior and of priors 3 times too long and too short,
+     * over the same third of the environments.
      */
     private class Outcome(
         val error: Double,

@@ -37,8 +37,8 @@ import kotlin.math.cos
 import kotlin.math.sin
 
 /**
- * The service on a desk, in virtual time: a virtual boat at the other end of [wire], its fixes and compass as the phone's
- * receiver and sensors, and a phone on which everything is in order.
+ * The service on a desk, in virtual time: a virtual boat at the other end of [wire], its fixes and compass as the
+ * phone's receiver and sensors, and a phone on which everything is in order.
  */
 internal class ServiceDesk(val wire: DeskWire, spec: String = POND, seed: Long = 1) {
     private val context: Application = RuntimeEnvironment.getApplication()
