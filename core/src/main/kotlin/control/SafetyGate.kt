@@ -288,10 +288,12 @@ public class SafetyGate(public val settings: SafetySettings, public val fence: F
 
     /**
      * Whether a boat that is held up on every way home may rest while [danger] waits: not where it is to stop for good,
-     * and not beyond the fence, where it would drift on.
+     * not beyond the fence, where it would drift on, and not where nothing calls it home any more, as one that the
+     * water has carried back within the fence: it has a survey to go on with.
      */
-    private fun mayWait(danger: Danger?) =
-        danger == null || (danger != Danger.FENCE && (settings.answers[danger] ?: Failsafe.STOP) != Failsafe.STOP)
+    private fun mayWait(danger: Danger?) = danger != null &&
+        danger != Danger.FENCE &&
+        (settings.answers[danger] ?: Failsafe.STOP) != Failsafe.STOP
 
     /** What calls a boat that knows where it is and is heard. */
     private fun call(situation: Situation): Danger? = when {

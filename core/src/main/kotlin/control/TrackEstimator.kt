@@ -90,8 +90,8 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
 
     /**
      * How far the boat may be from where it is believed to be, besides its deviation, m: as far as fixes have lately
-     * moved that place, where it is more than their noise explains; 0 where it is not. Then they were wrong before or
-     * are wrong now, which nothing but later ones tell. Fades with time.
+     * moved that place, where they were off to one side for longer than chance explains; 0 where they were not. Then
+     * they were wrong before or are wrong now, which nothing but later ones tell. Fades with time.
      */
     public var doubt: Double = 0.0
         private set
@@ -104,9 +104,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     private var movedY = 0.0
     private var turnedX = 0.0
     private var turnedY = 0.0
-    private var movedVariance = 0.0
-    private var turnedVariance = 0.0
-    private var movedWithTurned = 0.0
+    private var offX = 0.0
+    private var offY = 0.0
+    private var offVariance = 0.0
 
     /** Whether a fix was taken since the start or the last [reset]. */
     public val isKnown: Boolean get() = !x.isNaN()
@@ -159,7 +159,7 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         val gainC = pc / s
         x += gainP * errorX
         y += gainP * errorY
-        watchMoves(errorX, errorY, gainP, gainC)
+        watchMoves(errorX, errorY, s, gainP, gainC)
         driftX += gainC * errorX
         driftY += gainC * errorY
         cc -= gainC * pc
@@ -169,24 +169,23 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
     }
 
     /**
-     * Corrections of a filter that is right are white, of variance s. C is what they have moved the place by, with D,
-     * what they have changed the drift by: C ← κ (C + D Δ) + K e, D ← κ D + K_c e; V, W and U, the variances of C and D
-     * and their covariance, follow. |C| above k √V is no chance.
+     * Errors e of fixes are white where the filter is right, of variance s. Their sum A ← κ A + e / √s, κ = exp(−Δ / 8 s),
+     * has the variance N ← κ² N + 1; |A| above 3 √N is no chance, and the place is doubted by |C|, what fixes have moved
+     * it by: C ← λ (C + D Δ) + K e with D ← λ D + K_c e, what they have changed the drift by, and λ = exp(−Δ / 15 s).
      */
-    private fun watchMoves(errorX: Double, errorY: Double, gainP: Double, gainC: Double) {
+    private fun watchMoves(errorX: Double, errorY: Double, s: Double, gainP: Double, gainC: Double) {
         val kept = exp(-sinceFix / REMEMBERED)
         movedX = kept * (movedX + turnedX * sinceFix) + gainP * errorX
         movedY = kept * (movedY + turnedY * sinceFix) + gainP * errorY
         turnedX = kept * turnedX + gainC * errorX
         turnedY = kept * turnedY + gainC * errorY
-        val carried = movedVariance + sinceFix * (2 * movedWithTurned + sinceFix * turnedVariance)
-        movedVariance = kept * kept * carried + gainP * pp
-        movedWithTurned = kept * kept * (movedWithTurned + sinceFix * turnedVariance) + gainP * pc
-        turnedVariance = kept * kept * turnedVariance + gainC * pc
+        val summed = exp(-sinceFix / SUMMED)
+        offX = summed * offX + errorX / sqrt(s)
+        offY = summed * offY + errorY / sqrt(s)
+        offVariance = summed * summed * offVariance + 1
         doubt *= exp(-sinceFix / FADING)
         if (doubt < LEAST_DOUBT) doubt = 0.0
-        val moved = hypot(movedX, movedY)
-        if (moved > UNLIKELY * sqrt(movedVariance)) doubt = maxOf(doubt, moved)
+        if (hypot(offX, offY) > UNLIKELY * sqrt(offVariance)) doubt = maxOf(doubt, hypot(movedX, movedY))
         sinceFix = 0.0
     }
 
@@ -205,9 +204,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         movedY = 0.0
         turnedX = 0.0
         turnedY = 0.0
-        movedVariance = 0.0
-        turnedVariance = 0.0
-        movedWithTurned = 0.0
+        offX = 0.0
+        offY = 0.0
+        offVariance = 0.0
     }
 
     /** Speed over ground, m/s. */
@@ -223,7 +222,10 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
         /** Less than this the deviation's multiples cover, m. */
         const val LEAST_DOUBT = 0.5
 
+        /** Seconds of fixes whose errors are summed: about as long as the filter takes to follow a jump, s. */
+        const val SUMMED = 8.0
+
         /** Standard deviations: more would miss jumps, fewer take water that changes for them (TrackEstimatorTest). */
-        const val UNLIKELY = 2.0
+        const val UNLIKELY = 3.0
     }
 }

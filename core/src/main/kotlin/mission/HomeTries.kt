@@ -25,6 +25,15 @@ internal class HomeTries(private val nearer: Double) {
     /** For how long the boat rests yet, [now] in s; 0 where it does not. */
     fun restsFor(now: Double): Double = if (now < restsUntil) restsUntil - now else 0.0
 
+    /** The rests so far, [now] in s, for who goes on after a restart; null where there was none, or there is no more. */
+    fun rest(now: Double): HomeRest? = if (rests == 0 || isStranded) null else HomeRest(rests, restsFor(now))
+
+    /** Goes on [now], s, after a restart before which it was as [before] says. */
+    fun resume(before: HomeRest, now: Double) {
+        rests = before.count.coerceIn(0, MOST_RESTS)
+        restsUntil = now + before.seconds
+    }
+
     /**
      * The boat, [left] m from home, is held up on a way home, [now] in s; [isAlong] tells whether it got on before and
      * learned what is in the way. Answers whether another way is to be tried now.

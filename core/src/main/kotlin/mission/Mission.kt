@@ -157,7 +157,8 @@ public class Mission(
     public val givenUpOffMap: List<Position> get() = navigator.givenUpCells.offMap
 
     /** For how long a boat that was held up on every way home rests before it tries again, s; 0 where it does not. */
-    public val restsFor: Double get() = navigator.restsFor(now.seconds)
+    public val restsFor: Double
+        get() = if (state == MissionState.Holding(Danger.HELD_UP)) navigator.restsFor(now.seconds) else 0.0
 
     /** Fixes refused. */
     public val refusedFixes: Long get() = pose.refused
@@ -238,7 +239,8 @@ public class Mission(
         val isNew = navigator.givenUpVersion != loggedVersion
         loggedVersion = navigator.givenUpVersion
         val cells = if (isNew) navigator.givenUpCells else null
-        return StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut, cells)
+        val rest = navigator.restAt(now.seconds)
+        return StepRecord(time, state, position, pose.heading, drive, use.used, survey.gate.leftOut, cells, rest)
     }
 
     private fun begin(time: BoatTime): Double {
@@ -248,7 +250,7 @@ public class Mission(
         recovered?.let {
             survey.resume(it, time)
             use.resume(it.used)
-            navigator.resume(it.givenUp, time.seconds)
+            navigator.resume(it.givenUp, it.rest, time.seconds)
         }
         return 0.0
     }

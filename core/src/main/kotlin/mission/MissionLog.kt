@@ -46,6 +46,7 @@ public data class LogStart(
  * @property used of the budget, in its unit.
  * @property leftOut readings that the map did without.
  * @property givenUp where the boat did not get in; null where that is as at the step before.
+ * @property rest of a boat that was held up on its ways home; null where it was not.
  */
 public data class StepRecord(
     val time: BoatTime,
@@ -56,14 +57,16 @@ public data class StepRecord(
     val used: Double,
     val leftOut: Long,
     val givenUp: GivenUp? = null,
+    val rest: HomeRest? = null,
 )
 
 /**
  * Writes a mission down, line by line: a superset of the Platypus 4.2 log, `<ms>` tab `I` tab `{json}`.
  *
  * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step, and in it the cells that
- * the boat did not get into, by number, and off the map by their middles in m, where they have changed), `in` (all that
- * came in since the step before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the
+ * the boat did not get into, by number, and off the map by their middles in m, where they have changed, and of one held
+ * up on its ways home how often it has rested and what is left of the rest, s), `in` (all that came in since the step
+ * before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the
  * place's standard deviation) or `pass` (a cell left without a reading); the first line has the whole mission, and,
  * where that is known, which `boat` it is of and whether that is a `virtual` one. Numbers are written so that they are
  * read back to the last bit; what is not finite is `null`. [MissionRecovery] reads it back.
@@ -109,11 +112,12 @@ public class MissionLog(private val sink: LogSink, start: LogStart, private val 
             else -> ""
         }
         val givenUp = record.givenUp?.let(::givenUp).orEmpty()
+        val rest = record.rest?.let { ""","rest":[${it.count},${number(it.seconds)}]""" }.orEmpty()
         write(
             record.time,
             """$pose"mission":{"t_s":${number(record.time.seconds)},"state":"${state.word}"$why,""" +
                 """"drive":[${number(record.drive.forward)},${number(record.drive.turn)}],""" +
-                """"used":${number(record.used)},"left_out":${record.leftOut}$givenUp}${inputs.take()}""",
+                """"used":${number(record.used)},"left_out":${record.leftOut}$givenUp$rest}${inputs.take()}""",
         )
     }
 

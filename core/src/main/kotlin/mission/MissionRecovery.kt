@@ -34,6 +34,7 @@ import stillwater.model.Utm
  * @property readings that the map took.
  * @property unreadable lines that could not be read; a log that was cut has one.
  * @property givenUp where the boat did not get in.
+ * @property rest of a boat that was held up on its ways home when the log ended; null where it was not.
  * @property boat what the boat was called when the log last began, or went on; null where the log does not say.
  * @property isVirtual whether the log is of a virtual boat; null where it does not say.
  */
@@ -50,6 +51,7 @@ public class RecoveredMission internal constructor(
     public val readings: Long,
     public val unreadable: Long,
     public val givenUp: GivenUp,
+    public val rest: HomeRest?,
     public val boat: String?,
     public val isVirtual: Boolean?,
 )
@@ -86,6 +88,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
     private var unreadable = 0L
     private var frame: LocalFrame? = null
     private var givenUp = GivenUp()
+    private var rest: HomeRest? = null
     private var boat: String? = null
     private var isVirtual: Boolean? = null
 
@@ -113,6 +116,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
             readings,
             unreadable,
             givenUp,
+            rest,
             boat,
             isVirtual,
         )
@@ -183,6 +187,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
                 off.map { Position(it[0], it[1]) },
             )
         }
+        rest = json["rest"]?.let { numbers(it, REST_SIZE) }?.let { HomeRest(it[0].toInt(), it[1]) }
         lastState = (json["state"] as? JsonPrimitive)?.contentOrNull ?: return false
         return pose == null || listener == null || at(pose, listener)
     }
@@ -218,6 +223,7 @@ public class MissionRecovery(private val listener: RecoveryListener? = null) {
         const val READING_SIZE = 4
         const val PLACE_SIZE = 3
         const val POINT_SIZE = 2
+        const val REST_SIZE = 2
         const val NORTH = "North"
     }
 }

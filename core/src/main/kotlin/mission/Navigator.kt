@@ -58,13 +58,9 @@ internal class Navigator(
     private val ways = ways(spec, water, closed)
     private val follower = WaypointFollower(spec.boat.follower().copy(turnThrust = mixing.turnThrust))
     private val drift = DriftPace(track, spec.boat.cruise)
+    private val detour = DetourPlanner(spec.planner.build(spec, water, Random(spec.seed)), closed, ways)
     private val planner = BudgetedPlanner(
-        EntryPlanner(
-            DetourPlanner(spec.planner.build(spec, water, Random(spec.seed)), closed, ways),
-            water,
-            ways,
-            closed,
-        ),
+        EntryPlanner(detour, water, ways, closed),
         limit = spec.budget.metres ?: spec.budget.seconds ?: 0.0,
         cost = if (spec.budget.metres != null) TravelCost(1.0, 0.0) else TravelCost(1 / spec.boat.cruise, TURN_TIME),
         meter = { use.used },
@@ -81,6 +77,15 @@ internal class Navigator(
     private val progress = ProgressWatch(spec.boat.arrival)
     private var goal: Position? = null
     private var nearGoal: Position? = null
+
+    /** From where the next plan is made, while the ways that it needs are worked on. */
+    private var planFrom: Position? = null
+
+    /** Where the boat was when it last began to survey. */
+    private var surveyFrom = home
+
+    /** Whether the way home is still to be found. */
+    private var seeksHome = false
     private var comebacks = 0
     private val homeward = ProgressWatch(spec.boat.arrival)
     private val tries = HomeTries(HOLDING * spec.boat.arrival)
@@ -113,6 +118,9 @@ internal class Navigator(
     /** Whether no way home is tried any more; stays so. */
     val isStranded: Boolean get() = tries.isStranded
 
+    /** Rests on the way home so far, [now] in s; null where there was none. */
+    fun restAt(now: Double): HomeRest? = tries.rest(now)
+
     /** For how long a boat that was held up on every way home rests before it tries again, s, [now] in s; else 0. */
     fun restsFor(now: Double): Double = tries.restsFor(now)
 
@@ -130,8 +138,12 @@ internal class Navigator(
     /** The waypoints ahead, the one steered for first. */
     fun ahead(): List<Position> = plan.waypoints().drop(maxOf(0, next - 1))
 
-    /** Goes on [now], s, after a restart before which the boat did not get in where [before] says. */
-    fun resume(before: GivenUp, now: Double) {
+    /**
+     * Goes on [now], s, after a restart before which the boat did not get in where [before] says, and had a [rest] on
+     * its way home.
+     */
+    fun resume(before: GivenUp, rest: HomeRest?, now: Double) {
+        rest?.let { tries.resume(it, now) }
         val map = closed.map
         val cells = before.cells.filter { it in 0 until map.size }.map { closed.at(map.centerX(it), map.centerY(it)) }
         for (cell in (cells + before.offMap.map { closed.at(it.x, it.y) }).distinct()) {
@@ -148,30 +160,33 @@ internal class Navigator(
     fun survey(now: Double, map: FieldMap, value: Double) {
         if (aim == Aim.HOME) comebacks++
         turnTo(Aim.SURVEY)
-        if (planner.mustTurnBack(track.x, track.y)) isHomeBound = true
+        if (planFrom == null && planner.mustTurnBack(track.x, track.y)) isHomeBound = true
+        val from = planFrom ?: turningPoint(now) ?: return
+        if (next >= plan.size && !isPlanned(now, map, value, from)) return
+        if (next < plan.size) nextLeg()
+    }
+
+    /** From where to go on to the next waypoint; null where the boat is on its way to one, or nowhere is left to go. */
+    private fun turningPoint(now: Double): Position? {
         val here = Position(track.x, track.y)
-        var from = here
         if (follower.arrived) {
             arrive(here)
-        } else {
-            val goal = waypoint(next - 1)
-            val isNear = isNear(goal)
-            if (progress.isGettingOn) drift.look()
-            if (!isHeldUp(now, here.distanceTo(goal), isNear && goal == nearGoal, isNear)) return
-            if (isNear) {
-                nearGoal = goal
-                // Asked from where the boat is, a planner that goes in order would say the same again.
-                if (!spec.planner.keepsToWater) from = goal
-            } else if (!giveUp(now, here, goal)) {
-                return
-            }
+            return here
         }
-        if (next >= plan.size) replan(now, map, value, from)
-        if (next < plan.size) nextLeg()
+        val goal = waypoint(next - 1)
+        val isNear = isNear(goal)
+        if (progress.isGettingOn) drift.look()
+        if (!isHeldUp(now, here.distanceTo(goal), isNear && goal == nearGoal, isNear)) return null
+        if (!isNear) return here.takeIf { giveUp(now, here, goal) }
+        nearGoal = goal
+        // Asked from where the boat is, a planner that goes in order would say the same again.
+        return if (spec.planner.keepsToWater) here else goal
     }
 
     private fun arrive(here: Position) {
         if (next == 0) return holdUps.setOut(here)
+        // What held it up on its ways home no longer does.
+        if (here.distanceTo(surveyFrom) > HOLDING * spec.boat.arrival) tries.beginAnew()
         holdUps.arrived(here, waypoint(next - 1))
         progress.begin()
         nearGoal = null
@@ -201,12 +216,16 @@ internal class Navigator(
     /** Goes home, [now], s; [isDriven] tells whether the motors may run. */
     fun goHome(now: Double, isDriven: Boolean) {
         val isAfloat = water.contains(track.x, track.y)
-        if (turnTo(Aim.HOME) || (isAfloat && !knowsWay)) fillWayHome(isAfloat)
+        if (turnTo(Aim.HOME) || (isAfloat && !knowsWay && !seeksHome)) seekHome()
+        if (seeksHome) {
+            if (!ways.prepareHome(track.x, track.y, POINTS_A_STEP)) return
+            fillWayHome(isAfloat)
+        }
         if (follower.arrived && next < plan.size) nextLeg()
         val off = hypot(track.x - home.x, track.y - home.y)
         isNearHome = progress.idle(now, off) >= slowness + PATIENCE_NEAR && isNear(home)
         val patience = if (isDriven) slowness + PATIENCE else PATIENCE_ADRIFT
-        if (!isHome && homeward.idle(now, leftToGo()) >= patience) findOtherWayHome(now, isAfloat)
+        if (!isHome && homeward.idle(now, leftToGo()) >= patience) findOtherWayHome(now)
         if (isHomeBound && isHome) isOver = true
     }
 
@@ -222,7 +241,7 @@ internal class Navigator(
         return sum
     }
 
-    private fun findOtherWayHome(now: Double, isAfloat: Boolean) {
+    private fun findOtherWayHome(now: Double) {
         val goal = waypoint(maxOf(0, next - 1))
         val cell = closed.ahead(track.x, track.y, goal.x, goal.y)
         val isNew = cell != Grid.OUTSIDE && !closed.isKnown(cell)
@@ -230,12 +249,18 @@ internal class Navigator(
         val left = hypot(track.x - home.x, track.y - home.y)
         if (cell != Grid.OUTSIDE && !closed.isClosed(cell)) closed.close(cell, now)
         homeward.begin()
-        if (tries.heldUp(now, left, isAlong)) fillWayHome(isAfloat)
+        if (tries.heldUp(now, left, isAlong)) seekHome()
+    }
+
+    private fun seekHome() {
+        startLegs()
+        knowsWay = false
+        seeksHome = true
     }
 
     /** From off the water, as believed, the nearest of it comes first, and the way is asked for again from there. */
     private fun fillWayHome(isAfloat: Boolean) {
-        startLegs()
+        seeksHome = false
         ways.fill(track.x, track.y, plan)
         knowsWay = isAfloat
         if (plan.size == 0 && isAfloat) {
@@ -270,7 +295,7 @@ internal class Navigator(
     private fun turnTo(wanted: Aim): Boolean {
         if (aim == wanted) return false
         aim = wanted
-        if (wanted == Aim.SURVEY) tries.beginAnew()
+        if (wanted == Aim.SURVEY) surveyFrom = Position(track.x, track.y)
         startLegs()
         return true
     }
@@ -279,20 +304,37 @@ internal class Navigator(
         plan.clear()
         next = 0
         isNearHome = false
+        planFrom = null
+        seeksHome = false
+        stay()
+    }
+
+    private fun stay() {
         // A leg of no length to where the boat is counts as reached at the next look.
         follower.leg(track.x, track.y, track.x, track.y)
         follower.steer(track, 0.0, 0.0)
     }
 
-    private fun replan(now: Double, map: FieldMap, value: Double, here: Position) {
-        plans++
-        next = 0
-        closed.expire(now)
+    /**
+     * Plans from [here], or works on the ways that a plan needs where cells are closed: a part in a step, in which the
+     * boat rests, because all of them would take longer than a step may. Answers whether that is done.
+     */
+    private fun isPlanned(now: Double, map: FieldMap, value: Double, here: Position): Boolean {
+        if (planFrom == null) closed.expire(now)
         // The budgeted planner asks whether the boat is home to the last digit.
         val from = if (here.distanceTo(home) <= HOLDING * spec.boat.arrival) home else here
+        if (!detour.prepare(map.grid, from, POINTS_A_STEP)) {
+            if (planFrom == null) stay()
+            planFrom = here
+            return false
+        }
+        planFrom = null
+        plans++
+        next = 0
         val outcome = planner.plan(map, from, value, StopCondition.NEVER, plan)
         isOver = outcome != PlanOutcome.Planned
         if (planner.isHomeBound) isHomeBound = true
+        return true
     }
 
     private fun waypoint(index: Int) = Position(plan.x(index), plan.y(index))
@@ -344,6 +386,9 @@ internal class Navigator(
 
         /** Of the cruise speed a boat that makes way keeps one in so many. */
         const val SLOWEST = 4.0
+
+        /** Points to which ways are found in a step: some 2 ms (docs/performance.md); a lattice has up to 250 000. */
+        const val POINTS_A_STEP = 10_000
 
         /** Times a boat may be turned back by the fence on its way to one waypoint. */
         const val MOST_COMEBACKS = 3

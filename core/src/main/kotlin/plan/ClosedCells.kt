@@ -10,6 +10,9 @@ import kotlin.math.hypot
 internal fun interface Obstacle {
     /** Whether it is in the way of the straight leg, m. */
     fun blocks(fromX: Double, fromY: Double, toX: Double, toY: Double): Boolean
+
+    /** Whether it may be in the way of a leg from ([x], [y]) that is no longer than [reach], m; true where unknown. */
+    fun isNear(x: Double, y: Double, reach: Double): Boolean = true
 }
 
 /**
@@ -32,8 +35,16 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
     private val step = minOf(map.cellWidth, map.cellHeight) / SAMPLES
     private val berth = minOf(berth, minOf(map.cellWidth, map.cellHeight) / MOST_BERTH)
 
+    /** How many of the [known] are among a cell and those up to [BESIDE] columns and rows off. */
+    private val beside = IntArray(cells.size)
+
     /** All cells that were closed and not [reached] since, be they open again or not. */
-    val known = Obstacle { fromX, fromY, toX, toY -> blocks(fromX, fromY, toX, toY, knowns) { times[it] > 0 } }
+    val known = object : Obstacle {
+        override fun blocks(fromX: Double, fromY: Double, toX: Double, toY: Double) =
+            blocks(fromX, fromY, toX, toY, knowns) { times[it] > 0 }
+
+        override fun isNear(x: Double, y: Double, reach: Double) = this@ClosedCells.isNear(x, y, reach)
+    }
 
     /** How many those are. */
     var knowns = 0
@@ -77,7 +88,7 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
     /** [cell] was not got into, [now] in s. */
     fun close(cell: Int, now: Double) {
         if (!isClosed(cell)) count++
-        if (times[cell] == 0) knowns++
+        if (times[cell] == 0) know(cell, 1)
         times[cell]++
         until[cell] = now + WAIT * (1L shl minOf(times[cell] - 1, MOST_DOUBLINGS))
         version++
@@ -97,7 +108,7 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
     fun reached(cell: Int) {
         if (cell == Grid.OUTSIDE || times[cell] == 0) return
         times[cell] = 0
-        knowns--
+        know(cell, -1)
         version++
         // What was in the way has gone, or others were taken for what was beside them.
         for (other in until.indices) open(other)
@@ -120,6 +131,26 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
         until[cell] = Double.NEGATIVE_INFINITY
         count--
         version++
+    }
+
+    private fun know(cell: Int, change: Int) {
+        knowns += change
+        val column = cell % cells.columns
+        val row = cell / cells.columns
+        for (r in maxOf(0, row - BESIDE)..minOf(cells.rows - 1, row + BESIDE)) {
+            for (c in maxOf(0, column - BESIDE)..minOf(cells.columns - 1, column + BESIDE)) {
+                beside[r * cells.columns + c] += change
+            }
+        }
+    }
+
+    /** Closed cells are among the [known]. */
+    override fun isNear(x: Double, y: Double, reach: Double): Boolean {
+        if (knowns == 0) return false
+        // The berth is taken to both axes.
+        if (reach + 2 * berth > BESIDE * minOf(cells.cellWidth, cells.cellHeight)) return true
+        val cell = at(x, y)
+        return cell == Grid.OUTSIDE || beside[cell] > 0
     }
 
     /** Whether the straight leg, m, comes too near to a closed cell; the one that it begins in does not count. */
@@ -180,6 +211,7 @@ internal class ClosedCells(val map: Grid, water: WaterArea? = null, berth: Doubl
         /** Of a leg, in a cell's side. */
         private const val SAMPLES = 4
         private const val CORNERS = 4
+        private const val BESIDE = 2
         private const val MOST_SAMPLES = 10_000.0
 
         /** The ways' points are half a cell apart: one at least passes between a closed cell and the next. */

@@ -50,6 +50,15 @@ internal class DetourPlanner(
         }
     }
 
+    /**
+     * Works on what a plan from [from] needs of the ways, on those to [most] points. Answers whether no such work is left
+     * for [plan] to do.
+     */
+    fun prepare(grid: Grid, from: Position, most: Int): Boolean =
+        closed.count == 0 || isAround(grid.cellAt(from)) || ways.prepare(from, most)
+
+    private fun isAround(cell: Int) = cell == reachedFrom && cell != Grid.OUTSIDE && closed.version == reachedVersion
+
     private fun round(map: FieldMap, from: Position, value: Double, stop: StopCondition, plan: Plan): PlanOutcome {
         plan.clear()
         lookAround(map.grid, from)
@@ -70,7 +79,7 @@ internal class DetourPlanner(
     /** Finds the cells that ways lead to from [from]. */
     private fun lookAround(grid: Grid, from: Position) {
         val cell = grid.cellAt(from)
-        if (cell == reachedFrom && closed.version == reachedVersion) return
+        if (isAround(cell)) return
         reachedFrom = cell
         reachedVersion = closed.version
         own = null

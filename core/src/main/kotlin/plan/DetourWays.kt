@@ -13,7 +13,7 @@ import stillwater.model.WaterArea
  * @param area the water.
  * @param margin smallest distance of a way from land, m, where there is any.
  * @param resolution of the lattice that finds ways, m; see [WaterRoutes].
- * @property isOpen whether no land lies between any two places, so that a lattice is laid only when a cell is closed.
+ * @property isOpen whether no land lies between any two places.
  * @param closed cells. Retained.
  * @throws IllegalArgumentException if no way leads away from [home] and the water is not open.
  */
@@ -26,51 +26,80 @@ internal class DetourWays(
     private val home: Position,
 ) : WayHome {
     private val straight = StraightHome(home)
-    private var laid: WaterRoutes? = null
-
-    /** Where the ways start, what they lead round, and whether any leads away from there. */
-    private var start: Position? = null
-    private var round: Obstacle? = null
-    private var version = NONE
-    private var leads = false
+    private val homeward = Tree(WaterRoutes(area, margin, resolution), closed.known)
+    private val around = Tree(homeward.routes.others(), closed)
+    private val regardless by lazy(LazyThreadSafetyMode.NONE) { Tree(homeward.routes.others(), NOTHING) }
 
     init {
         if (!isOpen) {
-            require(begin(home, closed.known)) {
+            require(homeward.complete(home)) {
                 "home (${home.x} m, ${home.y} m) must lie on the water, with some of it within reach"
             }
         }
     }
 
     override fun fill(x: Double, y: Double, plan: Plan) {
-        if (isOpen && !closed.known.blocks(x, y, home.x, home.y)) return straight.fill(x, y, plan)
-        begin(home, closed.known)
-        val routes = routes()
-        routes.wayBack(x, y, plan)
+        if (isStraight(x, y)) return straight.fill(x, y, plan)
+        homeward.complete(home)
+        homeward.routes.wayBack(x, y, plan)
         if (plan.size > 0 || closed.knowns == 0) return
         if (isOpen) return straight.fill(x, y, plan)
-        if (begin(home, NOTHING)) routes.wayBack(x, y, plan)
+        if (regardless.complete(home)) regardless.routes.wayBack(x, y, plan)
     }
 
     /** The ways from [place]; null where none leads away from it. */
-    fun from(place: Position): WaterRoutes? = routes().takeIf { begin(place, closed) }
+    fun from(place: Position): WaterRoutes? = around.routes.takeIf { around.complete(place) }
+
+    /**
+     * Works on the ways home and from [place], on those to [most] points: enough of it in a step, and [fill] and [from]
+     * find nothing left to do. Answers whether there is none.
+     */
+    fun prepare(place: Position, most: Int): Boolean {
+        val left = homeward.advance(home, most)
+        return left > 0 && around.advance(place, left) > 0
+    }
+
+    /** The same for the way home from ([x], [y]), m, alone. */
+    fun prepareHome(x: Double, y: Double, most: Int): Boolean = isStraight(x, y) || homeward.advance(home, most) > 0
 
     /** Whether no land is on the straight leg, m. */
     fun isFree(fromX: Double, fromY: Double, toX: Double, toY: Double): Boolean =
         area.isClear(fromX, fromY, toX, toY, 0.0)
 
-    private fun begin(place: Position, obstacle: Obstacle): Boolean {
-        if (place == start && obstacle === round && version == closed.version) return leads
-        val routes = routes()
-        routes.avoided = obstacle
-        start = place
-        round = obstacle
-        version = closed.version
-        leads = routes.start(place.x, place.y)
-        return leads
-    }
+    private fun isStraight(x: Double, y: Double) = isOpen && !closed.known.blocks(x, y, home.x, home.y)
 
-    private fun routes() = laid ?: WaterRoutes(area, margin, resolution).also { laid = it }
+    /** Ways from one place, led round [obstacle] as it was when they were begun. */
+    private inner class Tree(val routes: WaterRoutes, private val obstacle: Obstacle) {
+        private var start: Position? = null
+        private var version = NONE
+        private var leads = false
+        private var isFound = true
+
+        init {
+            routes.avoided = obstacle
+        }
+
+        /** Finds the ways from [place]. Answers whether any leads away from there. */
+        fun complete(place: Position): Boolean {
+            advance(place, Int.MAX_VALUE)
+            return leads
+        }
+
+        /** Finds the ways from [place] to [most] points more; answers how many of [most] are left when all are found. */
+        fun advance(place: Position, most: Int): Int {
+            val isCurrent = version == closed.version || (obstacle === NOTHING && version != NONE)
+            if (place != start || !isCurrent) {
+                start = place
+                version = closed.version
+                leads = routes.begin(place.x, place.y)
+                isFound = false
+            }
+            if (isFound) return most
+            val left = most - routes.find(most)
+            isFound = left > 0
+            return left
+        }
+    }
 
     private companion object {
         const val NONE = -1

@@ -2,9 +2,7 @@ package stillwater.plan
 
 import stillwater.model.Plan
 import stillwater.model.WaterArea
-import kotlin.math.ceil
 import kotlin.math.hypot
-import kotlin.math.sqrt
 
 /**
  * Ways through the water from one place to all others, none nearer to land than a margin.
@@ -14,42 +12,45 @@ import kotlin.math.sqrt
  * then straightened wherever a clear leg joins two of their points. So a way is found through every passage that holds
  * a clear stretch of lattice, which every straight one wider than 2 · [margin] + 2 · [resolution] does, and is longer
  * than the shortest by no more than what eight directions and the lattice cost: 8 % and a few [resolution]s. Confined
- * to one thread; nothing but the constructor allocates.
+ * to one thread; nothing but the constructors allocates.
  *
  * Source: Dijkstra 1959, doi:10.1007/BF01386390.
- *
- * @property area the water.
- * @property margin smallest distance of a way from land and keep-outs, m, at least 0.
- * @property resolution distance of the lattice's points, m, above 0.
- * @throws IllegalArgumentException if a number is out of its range, or the lattice would have more than [MAX_POINTS].
  */
-public class WaterRoutes(public val area: WaterArea, public val margin: Double, public val resolution: Double) {
-    private val lattice: RouteLattice
-
-    /** For each point and each of [STEPS] whether the leg there is clear, one bit each. */
-    private val ways: ByteArray
-    private val clear: BooleanArray
-    private val distances: DoubleArray
-    private val parents: IntArray
-    private val queue: PointQueue
+public class WaterRoutes private constructor(private val graph: RouteGraph) {
+    private val lattice = graph.lattice
+    private val clear = graph.clear
+    private val distances = DoubleArray(lattice.size)
+    private val parents = IntArray(lattice.size)
+    private val queue = PointQueue(distances)
     private var startX = Double.NaN
     private var startY = Double.NaN
     private val scratch = Plan()
 
+    /**
+     * Lays the lattice.
+     *
+     * @param area the water.
+     * @param margin smallest distance of a way from land and keep-outs, m, at least 0.
+     * @param resolution distance of the lattice's points, m, above 0.
+     * @throws IllegalArgumentException if a number is out of its range, or the lattice would have more than
+     *   [MAX_POINTS].
+     */
+    public constructor(area: WaterArea, margin: Double, resolution: Double) : this(RouteGraph(area, margin, resolution))
+
+    /** The water. */
+    public val area: WaterArea get() = graph.area
+
+    /** Smallest distance of a way from land and keep-outs, m. */
+    public val margin: Double get() = graph.margin
+
+    /** Distance of the lattice's points, m. */
+    public val resolution: Double get() = graph.resolution
+
     /** What ways lead round besides land, from the next [start] on. */
     internal var avoided: Obstacle? = null
 
-    init {
-        require(margin >= 0 && margin.isFinite()) { "margin ($margin m) must be at least 0 and finite" }
-        require(resolution > 0 && resolution.isFinite()) { "resolution ($resolution m) must be above 0 and finite" }
-        lattice = RouteLattice(area, resolution)
-        clear = BooleanArray(lattice.size) { area.isClear(x(it), y(it), margin) }
-        ways = ByteArray(lattice.size)
-        distances = DoubleArray(lattice.size)
-        parents = IntArray(lattice.size)
-        queue = PointQueue(distances)
-        for (point in clear.indices) if (clear[point]) join(point)
-    }
+    /** Other ways over the same lattice, which is not laid again. */
+    internal fun others(): WaterRoutes = WaterRoutes(graph)
 
     /** Number of points of the lattice. */
     public val points: Int get() = clear.size
@@ -66,26 +67,6 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
     /** Whether [point] lies on the water and farther than the margin from land. */
     internal fun isClear(point: Int): Boolean = clear[point]
 
-    private fun join(point: Int) {
-        val column = point % lattice.columns
-        val row = point / lattice.columns
-        // Far from land every neighbour is clear too.
-        val isOpen = area.distanceToOutline(x(point), y(point)) > margin + SQRT_2 * resolution * (1 + ROUNDING)
-        var bits = 0
-        for (step in 0 until STEPS) {
-            val toColumn = column + COLUMN_STEPS[step]
-            val toRow = row + ROW_STEPS[step]
-            if (toColumn !in 0 until lattice.columns || toRow !in 0 until lattice.rows) continue
-            val to = toRow * lattice.columns + toColumn
-            if (isOpen ||
-                (clear[to] && area.isClear(x(point), y(point), x(to), y(to), margin))
-            ) {
-                bits = bits or (1 shl step)
-            }
-        }
-        ways[point] = bits.toByte()
-    }
-
     /**
      * Finds the ways from the place ([x], [y]), local frame, m.
      *
@@ -93,7 +74,10 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
      *
      * @return whether any point can be reached from there.
      */
-    public fun start(x: Double, y: Double): Boolean {
+    public fun start(x: Double, y: Double): Boolean = begin(x, y).also { find(Int.MAX_VALUE) }
+
+    /** Begins to find the ways from a place as [start] does, and answers as it does; [find] goes on. */
+    internal fun begin(x: Double, y: Double): Boolean {
         startX = x
         startY = y
         distances.fill(Double.POSITIVE_INFINITY)
@@ -107,18 +91,24 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
                 queue.push(point)
             }
         }
-        if (queue.isEmpty) return false
-        while (!queue.isEmpty) expand(queue.poll())
-        return true
+        return !queue.isEmpty
+    }
+
+    /** Finds the ways to [most] points more. Answers how many were left to find: less than [most] where all are found. */
+    internal fun find(most: Int): Int {
+        var count = 0
+        while (count < most && !queue.isEmpty) {
+            expand(queue.poll())
+            count++
+        }
+        return count
     }
 
     private fun expand(point: Int) {
-        for (step in 0 until STEPS) {
-            if (ways[point].toInt() shr step and 1 == 0) continue
-            val to = point + ROW_STEPS[step] * lattice.columns + COLUMN_STEPS[step]
-            if (isAvoided(x(point), y(point), x(to), y(to))) continue
-            val length = distances[point] + resolution * (if (step < EDGE_STEPS) 1.0 else SQRT_2)
-            if (length < distances[to]) {
+        val isBeset = avoided?.isNear(x(point), y(point), RouteGraph.SQRT_2 * resolution) ?: false
+        graph.forJoined(point) { to, leg ->
+            val length = distances[point] + leg
+            if (length < distances[to] && !(isBeset && isAvoided(x(point), y(point), x(to), y(to)))) {
                 distances[to] = length
                 parents[to] = point
                 queue.push(to)
@@ -233,110 +223,5 @@ public class WaterRoutes(public val area: WaterArea, public val margin: Double, 
 
         private const val START = -1
         private const val COARSER = 1.05
-        private const val STEPS = 8
-        private const val EDGE_STEPS = 4
-        private const val ROUNDING = 1e-9
-        private val SQRT_2 = sqrt(2.0)
-        private val COLUMN_STEPS = intArrayOf(-1, 1, 0, 0, -1, -1, 1, 1)
-        private val ROW_STEPS = intArrayOf(0, 0, -1, 1, -1, 1, -1, 1)
-    }
-}
-
-/** Where the points of a lattice over [area] are, [resolution] m apart. */
-private class RouteLattice(area: WaterArea, private val resolution: Double) {
-    val columns: Int
-    val rows: Int
-    private val westmost: Double
-    private val southmost: Double
-
-    init {
-        val wide = ceil((area.east - area.west) / resolution)
-        val high = ceil((area.north - area.south) / resolution)
-        require(wide * high <= WaterRoutes.MAX_POINTS) {
-            "a resolution of $resolution m makes ${wide.toLong()} x ${high.toLong()} points; " +
-                "${WaterRoutes.MAX_POINTS} are allowed"
-        }
-        columns = maxOf(1, wide.toInt())
-        rows = maxOf(1, high.toInt())
-        westmost = (area.west + area.east - (columns - 1) * resolution) / 2
-        southmost = (area.south + area.north - (rows - 1) * resolution) / 2
-    }
-
-    val size get() = columns * rows
-
-    fun x(point: Int) = westmost + point % columns * resolution
-
-    fun y(point: Int) = southmost + point / columns * resolution
-
-    /** Calls [use] with the points within two steps of the lattice, or with the [margin]'s more. */
-    inline fun forNear(x: Double, y: Double, margin: Double, use: (Int) -> Unit) {
-        if (!x.isFinite() || !y.isFinite()) return
-        val reach = NEAR + ceil(margin / resolution).toInt()
-        val column = Math.round((x - westmost) / resolution).coerceIn(0L, columns - 1L).toInt()
-        val row = Math.round((y - southmost) / resolution).coerceIn(0L, rows - 1L).toInt()
-        for (r in maxOf(0, row - reach)..minOf(rows - 1, row + reach)) {
-            for (c in maxOf(0, column - reach)..minOf(columns - 1, column + reach)) use(r * columns + c)
-        }
-    }
-
-    companion object {
-        const val NEAR = 2
-
-        fun points(area: WaterArea, resolution: Double): Double =
-            ceil((area.east - area.west) / resolution) * ceil((area.north - area.south) / resolution)
-    }
-}
-
-/** The points that wait in Dijkstra's algorithm, the nearest first; [distances] is shared with it. */
-private class PointQueue(private val distances: DoubleArray) {
-    private val heap = IntArray(distances.size)
-    private val places = IntArray(distances.size) { NOT_IN }
-    private var size = 0
-
-    val isEmpty: Boolean get() = size == 0
-
-    fun clear() {
-        for (i in 0 until size) places[heap[i]] = NOT_IN
-        size = 0
-    }
-
-    /** Adds [point], or moves it forward where its distance has become less. */
-    fun push(point: Int) {
-        var place = places[point]
-        if (place == NOT_IN) place = size++
-        while (place > 0) {
-            val above = (place - 1) / 2
-            if (distances[heap[above]] <= distances[point]) break
-            put(place, heap[above])
-            place = above
-        }
-        put(place, point)
-    }
-
-    fun poll(): Int {
-        val first = heap[0]
-        places[first] = NOT_IN
-        val moved = heap[--size]
-        if (size == 0) return first
-        var place = 0
-        while (true) {
-            var child = 2 * place + 1
-            if (child >= size) break
-            if (child + 1 < size && distances[heap[child + 1]] < distances[heap[child]]) child++
-            if (distances[heap[child]] >= distances[moved]) break
-            put(place, heap[child])
-            place = child
-        }
-        put(place, moved)
-        return first
-    }
-
-    private fun put(place: Int, point: Int) {
-        heap[place] = point
-        places[point] = place
-    }
-
-    private companion object {
-        const val NOT_IN = -1
     }
 }

@@ -11,9 +11,10 @@ public interface LineCodec : LineSink {
  *
  * An object is taken whole or not at all, so that a line that was cut says nothing. Where a line's beginning is broken,
  * reading starts again at its next brace: a line whose terminator was lost costs neither itself nor its neighbour. What
- * the board echoes inside an error is not read: it is this side's own words. Every line that holds something unreadable
- * is counted once, under the kind met first. A number is never guessed: what is not finite or not all digits is
- * counted.
+ * the board echoes inside an error is not read: it is this side's own words. A drive in it has the form of what the
+ * board says of its motors, so motors are believed only at the beginning of a line or behind a whole object: the
+ * beginning of the error may have been spoilt. Every line that holds something unreadable is counted once, under the
+ * kind met first. A number is never guessed: what is not finite or not all digits is counted.
  *
  * The lines carry no checksum: a digit that was changed on the way reads as another number. The mission's plausibility
  * test is there for that.
@@ -43,6 +44,7 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
         var at = nextBrace(bytes, start, end)
         if (at < 0) return notice(bytes, start, end)
         if (!blank(bytes, start, at)) note(if (isText(bytes, start, at)) Malformed.SYNTAX else Malformed.BINARY)
+        var isEcho = at - start > TERMINATOR
         while (at >= 0) {
             if (isError(bytes, at, end)) {
                 refused(bytes, at, end)
@@ -53,13 +55,15 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
             cursor.open(bytes, at, end)
             if (topObject()) {
                 said = said || waiting > 0
-                for (i in 0 until waiting) pending[i]?.let { sink.message(it) }
+                for (i in 0 until waiting) pending[i]?.let { if (!isEcho || it !is Message.Motor) sink.message(it) }
                 val from = cursor.at
                 at = nextBrace(bytes, from, end)
+                isEcho = at - from > TERMINATOR
                 if (!blank(bytes, from, if (at < 0) end else at)) note(Malformed.SYNTAX)
             } else {
                 note(if (isText(bytes, at, end)) Malformed.SYNTAX else Malformed.BINARY)
                 at = nextBrace(bytes, at + 1, end)
+                isEcho = true
             }
         }
         if (said) understood++
@@ -219,6 +223,9 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
 
     private companion object {
         const val MOST_MESSAGES = 16
+
+        /** Bytes between two lines that have become one. */
+        const val TERMINATOR = 2
         const val STATE_NOTICE = "STATE: "
         val PRINTABLE = 32.toByte()..126.toByte()
         val ERROR = "{\"error\"".encodeToByteArray()

@@ -117,7 +117,8 @@ class SafetyGateTest {
         fun ruling(
             change: Situation.() -> Unit,
         ) = gate.assess(sound().apply { heldUp = true }.apply(change)) as Ruling.Fall
-        assertEquals(Danger.HELD_UP, ruling {}.danger)
+        val back = sound().apply { heldUp = true }
+        assertEquals(Ruling.GoOn, gate.assess(back), "back within the fence, nothing else calls it")
         assertEquals(Danger.HELD_UP, ruling { budgetSpent = true }.danger)
         assertEquals(Danger.FENCE, ruling { x = 51.0 }.danger)
         assertEquals(Danger.OPERATOR_STOP, ruling { operatorStop = true }.danger)

@@ -62,6 +62,15 @@ class BoardPortTest {
         assertEquals(20, told(20, Drive.NONE, 0.0, isCalm = false), "while it is being armed")
     }
 
+    /** Only one of the six is heard where five are spoilt, and each spoilt one feeds the board's watchdog. */
+    @Test
+    fun aBoardThatIsSilentIsToldRestMoreOftenAtOnce() {
+        told(10, Drive(0.5, 0.0), 0.5)
+        told(4, Drive(0.5, 0.0), null)
+        assertEquals(6, told(1, Drive.NONE, null))
+        assertEquals(1, told(1, Drive.NONE, null), "no more than once in a heartbeat after that")
+    }
+
     @Test
     fun aDriveAfterARestIsSaidAtOnce() {
         told(30, Drive.NONE, 0.0)

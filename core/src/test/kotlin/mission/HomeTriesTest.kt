@@ -59,6 +59,26 @@ class HomeTriesTest {
     }
 
     @Test
+    fun aRestIsGoneOnWithAfterARestart() {
+        assertEquals(null, tries.rest(now))
+        repeat(2) {
+            waysUntilRest()
+            now += tries.restsFor(now) / 2
+            assertEquals(HomeRest(it + 1, tries.restsFor(now)), tries.rest(now))
+            if (it == 0) now += tries.restsFor(now)
+        }
+        // The clock may have begun anew.
+        val again = HomeTries(nearer = 4.5).apply { resume(checkNotNull(tries.rest(now)), 7.0) }
+        assertEquals(600.0, again.restsFor(7.0))
+        assertEquals(0.0, again.restsFor(607.0))
+        now = 607.0
+        var ways = 0
+        do ways++ while (again.heldUp(now, 100.0, isAlong = false))
+        assertEquals(3, ways)
+        assertEquals(2400.0, again.restsFor(now), "the third")
+    }
+
+    @Test
     fun whoIsStrandedIsStoppedAndWhoRestsIsNot() {
         fun next(danger: Danger) = MissionPhases.next(
             MissionState.Returning(Danger.BUDGET_SPENT),

@@ -186,7 +186,7 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
     /** The bounds without the readings that a bad line made. */
     private fun judgeBounds(account: LogAccount) {
         val bad = badEvents(account)
-        verdicts.badTaken = bad.size
+        verdicts.badTaken = bad.map { account.events[it].value to sentAbout(account.eventSteps[it]) }
         if (bad.isEmpty()) return
         val without = account.estimator { it !in bad }.map
         for (cell in 0 until without.grid.size) {
@@ -209,6 +209,9 @@ internal class CampaignRun(private val case: CampaignCase, private val kinds: Se
             !account.events[event].value.isNaN() && near.none { sent[it].truth == account.events[event].value }
         }
     }
+
+    /** What the probe last said until [step]; NaN before. */
+    private fun sentAbout(step: Int) = link.probeLines.lastOrNull { it.step <= step }?.truth ?: Double.NaN
 
     private companion object {
         const val STEP = 0.1
@@ -241,7 +244,9 @@ internal class Verdicts {
     var mapsApart = 0
     var delivered = 0
     var unlogged = 0
-    var badTaken = 0
+
+    /** Values that the map took and that the board had not sent, each with what it had sent last. */
+    var badTaken = emptyList<Pair<Double, Double>>()
     var spoiltBounds = 0
     var mendedBounds = 0
 }

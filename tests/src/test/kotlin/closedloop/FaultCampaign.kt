@@ -65,7 +65,7 @@ internal object FaultCampaign {
         run.case.spec.planner,
         run.case.mixing,
         run.end,
-        "${run.verdicts.readings} readings (${run.verdicts.badTaken} bad)",
+        "${run.verdicts.readings} readings (${run.verdicts.badTaken.size} bad${bad(run)})",
         "%.1f m beyond driven, %.1f m drifted, %.0f s under power".format(
             Locale.ROOT,
             run.observer.worstDriven,
@@ -73,6 +73,9 @@ internal object FaultCampaign {
             run.observer.underPower,
         ),
     ).joinToString(" ")
+
+    private fun bad(run: RunResult) =
+        run.verdicts.badTaken.joinToString("") { (taken, sent) -> ", $taken for $sent" }
 
     /** What is wrong with a run, in a line; empty where nothing is. */
     fun faultsFound(run: RunResult): String = listOfNotNull(
