@@ -272,7 +272,7 @@ public class Mission(
         situation.budgetSpent = navigator.isHomeBound
         situation.missionEnded = navigator.isOver
         situation.stranded = navigator.isStranded
-        situation.heldUp = navigator.restsFor(now.seconds) > 0
+        situation.heldUp = isArmed && navigator.restsFor(now.seconds) > 0
         return gate.assess(situation)
     }
 

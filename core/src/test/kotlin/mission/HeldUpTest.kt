@@ -86,6 +86,33 @@ class HeldUpTest {
         assertTrue(desk.distanceHome() < 7.0, "${desk.distanceHome()} m from home")
     }
 
+    /** What is left of a rest goes on, and is no first one. */
+    @Test
+    fun aRestIsKeptOverARestart() {
+        val log = Desk(spec(), 497)
+        log.step()
+        val step = log.lines.last()
+        assertEquals(null, log.replayed().rest)
+        val resting = step.replace("\"left_out\":0", "\"left_out\":0,\"rest\":[2,900.5]")
+        val found = checkNotNull(Desk.replay(log.lines + resting).recovered())
+        assertEquals(HomeRest(2, 900.5), found.rest)
+        val desk = Desk(spec(), 498, recovered = found)
+        desk.until(3.0) { false }
+        assertEquals(2, desk.replayed().rest?.count)
+        assertEquals(900.5 - 2.9, checkNotNull(desk.replayed().rest).seconds, 1e-6)
+        desk.mission.start()
+        assertTrue(desk.until(60.0) { it == MissionState.Surveying }, "nothing calls it home")
+        assertEquals(0.0, desk.mission.restsFor)
+        desk.mission.logLost()
+        assertTrue(desk.until(1.0) { it == MissionState.Holding(Danger.HELD_UP) }, "${desk.mission.state}")
+        assertTrue(desk.mission.restsFor in 800.0..897.6, "${desk.mission.restsFor} s")
+        // A person's word ends it.
+        desk.mission.wish = Wish.RETURN
+        assertFalse(desk.until(1.0) { false })
+        assertEquals(0.0, desk.mission.restsFor)
+        assertEquals(null, desk.replayed().rest)
+    }
+
     /** Away from home it takes a fifth of the time that it takes back. */
     @Test
     fun theBudgetBringsABoatHomeAgainstTheCurrent() {

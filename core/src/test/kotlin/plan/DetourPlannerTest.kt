@@ -116,6 +116,30 @@ class DetourPlannerTest {
     }
 
     @Test
+    fun whatIsPreparedInPartsIsThereForThePlan() {
+        val closed = closed(emptySet())
+        val ways = ways(closed)
+        val detour = DetourPlanner(Lawnmower(LawnmowerPattern.HAMILTONIAN_CYCLE), closed, ways)
+        assertTrue(detour.prepare(grid, home, 1), "nothing is closed")
+        closed.close(closed.number(8), 0.0)
+        var parts = 1
+        while (!detour.prepare(grid, home, 10)) parts++
+        // Twice 12 by 10 points.
+        assertTrue(parts in 23..25, "$parts parts")
+        val plan = Plan()
+        detour.plan(FieldMap(grid, Interval.UNIT), home, 0.5, StopCondition.NEVER, plan)
+        assertTrue(plan.size > 0)
+        assertTrue(detour.prepare(grid, Position(home.x + 0.1, home.y), 1), "the same cell")
+        assertFalse(detour.prepare(grid, grid.center(1), 1))
+        assertTrue(ways.prepareHome(14.0, 8.0, 1), "nothing has changed")
+        closed.close(closed.number(9), 0.0)
+        assertTrue(ways.prepareHome(2.0, 18.0, 1), "straight")
+        parts = 1
+        while (!ways.prepareHome(14.0, 8.0, 10)) parts++
+        assertTrue(parts in 12..13, "$parts parts")
+    }
+
+    @Test
     fun theWayHomeLeadsRoundWhatWasEverClosedAndThroughItWhereThereIsNoOther() {
         val closed = closed(setOf(6, 7, 8, 9, 10))
         val ways = ways(closed)

@@ -77,6 +77,24 @@ class WaterRoutesTest {
         }
     }
 
+    /** Also round what is in the way, of which a look from afar says that it is not near. */
+    @Test
+    fun waysFoundInPartsAreTheSame() = forEvery(drawn(::Lake)) { lake ->
+        val random = Random(lake.seed)
+        val start = lake.place(random) ?: return@forEvery
+        val closed = ClosedCells(lake.grid, lake.area, random.nextDouble(2.0))
+        repeat(random.nextInt(6)) {
+            val cell = lake.grid.center(random.nextInt(lake.grid.size))
+            closed.close(closed.at(cell.x, cell.y), 0.0)
+        }
+        val whole = WaterRoutes(lake.area, lake.margin, 2.5)
+        whole.avoided = Obstacle { fromX, fromY, toX, toY -> closed.blocks(fromX, fromY, toX, toY) }
+        val parts = whole.others().apply { avoided = closed }
+        assertEquals(whole.start(start.x, start.y), parts.begin(start.x, start.y))
+        while (parts.find(7) == 7) assertTrue(parts.find(0) == 0)
+        for (point in 0 until whole.points) assertEquals(whole.distance(point), parts.distance(point))
+    }
+
     @Test
     fun leavesTheMarginOverWaterOnly() {
         val area = WaterArea(rectangle(0.0, 0.0, 20.0, 20.0))

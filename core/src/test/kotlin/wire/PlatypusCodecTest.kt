@@ -98,6 +98,27 @@ class PlatypusCodecTest {
         assertEquals(0, codec.malformed.total)
     }
 
+    /** Whichever byte of an error is spoilt, the drive that it echoes is not what motors get. */
+    @Test
+    fun aDriveInTheEchoOfASpoiltErrorIsNoMotorLine() {
+        val echoed = "{\"m0\":{\"v\":0.3},\"m\u00d6\":{\"v\":0.5}}"
+        val line = "{\"error\": \"Unknown command target.\",\"args\": \"$echoed\"}"
+        for (at in line.indices) {
+            // A brace is what reading begins at.
+            for (byte in listOf('x', '"', '{', '}', '\u0081')) {
+                val spoilt = line.replaceRange(at, at + 1, byte.toString())
+                assertEquals(emptyList(), read(spoilt).filterIsInstance<Message.Motor>(), spoilt)
+            }
+        }
+        assertEquals(emptyList(), read("x\"args\": \"{\"m0\":{\"v\":0.3},\"m1\":{\"v\":0.5}}\"}"))
+    }
+
+    @Test
+    fun motorsAreReadBehindALineThatLostItsEnd() {
+        val motors = "{\"m0\":{\"v\":0.3},\"m1\":{\"v\":0.5}}"
+        for (between in listOf("", "\r", "\r\u0081")) assertEquals(4, read(motors + between + motors).size, between)
+    }
+
     @Test
     fun anObjectIsTakenWholeOrNotAtAll() {
         val line = """{"m0":{"v":0.3,"c":0.0},"m1":{"v":0.5,"c":0.0}}"""
