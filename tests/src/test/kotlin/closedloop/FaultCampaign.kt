@@ -18,7 +18,7 @@ internal object FaultCampaign {
     fun table(results: List<RunResult>): String = buildString {
         appendLine(
             "| fault | runs | occurred | beyond margin | motors too long | readings lost | exceptions " +
-                "| bounds made wrong | worst time to zero, s (v4.2.0) " +
+                "| bounds made wrong (right) | worst time to zero, s (v4.2.0) " +
                 "| worst excursion driven (drifting), m | readings | missions completed |",
         )
         appendLine("|---|" + "---|".repeat(11))
@@ -41,7 +41,8 @@ internal object FaultCampaign {
                 results.sumOf { it.observer.tooLong },
                 lost,
                 results.count { it.exception != null },
-                results.sumOf { it.verdicts.spoiltBounds },
+                results.sumOf { it.verdicts.spoiltBounds }.toString() +
+                    " (${results.sumOf { it.verdicts.mendedBounds }})",
                 seconds(results.filter { !it.isSlowBoard }) + " (" + seconds(results.filter { it.isSlowBoard }) + ")",
                 "%.1f (%.1f)".format(
                     Locale.ROOT,
