@@ -1,14 +1,11 @@
 package stillwater.app
 
 import org.junit.Test
-import org.junit.runner.RunWith
 import org.objectweb.asm.ClassReader
 import org.objectweb.asm.ClassVisitor
 import org.objectweb.asm.Handle
 import org.objectweb.asm.MethodVisitor
 import org.objectweb.asm.Opcodes
-import org.robolectric.RobolectricTestRunner
-import org.robolectric.annotation.Config
 import java.io.File
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -16,10 +13,9 @@ import kotlin.test.assertTrue
 /**
  * Whatever in the app's classes may wait for the disk or the link says so first, by [mayWait]: itself, or each way that
  * leads to it. What is said on the main thread throws where StrictMode looks (`StrictModeTest`, `DemoTest`,
- * `ColdStartTest`); so nothing can wait there unseen, though Robolectric sees no files of Java's and no sockets.
+ * `ColdStartTest`); so nothing can wait there unseen, though Robolectric sees no files of Java's and no sockets. It reads
+ * classes and runs none, so it needs no Android.
  */
-@RunWith(RobolectricTestRunner::class)
-@Config(sdk = [35])
 class WaitingCallsTest {
     private data class Call(val owner: String, val name: String)
 
@@ -27,6 +23,8 @@ class WaitingCallsTest {
 
     private val supers = HashMap<String, List<String>>()
     private val codes = HashMap<Call, Code>()
+    private val byName by lazy { codes.keys.groupBy(Call::name) }
+    private val above = HashMap<String, Set<String>>()
 
     @Test
     fun whatMayWaitIsSaidFirst() {
@@ -69,11 +67,11 @@ class WaitingCallsTest {
             call in codes && call.name == "<init>" -> listOf(call)
             // What Android and Kotlin call by their own interfaces begins a way.
             !call.owner.startsWith(OURS) -> emptyList()
-            else -> codes.keys.filter { it.name == call.name && call.owner in allSupers(it.owner) + it.owner }
+            else -> byName[call.name].orEmpty().filter { call.owner == it.owner || call.owner in allSupers(it.owner) }
         }
 
     private fun allSupers(owner: String): Set<String> =
-        supers[owner].orEmpty().flatMap { allSupers(it) + it }.toSet()
+        above[owner] ?: supers[owner].orEmpty().flatMap { allSupers(it) + it }.toSet().also { above[owner] = it }
 
     private fun waits(call: Call) = WAITING[call.owner]?.let { it.isEmpty() || call.name in it } == true
 
