@@ -31,7 +31,7 @@ internal class HomeTries(private val nearer: Double) {
     /** Goes on [now], s, after a restart before which it was as [before] says. */
     fun resume(before: HomeRest, now: Double) {
         rests = before.count.coerceIn(0, MOST_RESTS)
-        restsUntil = now + before.seconds
+        restsUntil = now + before.seconds.coerceIn(0.0, REST * (1 shl MOST_RESTS))
     }
 
     /**

@@ -55,7 +55,7 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
             cursor.open(bytes, at, end)
             if (topObject()) {
                 said = said || waiting > 0
-                for (i in 0 until waiting) pending[i]?.let { if (!isEcho || it !is Message.Motor) sink.message(it) }
+                handOn(isEcho)
                 val from = cursor.at
                 at = nextBrace(bytes, from, end)
                 isEcho = at - from > TERMINATOR
@@ -68,6 +68,13 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
         }
         if (said) understood++
         fault?.let { malformed.count(it) }
+    }
+
+    private fun handOn(isEcho: Boolean) {
+        for (i in 0 until waiting) {
+            val message = pending[i] ?: continue
+            if (!isEcho || message !is Message.Motor) sink.message(message)
+        }
     }
 
     private fun note(kind: Malformed) {
