@@ -13,8 +13,8 @@ import kotlin.test.assertTrue
 /**
  * Whatever in the app's classes may wait for the disk or the link says so first, by [mayWait]: itself, or each way that
  * leads to it. What is said on the main thread throws where StrictMode looks (`StrictModeTest`, `DemoTest`,
- * `ColdStartTest`); so nothing can wait there unseen, though Robolectric sees no files of Java's and no sockets. It reads
- * classes and runs none, so it needs no Android.
+ * `ColdStartTest`); so nothing can wait there unseen, though Robolectric sees no files of Java's and no sockets. It
+ * reads classes and runs none, so it needs no Android.
  */
 class WaitingCallsTest {
     private data class Call(val owner: String, val name: String)

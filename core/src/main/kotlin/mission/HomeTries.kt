@@ -25,7 +25,7 @@ internal class HomeTries(private val nearer: Double) {
     /** For how long the boat rests yet, [now] in s; 0 where it does not. */
     fun restsFor(now: Double): Double = if (now < restsUntil) restsUntil - now else 0.0
 
-    /** The rests so far, [now] in s, for who goes on after a restart; null where there was none, or there is no more. */
+    /** The rests so far, [now] in s, for who goes on after a restart; null where there was none or will be no more. */
     fun rest(now: Double): HomeRest? = if (rests == 0 || isStranded) null else HomeRest(rests, restsFor(now))
 
     /** Goes on [now], s, after a restart before which it was as [before] says. */

@@ -51,8 +51,8 @@ internal class DetourPlanner(
     }
 
     /**
-     * Works on what a plan from [from] needs of the ways, on those to [most] points. Answers whether no such work is left
-     * for [plan] to do.
+     * Works on what a plan from [from] needs of the ways, on those to [most] points. Answers whether no such work is
+     * left for [plan] to do.
      */
     fun prepare(grid: Grid, from: Position, most: Int): Boolean =
         closed.count == 0 || isAround(grid.cellAt(from)) || ways.prepare(from, most)

@@ -85,7 +85,7 @@ internal class DetourWays(
             return leads
         }
 
-        /** Finds the ways from [place] to [most] points more; answers how many of [most] are left when all are found. */
+        /** Finds the ways from [place] to [most] points more; answers how many of [most] were not needed for all. */
         fun advance(place: Position, most: Int): Int {
             val isCurrent = version == closed.version || (obstacle === NOTHING && version != NONE)
             if (place != start || !isCurrent) {

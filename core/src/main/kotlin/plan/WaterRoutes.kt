@@ -94,7 +94,7 @@ public class WaterRoutes private constructor(private val graph: RouteGraph) {
         return !queue.isEmpty
     }
 
-    /** Finds the ways to [most] points more. Answers how many were left to find: less than [most] where all are found. */
+    /** Finds the ways to [most] points more at most. Answers to how many: fewer than [most] where all are found. */
     internal fun find(most: Int): Int {
         var count = 0
         while (count < most && !queue.isEmpty) {

@@ -44,7 +44,7 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
         var at = nextBrace(bytes, start, end)
         if (at < 0) return notice(bytes, start, end)
         if (!blank(bytes, start, at)) note(if (isText(bytes, start, at)) Malformed.SYNTAX else Malformed.BINARY)
-        var isEcho = at - start > TERMINATOR
+        var isEcho = isBehindText(bytes, start, at)
         while (at >= 0) {
             if (isError(bytes, at, end)) {
                 refused(bytes, at, end)
@@ -58,7 +58,7 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
                 handOn(isEcho)
                 val from = cursor.at
                 at = nextBrace(bytes, from, end)
-                isEcho = at - from > TERMINATOR
+                isEcho = isBehindText(bytes, from, at)
                 if (!blank(bytes, from, if (at < 0) end else at)) note(Malformed.SYNTAX)
             } else {
                 note(if (isText(bytes, at, end)) Malformed.SYNTAX else Malformed.BINARY)
@@ -69,6 +69,9 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
         if (said) understood++
         fault?.let { malformed.count(it) }
     }
+
+    /** Whether more stands between [from] and [at] than what is left of a line's end. */
+    private fun isBehindText(bytes: ByteArray, from: Int, at: Int) = at - from > TERMINATOR && !blank(bytes, from, at)
 
     private fun handOn(isEcho: Boolean) {
         for (i in 0 until waiting) {

@@ -116,7 +116,10 @@ class PlatypusCodecTest {
     @Test
     fun motorsAreReadBehindALineThatLostItsEnd() {
         val motors = "{\"m0\":{\"v\":0.3},\"m1\":{\"v\":0.5}}"
-        for (between in listOf("", "\r", "\r\u0081")) assertEquals(4, read(motors + between + motors).size, between)
+        for (between in listOf("", "\r", "\r\u0081", "     ")) {
+            assertEquals(4, read(motors + between + motors).size, between)
+        }
+        assertEquals(2, read("   $motors").size)
     }
 
     @Test

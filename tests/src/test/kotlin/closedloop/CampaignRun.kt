@@ -248,7 +248,7 @@ internal class Verdicts {
     /** Values that the map took and that the board had not sent, each with what it had sent last. */
     var badTaken = emptyList<Pair<Double, Double>>()
 
-    /** Cells whose bounds hold without what bad lines made and not with it, and the other way round, as chance has it. */
+    /** Cells whose bounds hold without what bad lines made and not with it, and the other way round. */
     var spoiltBounds = 0
     var mendedBounds = 0
 }
