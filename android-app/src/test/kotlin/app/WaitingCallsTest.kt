@@ -1,11 +1,14 @@
 package stillwater.app
 
 import org.junit.Test
+import org.junit.runner.RunWith
 import org.objectweb.asm.ClassReader
 import org.objectweb.asm.ClassVisitor
 import org.objectweb.asm.Handle
 import org.objectweb.asm.MethodVisitor
 import org.objectweb.asm.Opcodes
+import org.robolectric.RobolectricTestRunner
+import org.robolectric.annotation.Config
 import java.io.File
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -13,9 +16,10 @@ import kotlin.test.assertTrue
 /**
  * Whatever in the app's classes may wait for the disk or the link says so first, by [mayWait]: itself, or each way that
  * leads to it. What is said on the main thread throws where StrictMode looks (`StrictModeTest`, `DemoTest`,
- * `ColdStartTest`); so nothing can wait there unseen, though Robolectric sees no files of Java's and no sockets. It
- * reads classes and runs none, so it needs no Android.
+ * `ColdStartTest`); so nothing can wait there unseen, though Robolectric sees no files of Java's and no sockets.
  */
+@RunWith(RobolectricTestRunner::class)
+@Config(sdk = [35])
 class WaitingCallsTest {
     private data class Call(val owner: String, val name: String)
 
