@@ -28,8 +28,8 @@ public enum class ReadingUse {
  */
 public interface FieldEstimator {
     /**
-     * What is believed so far. The same object for the estimator's life; it is up to date when it is asked for, and after
-     * another [update] when it is asked for again.
+     * What is believed so far. The same object for the estimator's life; it is up to date when it is asked for, and
+     * after another [update] when it is asked for again.
      */
     public val map: FieldMap
 

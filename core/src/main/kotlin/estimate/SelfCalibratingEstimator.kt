@@ -31,8 +31,8 @@ import kotlin.math.sqrt
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
  * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates
- * once the cells' memory has grown. New parameters change all cells: the map follows [REFRESHED] cell a reading. Confined
- * to one thread.
+ * once the cells' memory has grown. New parameters change all cells: the map follows [REFRESHED] cell a reading, and
+ * the boat's own and the one before when it is asked for. Confined to one thread.
  *
  * @param grid the cells.
  * @param prior the range of the field: a cell's value before it is measured has its midpoint, and, for what is computed,
@@ -144,8 +144,8 @@ public class SelfCalibratingEstimator(
     }
 
     /**
-     * Writes the cells that the boat's last reading told of. That is put off for as long as the next reading tells of the
-     * same ones, and nothing is lost by it: each time they are written anew.
+     * Writes the cells that the boat's last reading told of. That is put off for as long as the next reading tells of
+     * the same ones, and nothing is lost by it: each time they are written anew.
      */
     private fun writeDue() {
         if (!isDue) return

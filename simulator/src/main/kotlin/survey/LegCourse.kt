@@ -3,8 +3,8 @@ package stillwater.survey
 /**
  * When the boat was in which bin of a leg: the times at which that changed, to the last bit of a time.
  *
- * Between two points of the track the boat goes straight on. The legs' comparison asks for hundreds of lags, so that where
- * the boat was is computed once here and not for every reading and lag.
+ * Between two points of the track the boat goes straight on. The legs' comparison asks for a hundred lags, so that
+ * where the boat was is computed once here and not for every reading and lag.
  *
  * @param track the track. Not modified.
  * @param leg the leg.

@@ -26,9 +26,9 @@ internal class LegProfiles(private val track: Track, axis: Double, val binWidth:
     }
 
     /**
-     * Mean reading of [leg], one of those [follow]ed, in each bin, NaN where it has none, if every reading is put where the
-     * boat was [lag] s before its time. Readings from shortly after the leg (before it, for a negative lag) so come to lie
-     * on it, and some of its own no longer do.
+     * Mean reading of [leg], one of those [follow]ed, in each bin, NaN where it has none, if every reading is put where
+     * the boat was [lag] s before its time. Readings from shortly after the leg (before it, for a negative lag) so come
+     * to lie on it, and some of its own no longer do.
      */
     fun of(leg: Leg, lag: Double): DoubleArray {
         // The last takes what lies in no bin.
