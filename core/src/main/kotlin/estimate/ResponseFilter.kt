@@ -114,7 +114,7 @@ internal class ResponseFilter {
         val s = f[at + SS]
         val p = f[at + SP]
         val q = f[at + SQ]
-        // Multiplied by: ten divisions would be half of a fit's time.
+        // One division in place of eleven.
         val inverse = 1 / variance
         val share = innovation * inverse
         f[at + MISFIT] += innovation * share
