@@ -153,6 +153,8 @@ public class BayesianMap(
     }
 
     private fun refresh() {
+        // Asked for, so that it is up to date.
+        cells.map
         explain()
         for (k in 0 until visitedCount) read(visited[k])
         val most = work * maxOf(1, fresh)

@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.field.FieldMap
 import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -109,11 +110,22 @@ public class BoundedExtendedFilter(
     private var hasRisen = false
     private var hasFallen = false
 
+    /** Whether the boat's cell is to be written as the last reading left it: the next one would do it anew. */
+    private var isDue = false
+
+    /** Whether cells follow what is learned of the sensor by themselves; where not, [bring] has them do it. */
+    internal var refreshes: Boolean = true
+
     /** k⁺, the distance to the truth per slope that rising readings were found to have, s; NaN while not known. */
     public val risingRatio: Double get() = if (ratios.known) ratios.rising else Double.NaN
 
     /** k⁻, the same for falling readings, s; NaN while not known. */
     public val fallingRatio: Double get() = if (ratios.known) ratios.falling else Double.NaN
+
+    override val map: FieldMap get() {
+        writeDue()
+        return written
+    }
 
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
         if (entered) enter(cell)
@@ -123,7 +135,7 @@ public class BoundedExtendedFilter(
         if (medians.full) slopes.add(medians.time, medians.median)
         if (!slopes.full) {
             // Too few readings for a slope: they are all there is to say of the cell, if nothing was said before.
-            if (!hasEvidence[cell]) map.setValue(cell, value.coerceIn(map.lower(cell), map.upper(cell)))
+            if (!hasEvidence[cell]) written.setValue(cell, value.coerceIn(written.lower(cell), written.upper(cell)))
             return
         }
         val slope = slopes.slope()
@@ -136,12 +148,25 @@ public class BoundedExtendedFilter(
         val share = 1.0 / minOf(evidence, pooled)
         stayValue += share * (medians.median - stayValue)
         staySlope += share * (slope - staySlope)
-        write(cell)
+        isDue = true
     }
+
+    private fun writeDue() {
+        if (!isDue) return
+        isDue = false
+        write(stayCell)
+    }
+
+    /** Brings [cell] up to date with what was learned of the sensor. */
+    internal fun bring(cell: Int) {
+        if (cell == stayCell) writeDue() else if (follows(cell)) write(cell)
+    }
+
+    private fun follows(cell: Int) = settings.learnsResponse && ratios.known && weights[cell] > 0
 
     /** Brings cells up to date with what was learned of the sensor since they were measured. */
     private fun refresh() {
-        if (!settings.learnsResponse || !ratios.known) return
+        if (!refreshes || !settings.learnsResponse || !ratios.known) return
         repeat(REFRESHED) {
             if (++refreshed >= visitedCount) refreshed = 0
             val cell = visited[refreshed]
@@ -150,13 +175,15 @@ public class BoundedExtendedFilter(
     }
 
     override fun leave() {
+        writeDue()
         commit()
         stayCell = Grid.OUTSIDE
     }
 
     private fun enter(cell: Int) {
+        writeDue()
         commit()
-        if (map.visits(cell) == 1) {
+        if (written.visits(cell) == 1) {
             if (visitedCount == visited.size) visited = visited.copyOf(minOf(2 * visitedCount, cells))
             visited[visitedCount++] = cell
         }
@@ -194,8 +221,8 @@ public class BoundedExtendedFilter(
     private fun raise(cell: Int, bound: Double, slope: Double) {
         if (!(bound > lowers[cell]) || !bound.isFinite()) return
         if (bound > uppers[cell]) {
-            map.countConflict(cell)
-            uppers[cell] = maxOf(map.prior.upper, bound)
+            written.countConflict(cell)
+            uppers[cell] = maxOf(written.prior.upper, bound)
             upperSlopes[cell] = Double.NaN
         } else {
             lowers[cell] = bound
@@ -206,8 +233,8 @@ public class BoundedExtendedFilter(
     private fun lower(cell: Int, bound: Double, slope: Double) {
         if (!(bound < uppers[cell]) || !bound.isFinite()) return
         if (bound < lowers[cell]) {
-            map.countConflict(cell)
-            lowers[cell] = minOf(map.prior.lower, bound)
+            written.countConflict(cell)
+            lowers[cell] = minOf(written.prior.lower, bound)
             lowerSlopes[cell] = Double.NaN
         } else {
             uppers[cell] = bound
@@ -260,7 +287,7 @@ public class BoundedExtendedFilter(
         val lower = lowers[cell]
         val upper = uppers[cell]
         if (settings.learnsResponse && ratios.known && writeDistance(cell, lower, upper)) return
-        map.setBounds(cell, lower, upper)
+        written.setBounds(cell, lower, upper)
         val hasLower = !lowerSlopes[cell].isNaN()
         val hasUpper = !upperSlopes[cell].isNaN()
         val value = when {
@@ -269,9 +296,11 @@ public class BoundedExtendedFilter(
                     (upper - lower) * (lowerSlopes[cell] / (lowerSlopes[cell] + upperSlopes[cell]))
             hasLower -> lower
             hasUpper -> upper
-            else -> stayValue.coerceIn(lower, upper)
+            cell == stayCell -> stayValue.coerceIn(lower, upper)
+            // Nothing new: it keeps what its own stay left.
+            else -> return
         }
-        if (value.isFinite()) map.setValue(cell, value)
+        if (value.isFinite()) written.setValue(cell, value)
     }
 
     /** Value and bounds from slopes and learned ratios, eqs. (7) and (8); false where they are no numbers. */
@@ -289,11 +318,11 @@ public class BoundedExtendedFilter(
         if (!ratios.proportional && (up + down) * sqrt(timeSpread) > CLEAR * deviation) return false
         val reach = ratios.quantile * sqrt(base + bySlope)
         if (!value.isFinite() || !reach.isFinite()) return false
-        map.setValue(cell, value.coerceIn(lower, upper))
+        written.setValue(cell, value.coerceIn(lower, upper))
         if (value + reach < lower || value - reach > upper) {
-            map.setBounds(cell, lower, upper)
+            written.setBounds(cell, lower, upper)
         } else {
-            map.setBounds(cell, maxOf(lower, value - reach), minOf(upper, value + reach))
+            written.setBounds(cell, maxOf(lower, value - reach), minOf(upper, value + reach))
         }
         return true
     }

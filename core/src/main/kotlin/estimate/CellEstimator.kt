@@ -18,7 +18,13 @@ import kotlin.math.abs
  * @param prior the range every cell is believed to lie in before it is measured, sensor units.
  */
 public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimator {
-    final override val map: FieldMap = FieldMap(grid, prior)
+    /**
+     * The map as far as it is written. Its counts are current; an estimator that puts off cells which the next reading
+     * would change anyway writes them when [map] is asked for.
+     */
+    protected val written: FieldMap = FieldMap(grid, prior)
+
+    override val map: FieldMap get() = written
     private val grid = grid
     private var lastCell = Grid.OUTSIDE
     private var placeX = Double.NaN
@@ -34,12 +40,12 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         conditions: Conditions,
     ): ReadingUse {
         if (!time.seconds.isFinite() || !x.isFinite() || !y.isFinite() || !value.isFinite()) {
-            map.countRejected()
+            written.countRejected()
             noticeMove(time, x, y)
             return ReadingUse.NOT_FINITE
         }
         if (time.seconds < lastSeconds) {
-            map.countRejected()
+            written.countRejected()
             return ReadingUse.OUT_OF_ORDER
         }
         lastSeconds = time.seconds
@@ -47,13 +53,13 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         if (cell == Grid.OUTSIDE) {
             if (lastCell != Grid.OUTSIDE) leave()
             lastCell = Grid.OUTSIDE
-            map.countOutside()
+            written.countOutside()
             return ReadingUse.OUTSIDE
         }
         val entered = cell != lastCell
         lastCell = cell
-        if (entered) map.countVisit(cell)
-        map.countReading(cell)
+        if (entered) written.countVisit(cell)
+        written.countReading(cell)
         take(cell, entered, time.seconds, value, conditions)
         return ReadingUse.USED
     }
@@ -69,7 +75,7 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         lastSeconds = times[count - 1]
         val entered = cell != lastCell
         lastCell = cell
-        if (entered) map.countVisit(cell)
+        if (entered) written.countVisit(cell)
         takeAll(cell, entered, times, values, count)
     }
 
@@ -130,7 +136,7 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
      */
     protected open fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
         for (i in 0 until count) {
-            map.countReading(cell)
+            written.countReading(cell)
             take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
         }
     }

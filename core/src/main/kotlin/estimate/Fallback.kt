@@ -17,7 +17,7 @@ import kotlin.math.sqrt
  * core/docs/SelfCalibratingEstimator.md, section "Whether the model holds".
  */
 internal class Fallback(private val grid: Grid, prior: Interval) {
-    private val filter = BoundedExtendedFilter(grid, prior)
+    private val filter = BoundedExtendedFilter(grid, prior).also { it.refreshes = false }
     private val sums = DoubleArray(grid.size)
 
     /** Farther from the first cell than any other is. */
@@ -26,7 +26,7 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
     private var apart = 0.0
     private var added = 0.0
 
-    /** Value and bounds of every cell, sensor units. */
+    /** Value and bounds of every cell, sensor units: of those that were brought up to date. */
     val map: FieldMap get() = filter.map
 
     /** Whether its values count instead of the nearest model's. */
@@ -49,8 +49,12 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
         added = 0.0
     }
 
+    /** Brings [cell] up to date in [map]. Mostly no cell is asked for. */
+    fun bring(cell: Int) = filter.bring(cell)
+
     /** Compares its value with [value] of the nearest model in a visited cell, sensor units. */
     fun compare(cell: Int, value: Double) {
+        bring(cell)
         val own = map.value(cell)
         val off = value - own
         val mean = sums[cell] / map.readings(cell)

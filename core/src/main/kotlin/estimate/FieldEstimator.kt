@@ -27,7 +27,10 @@ public enum class ReadingUse {
  * cannot use it counts in [map] and says so. Confined to one thread.
  */
 public interface FieldEstimator {
-    /** What is believed so far. The same object for the estimator's life, kept up to date by [update]. */
+    /**
+     * What is believed so far. The same object for the estimator's life; it is up to date when it is asked for, and
+     * after another [update] when it is asked for again.
+     */
     public val map: FieldMap
 
     /**

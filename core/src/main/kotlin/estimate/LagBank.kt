@@ -219,12 +219,13 @@ internal class LagBank : ReadingPlayer {
         f[at + SS] = keep * keep * f[at + SS] + 2 * gain * keep * f[at + SP] + gain * gain * f[at + PP]
         f[at + SP] = keep * f[at + SP] + gain * f[at + PP]
         val innovation = value - f[at + S]
-        // S = P_ss + 1, K = P_·s / S
+        // S = P_ss + 1, K = P_·s / S; one division instead of four.
         val variance = f[at + SS] + 1
-        val forState = f[at + SS] / variance
-        val forTruth = f[at + SP] / variance
-        val forPrevious = f[at + SQ] / variance
-        f[at + MISFIT] += innovation * innovation / variance
+        val inverse = 1 / variance
+        val forState = f[at + SS] * inverse
+        val forTruth = f[at + SP] * inverse
+        val forPrevious = f[at + SQ] * inverse
+        f[at + MISFIT] += innovation * innovation * inverse
         f[at + S] += forState * innovation
         f[at + P] += forTruth * innovation
         f[at + Q] += forPrevious * innovation

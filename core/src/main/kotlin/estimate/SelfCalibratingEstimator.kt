@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.field.FieldMap
 import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -30,8 +31,8 @@ import kotlin.math.sqrt
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
  * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates
- * once the cells' memory has grown. New parameters change all cells: the map follows [REFRESHED] cells a reading. Confined
- * to one thread.
+ * once the cells' memory has grown. New parameters change all cells: the map follows [REFRESHED] cell a reading, and
+ * the boat's own and the one before when it is asked for. Confined to one thread.
  *
  * @param grid the cells.
  * @param prior the range of the field: a cell's value before it is measured has its midpoint, and, for what is computed,
@@ -56,7 +57,11 @@ public class SelfCalibratingEstimator(
     private var visitedCount = 0
     private var refreshed = 0
     private var lastCell = Grid.OUTSIDE
+    private var lastSlot = LagBank.NONE
     private val fallback = Fallback(grid, prior)
+
+    /** Whether the boat's cell and the one before are to be written as the last reading left them. */
+    private var isDue = false
 
     init {
         require(work > 0) { "work ($work filters' steps a reading) must be above 0" }
@@ -95,11 +100,16 @@ public class SelfCalibratingEstimator(
     /** Which sensor models the readings leave possible, and with what parameters. Allocates. */
     public fun sensor(): SensorBelief = choice.belief(scale)
 
+    override val map: FieldMap get() {
+        writeDue()
+        return written
+    }
+
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
         fallback.take(cell, seconds, value, conditions)
         val scaled = (value - middle) / scale
         if (!(abs(scaled) <= FARTHEST)) {
-            map.countConflict(cell)
+            written.countConflict(cell)
             if (cell != lastCell) leave()
             return
         }
@@ -108,6 +118,8 @@ public class SelfCalibratingEstimator(
         if (learner.add(slots[cell], seconds, scaled, place)) writeAll()
         val slot = choice.crossings.slot(slots[cell], place)
         if (slot < 0) unplaced++
+        if (slot != lastSlot) writeDue()
+        lastSlot = slot
         if (learner.learn()) {
             writeAll()
             return
@@ -120,10 +132,8 @@ public class SelfCalibratingEstimator(
             writeAll()
             return
         }
-        write(slots[cell])
-        val here = choice.active.here
-        if (here != LagBank.NONE && here != slots[cell]) write(here)
-        if (choice.active.before != LagBank.NONE) write(choice.active.before)
+        isDue = true
+        if (!choice.canWait) writeDue()
         repeat(REFRESHED) {
             if (++refreshed >= visitedCount) {
                 refreshed = 0
@@ -131,6 +141,20 @@ public class SelfCalibratingEstimator(
             }
             write(refreshed)
         }
+    }
+
+    /**
+     * Writes the cells that the boat's last reading told of. That is put off for as long as the next reading tells of
+     * the same ones, and nothing is lost by it: each time they are written anew.
+     */
+    private fun writeDue() {
+        if (!isDue) return
+        isDue = false
+        val last = slots[lastCell]
+        write(last)
+        val here = choice.active.here
+        if (here != LagBank.NONE && here != last) write(here)
+        if (choice.active.before != LagBank.NONE) write(choice.active.before)
     }
 
     /** How well the place of the reading with [conditions] is known. */
@@ -145,6 +169,7 @@ public class SelfCalibratingEstimator(
     }
 
     private fun writeAll() {
+        isDue = false
         compareWithFallback()
         for (i in 0 until visitedCount) write(i)
     }
@@ -158,6 +183,7 @@ public class SelfCalibratingEstimator(
     }
 
     private fun enter(cell: Int) {
+        writeDue()
         if (lastCell != Grid.OUTSIDE && !touch(lastCell, cell)) leave()
         lastCell = cell
         if (slots[cell] == LagBank.NONE) {
@@ -169,6 +195,7 @@ public class SelfCalibratingEstimator(
 
     override fun leave() {
         if (lastCell == Grid.OUTSIDE) return
+        writeDue()
         lastCell = Grid.OUTSIDE
         fallback.leave()
         if (learner.add(LagBank.NONE, 0.0, 0.0)) writeAll()
@@ -200,17 +227,18 @@ public class SelfCalibratingEstimator(
         // What is not a number came of numbers too large to square: the cell keeps what it had.
         if (!lower.isFinite() || !upper.isFinite()) return
         val cell = visited[slot]
-        val prior = map.prior
+        val prior = written.prior
         if (!isExplained) {
+            fallback.bring(cell)
             val kept = if (fallback.isPreferred) fallback.map.value(cell) else value.coerceIn(prior.lower, prior.upper)
-            map.setValue(cell, kept)
-            map.setBounds(cell, minOf(kept, fallback.map.lower(cell)), maxOf(kept, fallback.map.upper(cell)))
+            written.setValue(cell, kept)
+            written.setBounds(cell, minOf(kept, fallback.map.lower(cell)), maxOf(kept, fallback.map.upper(cell)))
         } else if (upper < prior.lower || lower > prior.upper) {
-            map.setValue(cell, value)
-            map.setBounds(cell, lower, upper)
+            written.setValue(cell, value)
+            written.setBounds(cell, lower, upper)
         } else {
-            map.setValue(cell, value.coerceIn(prior.lower, prior.upper))
-            map.setBounds(cell, maxOf(prior.lower, lower), minOf(prior.upper, upper))
+            written.setValue(cell, value.coerceIn(prior.lower, prior.upper))
+            written.setBounds(cell, maxOf(prior.lower, lower), minOf(prior.upper, upper))
         }
     }
 
@@ -218,7 +246,7 @@ public class SelfCalibratingEstimator(
 
     public companion object {
         /** Cells whose value and bounds are brought up to date with each reading, besides the last two. */
-        public const val REFRESHED: Int = 4
+        public const val REFRESHED: Int = 1
 
         /** Largest distance of a usable reading from the prior's middle, in widths of the prior. */
         public const val FARTHEST: Double = 100.0

@@ -46,6 +46,9 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     var isExplained: Boolean = true
         private set
 
+    /** Whether a reading in a cell tells of that cell and the one before, and of no other, whenever it comes. */
+    val canWait: Boolean get() = isExplained && active === lag
+
     val timeConstant: Double get() = (active as? ResponseBankFit)?.let { exp(it.logTime) } ?: lag.timeConstant
 
     val relativeUncertainty: Double

@@ -32,6 +32,7 @@ class LegComparison(
         val opposite = triples(list, reach = 1)
         if (opposite.size < FEWEST_LEGS) return null
         val profiles = profiles(legs)
+        profiles.follow(list)
         val shifts = shifts(list)
         // scores[triple][shift], sensor units
         val scores = List(opposite.size) { DoubleArray(shifts.size) }
