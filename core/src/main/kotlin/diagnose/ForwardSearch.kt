@@ -88,7 +88,6 @@ internal class ForwardSearch(
         val full = chosen.last().fit
         val isCoarse = chosen.any { it.term.cause == Cause.QUANTISATION }
         val needless = chosen.filter { trial ->
-            if (trial === chosen.last() && !isCoarse) return@filter false
             val without = search.without(full, trial.term, base)
             val gain = if (isCoarse && trial.term.cause != Cause.QUANTISATION) {
                 RoundingNull(without, search.longest).gain(full, trial.term) - (trial.cost - 2 * trial.degrees)
