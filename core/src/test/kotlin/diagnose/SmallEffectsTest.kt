@@ -4,7 +4,9 @@ import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.PI
+import kotlin.math.atan
 import kotlin.math.exp
+import kotlin.math.hypot
 import kotlin.math.pow
 import kotlin.math.sin
 import kotlin.test.Test
@@ -71,6 +73,32 @@ class SmallEffectsTest {
         val clean = shown(SensorStage.Lag(8.0))
         val verdict = diagnosed(DoubleArray(n) { clean[it] + 0.08 * (1 - exp(-it / 200.0)) })
         assertContains(assertIs<Verdict.Unexplained>(verdict).what, "and settles within some")
+    }
+
+    /** Eleven standard errors for who knows the noise; the base model takes them for noise that wanders. */
+    @Test
+    fun twoSmallJumpsThatUndoEachOtherAreNamed() {
+        val clean = shown(SensorStage.Lag(8.0))
+        val verdict = diagnosed(DoubleArray(n) { clean[it] + if (it in 480 until 850) 0.007 else 0.0 })
+        assertEquals(listOf(Cause.OFFSET_STEPS), assertIs<Verdict.Named>(verdict).causes)
+    }
+
+    /** A hundredth of a row, in slow water: as a dead time of as much, from which nothing tells it there. */
+    @Test
+    fun aSecondLagMuchShorterThanARowIsNoDeadTimeForCertain() {
+        val slow = List(12) { k -> Triple(2 * PI / (40 + 13 * k), 2 * PI * random.nextDouble(), 0.2) }
+        val lags = listOf(8.0, 0.01)
+        val still = DoubleArray(n) { i -> slow.sumOf { (rate, phase, height) -> height * sin(rate * i + phase) } }
+        val values = DoubleArray(n) { i ->
+            slow.sumOf { (rate, phase, height) ->
+                val late = lags.sumOf { atan(rate * it) }
+                val lower = lags.fold(height) { left, tau -> left / hypot(1.0, rate * tau) }
+                lower * sin(rate * i + phase - late)
+            } + 5e-4 * random.nextGaussian()
+        }
+        val series = MeasuredSeries(times, times, DoubleArray(n), values, still, emptyMap())
+        val sets = assertIs<Verdict.Ambiguous>(Diagnosis(series).run().verdict).sets
+        assertEquals(setOf(Cause.SECOND_ORDER_RESPONSE, Cause.DEAD_TIME), sets.single().toSet())
     }
 
     /** At which speed the given time constant was found nobody said: 0.9 m/s is as good as the log's usual 0.8 m/s. */
