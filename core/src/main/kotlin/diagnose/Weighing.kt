@@ -45,7 +45,7 @@ internal class Weighing(
         val loose = LooseReadings(last)
         val outliers = loose.pValue * tried < settings.level
         val changing = water.pValue * tried < settings.level
-        val left = Structure(last, used, search.longest).dependences()
+        val left = Structure(last).dependences()
         val certain = listOfNotNull(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
