@@ -64,7 +64,7 @@ internal object CalibrationPoint {
         val drift = fit.number(Term(Cause.DRIFT))
         val all = scales.centred.map { (name, column) ->
             ends(fit.number(Term(Cause.CROSS_SENSITIVITY, name)), column) {
-                if (name == Conditions.TEMPERATURE) TEMPERATURES.map { it - scales.middles.getValue(name) } else emptyList()
+                TEMPERATURES.filter { name == Conditions.TEMPERATURE }.map { it - scales.middles.getValue(name) }
             }
         } + ends(drift, doubleArrayOf(0.0, fit.model.series.duration)) { emptyList() }
         val offset = fit.numbers[ResponseModel.OFFSET]
@@ -73,7 +73,7 @@ internal object CalibrationPoint {
         return low..high
     }
 
-    /** [factor] times the lowest and the highest of [column] and of what [others] there are; 0 where it does nothing. */
+    /** [factor] times the lowest and the highest of [column] and [others]; 0 where it does nothing. */
     private fun ends(
         factor: Double,
         column: DoubleArray,

@@ -63,7 +63,7 @@ internal class JumpPlaces(
         return best?.let { (first, second) -> refined(first, second) }
     }
 
-    /** [first] and [second] moved in turn to where they serve best, by less than the distance of the places looked at. */
+    /** [first] and [second] moved in turn to where they serve best, no farther than to the next places looked at. */
     private fun refined(first: Int, second: Int): List<Double> {
         val early = refined(first, beside = column(second), to = second - edge)
         val late = refined(second, beside = column(early), from = early + edge)

@@ -9,17 +9,17 @@ import kotlin.math.sqrt
 /**
  * How likely the best of all places for jumps gains so much where there are none.
  *
- * The gain of a jump at row k is Z(k)², with Z standard normal, and Z(k), Z(k + 1) correlated as their columns are: under
- * white noise nearly wholly, so that a thousand places are worth some ten, under noise that wanders hardly at all. With
- * θ² = 2 (1 − correlation) and ν(x) for steps that are not small,
- * P(max Z² > b²) ≈ 2 (1 − Φ(b)) + b φ(b) Σ θ² ν(bθ). The best few places are as independent scans: their sum, over the
- * orders in which they may be taken.
+ * The gain of a jump at row k is Z(k)², with Z standard normal, and Z(k), Z(k + 1) correlated as their columns are:
+ * under white noise nearly wholly, so that a thousand places are worth some ten, under noise that wanders hardly at
+ * all. With θ² = 2 (1 − correlation) and ν(x) for steps that are not small,
+ * P(max Z² > b²) ≈ 2 (1 − Φ(b)) + b φ(b) Σ θ² ν(bθ). The best few places are taken for independent scans: the chance of
+ * their sum, over the orders in which they may be taken.
  *
  * Source: Siegmund and Yakir 2007, The Statistics of Gene Mapping, ch. 5 (ν and the maximum over steps); Zhang and
  * Siegmund 2007, doi:10.1111/j.1541-0420.2006.00662.x (jumps). Differs: columns of noise that is not white.
  *
- * @param steps angle θ of each step between rows next to each other that was looked at. @param weight how many steps each
- * stands for.
+ * @param steps θ of each step between rows next to each other that was looked at, radians.
+ * @param weight how many steps each stands for.
  */
 internal class JumpScan(private val steps: DoubleArray, private val weight: Double) {
     /** Probability that one jump gains [gain] or more somewhere. */

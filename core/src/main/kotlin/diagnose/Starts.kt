@@ -117,7 +117,7 @@ internal class Starts(
         )
         val IN_PROPORTION = STEPS.keys
 
-        /** Shares of the rows that may be at an end; noise has a few of them beyond it, and a fit gets stuck between them. */
+        /** Shares of the rows that may be at an end: noise has a few of them beyond it, and fits get stuck there. */
         val ENDS = listOf(0.003, 0.01, 0.03, 0.1)
 
         /** A small share of the slow path. */

@@ -29,7 +29,11 @@ class SmallEffectsTest {
 
     private fun water(time: Double) = waves.sumOf { (rate, phase, height) -> height * sin(rate * time + phase) }
 
-    private fun shown(stage: SensorStage, condition: String = Conditions.SPEED, column: DoubleArray = speeds): DoubleArray {
+    private fun shown(
+        stage: SensorStage,
+        condition: String = Conditions.SPEED,
+        column: DoubleArray = speeds,
+    ): DoubleArray {
         val sensor = SensorSpec("", listOf(stage)).build(truth[0], kotlin.random.Random(1))
         return DoubleArray(n) { row ->
             var shown = sensor.step(truth[row], 0.0, Conditions.NONE)
