@@ -102,7 +102,6 @@ internal class CauseSearch(
         val rough = Starts(base, model, term).all()
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
             .maxBy { it.score }
-            .let { if (term.cause == Cause.SATURATION) RangeEnd.looked(it) else it }
         val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
         return inOrder(if (fine.score >= rough.score) fine else rough)
     }

@@ -1,16 +1,11 @@
 package stillwater.diagnose
 
-import kotlin.math.abs
 import kotlin.math.sqrt
 
 /** Whether readings stay at an end of the range. */
 internal object RangeEnd {
     private const val PART = 0.15
     private const val DEVIATIONS = 3.0
-
-    /** How far on either side of an end others are looked at, in the residuals' spread, and at how many places. */
-    private const val REACH = 4.0
-    private const val LOOKS = 40
 
     /**
      * Whether the readings that [fit] takes for ones at an end go on beyond it with what the model without an end
@@ -33,26 +28,6 @@ internal object RangeEnd {
             scatter += beyond * beyond * fit.residuals[i] * fit.residuals[i]
         }
         return products > PART * squares && products > DEVIATIONS * sqrt(scatter)
-    }
-
-    /**
-     * [fit] with each end at the best of many places near it, all else the same: each reading that it passes bends the
-     * likelihood, so that a descent stops too soon.
-     */
-    fun looked(fit: ModelFit): ModelFit {
-        val term = fit.model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return fit
-        val at = fit.model.slot(term)
-        val width = sqrt(squares(fit.residuals) / maxOf(fit.residuals.size, 1))
-        var best = fit
-        for (end in at..at + 1) {
-            if (abs(fit.numbers[end]) > ResponseModel.NO_END) continue
-            for (k in -LOOKS..LOOKS) {
-                val numbers = best.numbers.copyOf().also { it[end] = fit.numbers[end] + REACH * width * k / LOOKS }
-                val next = Fitting.at(fit.model, numbers, fit.free, fit.noise)
-                if (next.score > best.score) best = next
-            }
-        }
-        return best
     }
 
     /** What [model] shows at [numbers] but for the ends of [term]. */

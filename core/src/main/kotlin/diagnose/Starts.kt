@@ -64,9 +64,9 @@ internal class Starts(
         Cause.QUANTISATION -> listOf(0.15, 0.3, 0.45).map { with(it * scales.resolution) }
         Cause.SATURATION -> {
             val sorted = series.values.sortedArray()
-            fun low(share: Double) = sorted[(share * sorted.size).toInt()]
-            fun high(share: Double) = sorted[((1 - share) * (sorted.size - 1)).toInt()]
-            ENDS.map { with(low(it), 1e12) } + ENDS.map { with(-1e12, high(it)) } + with(low(ENDS[1]), high(ENDS[1]))
+            val low = sorted[(0.01 * sorted.size).toInt()]
+            val high = sorted[(0.99 * (sorted.size - 1)).toInt()]
+            listOf(with(low, 1e12), with(-1e12, high), with(low, high))
         }
         Cause.POSITION_OFFSET -> listOf(1.0, -1.0).map { with(it * scales.ordinarySpeed * series.period) } +
             with(tau * scales.ordinarySpeed / 2)
@@ -116,9 +116,6 @@ internal class Starts(
             Cause.TEMPERATURE_DEPENDENT_RESPONSE to 0.01,
         )
         val IN_PROPORTION = STEPS.keys
-
-        /** Shares of the rows that may be at an end: noise has a few of them beyond it, and fits get stuck there. */
-        val ENDS = listOf(0.003, 0.01, 0.03, 0.1)
 
         /** A small share of the slow path. */
         const val SHARE = 0.01

@@ -240,6 +240,8 @@ internal class Weighing(
             Cause.TEMPERATURE_DEPENDENT_RESPONSE,
             Cause.HYSTERESIS,
             Cause.POSITION_OFFSET,
+            // A truth that is guessed between rows swings beyond both ends of what it does.
+            Cause.SATURATION,
         )
     }
 }
