@@ -60,16 +60,18 @@ internal class CauseSearch(
         val degrees =
             maxOf(free + best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }, 1)
         val inflation = inflation(base, best)
-        val places = best.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
+        val places = jumpsBeyond(base, best)
         // The best of so many places gains twice the logarithm of their number by chance.
         val searched = if (places > 0) places * 2 * ln((series.size / 10).coerceIn(1, PLACES).toDouble()) else 0.0
         val gain = best.score - base.score
-        val ratio = maxOf(minOf(gain, evenly(base, best)) / inflation - searched, 0.0)
+        val corrected = minOf(gain, evenly(base, best)) / inflation
+        val ratio = maxOf(corrected - searched, 0.0)
         // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
         // differs by chance.
         val cost = searched + 2 * degrees
         val isNone = term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)
-        val p = if (isNone) 1.0 else maxOf(Evidence.pValue(ratio, degrees), ownPValue(base, best, term))
+        val own = if (places > 0) jumpsPValue(base, best, corrected) else Evidence.pValue(ratio, degrees)
+        val p = if (isNone) 1.0 else maxOf(own, ownPValue(base, best, term))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
@@ -120,19 +122,40 @@ internal class CauseSearch(
     /**
      * [base] with the jumps that serve it best: from the best one on and from the best two on, because of two that undo
      * each other neither need show alone; more are added while each is worth it.
+     *
+     * Places are looked for under several noises: the base's has taken the jump for its own wandering, and then sees it
+     * elsewhere or nowhere.
      */
     private fun jumps(base: ModelFit): ModelFit {
-        val known = base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty()
-        val places = JumpPlaces(base, PLACES)
-        val beginnings = listOfNotNull(places.single()?.let { listOf(it) }, places.pair())
-        return beginnings.map { jumps(base, known + it) }.maxByOrNull { fit ->
-            fit.score - JUMP_WORTH * fit.model.terms.sumOf { it.times.size }
-        } ?: base
+        val found = ArrayList<ModelFit>()
+        val noises = listOf(base.noise, CorrelatedNoise.white(scales, used)).distinctBy { it.share }
+        noises.forEach { found += jumps(base, it) }
+        found.maxByOrNull { it.score }?.let { found += jumps(base, it.noise) }
+        val shown = found.filter { jumpsPValue(base, it, it.score - base.score) < SHOWN * settings.level }
+        val best = shown.ifEmpty { found }.maxByOrNull { it.score - JUMP_WORTH * jumpsBeyond(base, it) } ?: return base
+        return jumps(base, best)
     }
 
-    private fun jumps(base: ModelFit, first: List<Double>): ModelFit {
-        var best = extended(base, Term(Cause.OFFSET_STEPS, times = first.sorted()))
-        for (count in first.size until MOST_JUMPS) {
+    /** [base] with the best jump, and with the best two, by [noise]. */
+    private fun jumps(base: ModelFit, noise: CorrelatedNoise): List<ModelFit> {
+        val known = base.model.terms.firstOrNull { it.cause == Cause.OFFSET_STEPS }?.times.orEmpty()
+        val places = JumpPlaces(Fitting.at(base.model, base.numbers, base.free, noise), PLACES)
+        return listOfNotNull(places.single()?.let { listOf(it) }, places.pair())
+            .map { extended(base, Term(Cause.OFFSET_STEPS, times = (known + it).sorted())) }
+    }
+
+    private fun jumpsBeyond(base: ModelFit, fit: ModelFit) =
+        fit.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
+
+    /** Of a [gain] of [fit], which has more jumps than [base]. */
+    private fun jumpsPValue(base: ModelFit, fit: ModelFit, gain: Double): Double {
+        val before = Fitting.at(base.model, base.numbers, base.free, fit.noise)
+        return JumpScan.of(before, JumpPlaces.edge(series.size)).pValue(gain, jumpsBeyond(base, fit))
+    }
+
+    private fun jumps(base: ModelFit, first: ModelFit): ModelFit {
+        var best = first
+        for (count in first.model.terms.sumOf { it.times.size } until MOST_JUMPS) {
             val times = best.model.terms.flatMap { it.times }
             val next = JumpPlaces(best, PLACES).single() ?: return best
             val fit = extended(best, Term(Cause.OFFSET_STEPS, times = (times + next).sorted()))
@@ -202,6 +225,9 @@ internal class CauseSearch(
         private const val PLACES = 60
         private const val MOST_JUMPS = 3
         private const val JUMP_WORTH = 25.0
+
+        /** Below this share of the level jumps show by themselves, whatever else is tried. */
+        private const val SHOWN = 0.05
 
         /** Longest correlation time of noise in [series], s. */
         fun longest(series: MeasuredSeries, settings: DiagnosisSettings): Double =

@@ -88,7 +88,6 @@ internal class ForwardSearch(
         val full = chosen.last().fit
         val isCoarse = chosen.any { it.term.cause == Cause.QUANTISATION }
         val needless = chosen.filter { trial ->
-            if (trial === chosen.last() && !isCoarse) return@filter false
             val without = search.without(full, trial.term, base)
             val gain = if (isCoarse && trial.term.cause != Cause.QUANTISATION) {
                 RoundingNull(without, search.longest).gain(full, trial.term) - (trial.cost - 2 * trial.degrees)
@@ -96,7 +95,7 @@ internal class ForwardSearch(
                 full.score - without.score
             }
             Evidence.pValue(gain, trial.degrees) * terms.size > settings.level &&
-                CalibrationPoint.isInLog(without, base, trial.term.cause.baseNumbers)
+                CalibrationPoint.isPossible(without, base, trial.term.cause.baseNumbers)
         }
         if (needless.isEmpty()) return chosen
         val kept = chosen.filter { it !in needless }
@@ -114,12 +113,15 @@ internal class ForwardSearch(
     fun alike(chosen: List<Trial>): List<List<Cause>> = chosen.map { trial ->
         if (chosen.size == 1) return@map alike(trial, trial.worth, first)
         // A given number that is wrong at all conditions of the log is not asked by likelihood: another cause holds it.
-        if (chosen.any { it.term.cause.conditionalNumber in trial.term.cause.baseNumbers }) {
-            return@map listOf(trial.term.cause)
-        }
+        val held = chosen.mapNotNull { it.term.cause.conditionalNumber }
+        val numbers = trial.term.cause.baseNumbers
+        if (numbers.isNotEmpty() && held.containsAll(numbers)) return@map listOf(trial.term.cause)
         val others = chosen.filter { it !== trial }.map { it.term.key }
         val last = chosen.last().fit
         val rest = search.without(last, trial.term, base)
+        // Of a gain and an offset another cause holds the offset: where the gain does not show, it was that.
+        val isHeld = numbers.any { it in held } && Evidence.pValue(last.score - rest.score, 1) > LIKELY
+        if (isHeld) return@map listOf(trial.term.cause)
         val likely = first.filter { it.pValue < LIKELY && it.term.key !in others && it.term.key != trial.term.key }
         val trials = likely.map { attempt(rest, baseHeldOut, it.term.copy(times = emptyList())) }
         alike(trial, last.score - rest.score - trial.cost, trials)

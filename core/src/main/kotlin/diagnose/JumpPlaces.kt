@@ -19,7 +19,7 @@ internal class JumpPlaces(
     private val series = fit.model.series
     private val n = series.size
     private val basis = Evidence.orthonormal(fit.jacobian.toList())
-    private val edge = maxOf(n / 50, 3)
+    private val edge = edge(n)
     private val stride = maxOf(n / (2 * count), 1)
     private val taken = fit.model.terms.flatMap { it.times }
     private val rows: List<Int> = run {
@@ -60,17 +60,28 @@ internal class JumpPlaces(
                 }
             }
         }
-        return best?.let { (first, second) -> listOf(timeBefore(first), timeBefore(second)) }
+        return best?.let { (first, second) -> refined(first, second) }
     }
 
-    private fun column(row: Int): DoubleArray {
-        val z = DoubleArray(n) { if (it >= row) 1.0 else 0.0 }
-        fit.noise.whiten(z, z)
-        return Evidence.without(z, basis)
+    /** [first] and [second] moved in turn to where they serve best, no farther than to the next places looked at. */
+    private fun refined(first: Int, second: Int): List<Double> {
+        val early = refined(first, beside = column(second), to = second - edge)
+        val late = refined(second, beside = column(early), from = early + edge)
+        return listOf(timeBefore(early), timeBefore(late))
     }
 
-    private fun gain(row: Int): Double {
-        val rest = column(row)
+    private fun refined(row: Int, beside: DoubleArray, from: Int = edge, to: Int = n - edge - 1): Int {
+        val other = Evidence.orthonormal(listOf(beside))
+        return (maxOf(row - stride, from)..minOf(row + stride, to)).maxByOrNull { gain(it, other) } ?: row
+    }
+
+    private fun column(row: Int) = column(fit, row, basis)
+
+    private fun gain(row: Int) = gain(row, emptyList())
+
+    /** What a jump at [row] gains beside [others], an orthonormal set. */
+    private fun gain(row: Int, others: List<DoubleArray>): Double {
+        val rest = if (others.isEmpty()) column(row) else Evidence.without(column(row), others)
         val length = squares(rest)
         val share = dot(rest, whitened)
         return if (length > LEAST) share * share / length else 0.0
@@ -80,8 +91,18 @@ internal class JumpPlaces(
 
     private fun timeBefore(row: Int) = (series.times[row] + series.times[row - 1]) / 2 - series.times[0]
 
-    private companion object {
-        const val STRIKING = 40
-        const val LEAST = 1e-9
+    companion object {
+        private const val STRIKING = 40
+        private const val LEAST = 1e-9
+
+        /** Rows at either end of a log of [size] that have no jump before them. */
+        fun edge(size: Int): Int = maxOf(size / 50, 3)
+
+        /** A jump at [row], whitened as in [fit], less what of it is in [basis]. */
+        fun column(fit: ModelFit, row: Int, basis: List<DoubleArray>): DoubleArray {
+            val z = DoubleArray(fit.model.series.size) { if (it >= row) 1.0 else 0.0 }
+            fit.noise.whiten(z, z)
+            return Evidence.without(z, basis)
+        }
     }
 }

@@ -55,7 +55,7 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
         return when (term.cause) {
             Cause.ASYMMETRIC_RESPONSE -> listOf(Parameter("log_ratio", "", false, -3.0, 3.0, 0.0))
             Cause.SECOND_ORDER_RESPONSE ->
-                listOf(Parameter("second_time_constant_s", "s", true, series.period / 50, longest))
+                listOf(Parameter("second_time_constant_s", "s", true, SHORTEST * series.period, longest))
             Cause.TWO_PATH_RESPONSE -> listOf(
                 Parameter("slow_ratio", "", true, 1.05, 300.0),
                 Parameter("slow_share", "", false, 0.0, 0.95, 0.0),
@@ -85,6 +85,11 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
             Cause.POSITION_OFFSET -> listOf(Parameter("behind_m", "m", false, -1e4, 1e4, 0.0))
             else -> emptyList()
         }
+    }
+
+    private companion object {
+        /** The second of two lags, in rows: one that shows may be a fiftieth of a row where the noise is small. */
+        const val SHORTEST = 2e-4
     }
 }
 

@@ -24,12 +24,11 @@ public data class Dependence(
 )
 
 /** Looks for any dependence of residuals that no cause of the list need explain. */
-internal class Structure(private val fit: ModelFit, private val used: BooleanArray, private val longest: Double) {
+internal class Structure(private val fit: ModelFit) {
     private val series = fit.model.series
     private val scales = fit.model.scales
     private val n = series.size
     private val basis = Evidence.orthonormal(fit.jacobian.toList())
-    private val derivatives = Fitting.derivatives(fit)
     private val square = squares(fit.whitened)
     private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
     private val rate = DoubleArray(n) { i ->
@@ -54,8 +53,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val rest = Evidence.without(fit.whitened, directions)
         val inflation = Evidence.inflation(directions, rest, isGivenBack = true)
         val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
-        val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
-        val ratio = (if (worth) minOf(maxOf(quick, fitted(columns)), evenly(rest)) else quick) / inflation
+        val ratio = minOf(quick, evenly(rest)) / inflation
         return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
     }
 
@@ -70,27 +68,6 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
             after += weight * rest[i] * rest[i]
         }
         return Evidence.ratio(before, after, fit.noise.rows)
-    }
-
-    /**
-     * Twice the gain in log-likelihood with [columns] in the model and the noise fitted anew: what they explain was
-     * noise before.
-     */
-    private fun fitted(columns: List<DoubleArray>): Double {
-        val all = derivatives + columns
-        var noise = fit.noise
-        var best = fit.score
-        repeat(2) {
-            val whitened = all.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }.toTypedArray()
-            val z = DoubleArray(n).also { noise.whiten(fit.residuals, it) }
-            val step = SymmetricSystem.of(whitened, z).solve(0.0)
-            val rest = fit.residuals.copyOf()
-            for (k in all.indices) for (i in 0 until n) rest[i] -= step[k] * all[k][i]
-            noise = CorrelatedNoise.of(scales, rest, used, longest)
-            noise.whiten(rest, z)
-            best = maxOf(best, noise.twiceLogLikelihood(squares(z)))
-        }
-        return best - fit.score
     }
 
     private fun groups(): List<Pair<String, List<DoubleArray>>> = buildList {
@@ -225,7 +202,6 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         }
 
         private const val MOST_FREQUENCIES = 2500
-        private const val WORTH_A_FIT = 0.3
 
         /** Frequencies that are looked at more closely, in which places beside them, and as how many they count. */
         private const val REFINED = 4

@@ -45,7 +45,7 @@ internal class Weighing(
         val loose = LooseReadings(last)
         val outliers = loose.pValue * tried < settings.level
         val changing = water.pValue * tried < settings.level
-        val left = Structure(last, used, search.longest).dependences()
+        val left = Structure(last).dependences()
         val certain = listOfNotNull(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
@@ -240,6 +240,8 @@ internal class Weighing(
             Cause.TEMPERATURE_DEPENDENT_RESPONSE,
             Cause.HYSTERESIS,
             Cause.POSITION_OFFSET,
+            // A truth that is guessed between rows swings beyond both ends of what it does.
+            Cause.SATURATION,
         )
     }
 }

@@ -4,7 +4,9 @@ import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.PI
+import kotlin.math.atan
 import kotlin.math.exp
+import kotlin.math.hypot
 import kotlin.math.pow
 import kotlin.math.sin
 import kotlin.test.Test
@@ -27,24 +29,31 @@ class SmallEffectsTest {
 
     private fun water(time: Double) = waves.sumOf { (rate, phase, height) -> height * sin(rate * time + phase) }
 
-    private fun shown(stage: SensorStage): DoubleArray {
+    private fun shown(
+        stage: SensorStage,
+        condition: String = Conditions.SPEED,
+        column: DoubleArray = speeds,
+    ): DoubleArray {
         val sensor = SensorSpec("", listOf(stage)).build(truth[0], kotlin.random.Random(1))
         return DoubleArray(n) { row ->
             var shown = sensor.step(truth[row], 0.0, Conditions.NONE)
             if (row > 0) {
                 repeat(10) { k ->
                     val share = (k + 0.5) / 10
-                    val speed = speeds[row - 1] + share * (speeds[row] - speeds[row - 1])
-                    shown = sensor.step(water(row - 1 + share), 0.1, Conditions(mapOf(Conditions.SPEED to speed)))
+                    val between = column[row - 1] + share * (column[row] - column[row - 1])
+                    shown = sensor.step(water(row - 1 + share), 0.1, Conditions(mapOf(condition to between)))
                 }
             }
             shown
         }
     }
 
-    private fun diagnosed(clean: DoubleArray, base: SensorSpec? = null): Verdict {
+    private fun diagnosed(
+        clean: DoubleArray,
+        base: SensorSpec? = null,
+        conditions: Map<String, DoubleArray> = mapOf(Conditions.SPEED to speeds),
+    ): Verdict {
         val values = DoubleArray(n) { clean[it] + noise * random.nextGaussian() }
-        val conditions = mapOf(Conditions.SPEED to speeds)
         val series = MeasuredSeries(times, times, DoubleArray(n), values, truth, conditions)
         return Diagnosis(series, DiagnosisSettings(base = base)).run().verdict
     }
@@ -73,12 +82,49 @@ class SmallEffectsTest {
         assertContains(assertIs<Verdict.Unexplained>(verdict).what, "and settles within some")
     }
 
+    /** Nine standard errors for who knows the noise; the base model takes them for noise that wanders. */
+    @Test
+    fun twoSmallJumpsThatUndoEachOtherAreNamed() {
+        val clean = shown(SensorStage.Lag(8.0))
+        val verdict = diagnosed(DoubleArray(n) { clean[it] + if (it in 480 until 850) 0.006 else 0.0 })
+        assertEquals(listOf(Cause.OFFSET_STEPS), assertIs<Verdict.Named>(verdict).causes)
+    }
+
+    /** A hundredth of a row, in slow water: as a dead time of as much, from which nothing tells it there. */
+    @Test
+    fun aSecondLagMuchShorterThanARowIsNoDeadTimeForCertain() {
+        val slow = List(12) { k -> Triple(2 * PI / (40 + 13 * k), 2 * PI * random.nextDouble(), 0.2) }
+        val lags = listOf(8.0, 0.01)
+        val still = DoubleArray(n) { i -> slow.sumOf { (rate, phase, height) -> height * sin(rate * i + phase) } }
+        val values = DoubleArray(n) { i ->
+            slow.sumOf { (rate, phase, height) ->
+                val late = lags.sumOf { atan(rate * it) }
+                val lower = lags.fold(height) { left, tau -> left / hypot(1.0, rate * tau) }
+                lower * sin(rate * i + phase - late)
+            } + 5e-4 * random.nextGaussian()
+        }
+        val series = MeasuredSeries(times, times, DoubleArray(n), values, still, emptyMap())
+        val sets = assertIs<Verdict.Ambiguous>(Diagnosis(series).run().verdict).sets
+        assertEquals(setOf(Cause.SECOND_ORDER_RESPONSE, Cause.DEAD_TIME), sets.single().toSet())
+    }
+
     /** At which speed the given time constant was found nobody said: 0.9 m/s is as good as the log's usual 0.8 m/s. */
     @Test
     fun aGivenTimeConstantThatGoesWithSpeedIsNotWrongBesides() {
         val given = SensorSpec("given", listOf(SensorStage.Lag(8.0), SensorStage.Calibration(1.0, 0.0)))
         val verdict = diagnosed(shown(SensorStage.FlowLag(8.0, 0.9, 0.3)), given)
         assertEquals(Verdict.Named(listOf(Cause.FLOW_DEPENDENT_RESPONSE)), verdict)
+    }
+
+    /** Calibrated in a laboratory at 20 °C, and used in a lake of 5 to 8 °C. */
+    @Test
+    fun aGivenTimeConstantOfWarmerWaterThanTheLogsIsNotWrongBesides() {
+        val given = SensorSpec("given", listOf(SensorStage.Lag(5.0), SensorStage.Calibration(1.0, 0.0)))
+        val cold = DoubleArray(n) { 6.5 + 1.5 * sin(it / 37.0) }
+        val lag = SensorStage.TemperatureLag(5.0, 20.0, 0.05)
+        val conditions = mapOf(Conditions.TEMPERATURE to cold)
+        val verdict = diagnosed(shown(lag, Conditions.TEMPERATURE, cold), given, conditions)
+        assertEquals(Verdict.Named(listOf(Cause.TEMPERATURE_DEPENDENT_RESPONSE)), verdict)
     }
 
     @Test
