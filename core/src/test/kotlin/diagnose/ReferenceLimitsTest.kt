@@ -45,6 +45,63 @@ class ReferenceLimitsTest {
         assertTrue(left < 0.025, "$left")
     }
 
+    @Test
+    fun whatIsLeftOfTheNoiseOfAReferenceIsNoResponse() {
+        // As noisy as the readings of a sensor that is no later than the water.
+        val times = DoubleArray(LONG) { it.toDouble() }
+        fun noisy() = DoubleArray(LONG) { 2 * water(times[it]) + 0.05 * random.nextGaussian() }
+        val log = MeasuredSeries(times, times, DoubleArray(LONG), noisy(), noisy())
+        assertEquals(Verdict.Consistent, Diagnosis(log).run().verdict)
+    }
+
+    /** A truth that goes from sample to sample at once, [within] a row, every minute or so; what [shown] makes of it. */
+    private fun bench(within: () -> Double, shown: (truth: (Double) -> Double) -> DoubleArray): DiagnosisResult {
+        val starts = List(n / 55) { 57.0 * it + within() }
+        val levels = List(starts.size) { 2 + 8 * random.nextDouble() }
+        fun truth(time: Double) = levels[starts.indexOfLast { it <= time }.coerceAtLeast(0)]
+        val times = DoubleArray(n) { it.toDouble() }
+        val values = shown(::truth)
+        for (i in values.indices) values[i] += 0.01 * random.nextGaussian()
+        val reference = DoubleArray(n) { truth(times[it]) + 0.001 * random.nextGaussian() }
+        return Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, reference)).run()
+    }
+
+    @Test
+    fun aDelayOfLessThanARowBehindSharpStepsIsNoDeadTime() {
+        val result = bench({ 0.0 }) { truth ->
+            var state = truth(0.0)
+            var shown = state
+            DoubleArray(n) { row ->
+                if (row > 0) state += (1 - exp(-1 / 8.0)) * (truth(row - 0.5) - state)
+                shown = shown.coerceIn(state - 0.15, state + 0.15)
+                shown
+            }
+        }
+        assertEquals(Verdict.Named(listOf(Cause.HYSTERESIS)), result.verdict)
+        assertTrue(result.warnings.any { "cannot show" in it }, "${result.warnings}")
+    }
+
+    @Test
+    fun rampsThatBeginWithinARowHaveNoDeadBand() {
+        val result = bench({ random.nextDouble() }) { truth ->
+            var shown = truth(0.0)
+            DoubleArray(n) { row ->
+                if (row > 0) repeat(10) { k -> shown += (truth(row - 0.95 + 0.1 * k) - shown).coerceIn(-0.008, 0.008) }
+                shown
+            }
+        }
+        assertEquals(Verdict.Named(listOf(Cause.SLEW_LIMIT)), result.verdict)
+    }
+
+    @Test
+    fun aShiftOfLessThanATenthOfARowIsToldAndNotNamed() {
+        val times = DoubleArray(LONG) { it.toDouble() }
+        val truth = DoubleArray(LONG) { water(times[it]) }
+        val values = DoubleArray(LONG) { water(times[it] - 0.06) + 0.002 * random.nextGaussian() }
+        val result = Diagnosis(MeasuredSeries(times, DoubleArray(LONG), DoubleArray(LONG), values, truth)).run()
+        assertEquals(Verdict.Consistent, result.verdict)
+    }
+
     /** Rounds of a circle, a little apart, in water that rises by [rise] a second. */
     private fun rounds(rise: Double): ChangingWater {
         val angle = DoubleArray(n) { it / 20.0 }
@@ -63,5 +120,10 @@ class ReferenceLimitsTest {
         assertTrue(changed.pValue < 1e-6, "${changed.pValue}")
         assertEquals(0.001, changed.rate, 3 * changed.error)
         assertTrue(rounds(0.0).pValue > 0.01)
+    }
+
+    private companion object {
+        /** Rows in which what a short log hides shows. */
+        const val LONG = 2000
     }
 }
