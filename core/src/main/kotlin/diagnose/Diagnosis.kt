@@ -55,9 +55,9 @@ public class Diagnosis(
         val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
         val shown = noise.spread * abs(rough.numbers[ResponseModel.GAIN])
         if (!(shown > NOISY * Spikes.spread(rough.whitened))) return null
-        // How much of its noise is taken off is asked of the readings: what is left would make a response that smooths it
-        // (the truth held, and a lag more that undoes the lead) look likelier than the right one. Nothing is to go that
-        // is more than the noise.
+        // How much of its noise is taken off is asked of the readings: what is left would make a response that smooths
+        // it (the truth held, and a lag more that undoes the lead) look likelier than the right one. Nothing is to go
+        // that is more than the noise.
         val courses = SmoothCourse(reference, unknown.isBroken)
         val most = noise.spread * (1 + CLEARLY / sqrt(2.0 * series.size))
         val smooth = SmoothCourse.STIFFNESSES.map(courses::of).filter { course ->
@@ -78,7 +78,8 @@ public class Diagnosis(
         // with each beginning of it, because what came after may make up for the wrong way.
         // Where it moves in sharp steps a row's delay goes with the one way and half of it with the other, too much for
         // the numbers of one to do for the other.
-        val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) || first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
+        val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) ||
+            first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         return (if (doubtful) better(first) else first).result().also { progress(1.0) }
     }
 

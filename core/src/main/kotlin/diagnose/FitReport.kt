@@ -72,7 +72,9 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         }
         val reach = NORMAL_95 * error
         if (!reach.isFinite() || reach == 0.0) return null
-        if (!parameter.logarithmic) return Interval(parameter.possible(value - reach - open(fit, parameter)), value + reach)
+        if (!parameter.logarithmic) {
+            return Interval(parameter.possible(value - reach - open(fit, parameter)), value + reach)
+        }
         return Interval(value * exp(-minOf(reach, FAR)), value * exp(minOf(reach, FAR)))
     }
 

@@ -15,7 +15,7 @@ internal object Spikes {
     private val FREEDOMS = listOf(3.0, 5.0, 8.0, 15.0, 30.0)
     private val WIDTHS = listOf(0.85, 0.9, 0.95, 1.0, 1.05)
 
-    /** How far a row is off the middle of those beside it, over the longer of the ways there: of a single row 1, else a half. */
+    /** How far a row is off the middle of those beside it, over the longer of the ways there: 1 of a single row, else ½. */
     private const val RETURNED = 0.75
 
     /**
@@ -36,8 +36,8 @@ internal object Spikes {
     }
 
     /**
-     * Whether row [i] of [residuals] is off by itself: after a jump, or after what fades slowly, they stay where they are,
-     * and the rows beside a wild one are off only what it makes of their middle.
+     * Whether row [i] of [residuals] is off by itself: after a jump, or after what fades slowly, they stay where they
+     * are, and the rows beside a wild one are off only what it makes of their middle.
      */
     fun isSingle(residuals: DoubleArray, i: Int): Boolean {
         if (i == 0 || i == residuals.size - 1) return true

@@ -28,9 +28,10 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
     private val series = fit.model.series
     private val scales = fit.model.scales
     private val n = series.size
-    private val basis = Evidence.orthonormal(fit.jacobian.toList())
+    private val basis by lazy { Evidence.orthonormal(fit.jacobian.toList() + stepShifts()) }
     private val derivatives = Fitting.derivatives(fit)
     private val square = squares(fit.whitened)
+    private val isSharp = scales.unknown?.isSharp == true
     private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
     private val rate = DoubleArray(n) { i ->
         val from = maxOf(i - 1, 0)
@@ -54,7 +55,7 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
         val rest = Evidence.without(fit.whitened, directions)
         val inflation = Evidence.inflation(directions, rest, isGivenBack = true)
         val quick = Evidence.ratio(square, square - explained, fit.noise.rows)
-        val worth = Evidence.pValue(quick, directions.size) < WORTH_A_FIT
+        val worth = !isSharp && Evidence.pValue(quick, directions.size) < WORTH_A_FIT
         val ratio = (if (worth) minOf(maxOf(quick, fitted(columns)), evenly(rest)) else quick) / inflation
         return Dependence(name, ratio, directions.size, Evidence.pValue(ratio, directions.size))
     }
@@ -150,6 +151,17 @@ internal class Structure(private val fit: ModelFit, private val used: BooleanArr
             val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
             state += -expm1(-dt / tau) * (column[i] - state)
             state
+        }
+    }
+
+    /** What each step of a sharp truth, a little later, would add, whitened: when within its row it came is not known. */
+    private fun stepShifts(): List<DoubleArray> {
+        val isBroken = scales.unknown?.takeIf { isSharp }?.isBroken ?: return emptyList()
+        val starts = (1 until n).filter { isBroken[it] }
+        return starts.mapIndexed { k, from ->
+            val to = starts.getOrElse(k + 1) { n }
+            val column = DoubleArray(n) { if (it in from until to) rate[it] else 0.0 }
+            column.also { fit.noise.whiten(it, it) }
         }
     }
 

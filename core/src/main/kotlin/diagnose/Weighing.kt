@@ -91,7 +91,7 @@ internal class Weighing(
         if (named && most.adjusted < settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${most.description}.")
         }
-        if (base.model.held && scales.unknown?.isSharp == true) {
+        if (scales.unknown?.isSharp == true) {
             add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
         } else if (base.model.held && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
             add(

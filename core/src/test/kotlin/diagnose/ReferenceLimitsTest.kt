@@ -6,6 +6,7 @@ import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.test.Test
 import kotlin.test.assertEquals
+import kotlin.test.assertIs
 import kotlin.test.assertTrue
 
 /** What a reference does not say must not become a cause. */
@@ -54,14 +55,14 @@ class ReferenceLimitsTest {
         assertEquals(Verdict.Consistent, Diagnosis(log).run().verdict)
     }
 
-    /** A truth that goes from sample to sample at once, [within] a row, every minute or so; what [shown] makes of it. */
+    /** A truth that goes from sample to sample at once, [within] a row, every minute, as [shown] by a sensor. */
     private fun bench(within: () -> Double, shown: (truth: (Double) -> Double) -> DoubleArray): DiagnosisResult {
         val starts = List(n / 55) { 57.0 * it + within() }
         val levels = List(starts.size) { 2 + 8 * random.nextDouble() }
         fun truth(time: Double) = levels[starts.indexOfLast { it <= time }.coerceAtLeast(0)]
         val times = DoubleArray(n) { it.toDouble() }
         val values = shown(::truth)
-        for (i in values.indices) values[i] += 0.01 * random.nextGaussian()
+        for (i in values.indices) values[i] += 0.02 * random.nextGaussian()
         val reference = DoubleArray(n) { truth(times[it]) + 0.001 * random.nextGaussian() }
         return Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, reference)).run()
     }
@@ -90,7 +91,9 @@ class ReferenceLimitsTest {
                 shown
             }
         }
-        assertEquals(Verdict.Named(listOf(Cause.SLEW_LIMIT)), result.verdict)
+        val named = assertIs<Verdict.Named>(result.verdict).causes
+        // What a step within a row does to a ramp may still be taken for a jump.
+        assertTrue(Cause.SLEW_LIMIT in named && Cause.HYSTERESIS !in named && Cause.DEAD_TIME !in named, "$named")
     }
 
     @Test

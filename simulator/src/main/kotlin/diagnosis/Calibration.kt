@@ -5,8 +5,8 @@ import stillwater.report.SignificantDigits
 import kotlin.math.abs
 
 /**
- * Gain and offset of a sensor against its reference, for the reader: the base model fits them, so that they are no cause,
- * but who has the log wants to know that the sensor reads high.
+ * Gain and offset of a sensor against its reference, for the reader: the base model fits them, so that they are no
+ * cause, but who has the log wants to know that the sensor reads high.
  */
 internal class Calibration(private val diagnosed: Diagnosed) {
     private val model = diagnosed.result.extended ?: diagnosed.result.baseline
@@ -28,16 +28,19 @@ internal class Calibration(private val diagnosed: Diagnosed) {
         val ends = listOfNotNull(truth.minOrNull(), truth.maxOrNull())
         val errors = ends.map { (gain.value - 1) * it + offset.value }
         if (errors.all { abs(it) <= model.trainRmse }) return null
-        return "calibration against the reference: gain ${diagnosed.number(gain)}, offset ${diagnosed.number(offset)}; " +
-            "the sensor reads " + ends.indices.joinToString(" and ") { high(errors[it], ends[it]) }
+        return "calibration against the reference: gain ${diagnosed.number(gain)}, " +
+            "offset ${diagnosed.number(offset)}; the sensor reads " +
+            ends.indices.joinToString(" and ") { high(errors[it], ends[it]) }
     }
 
-    private fun isOff(estimate: Estimate, neutral: Double) = estimate.interval?.let { neutral !in it.lower..it.upper } == true
+    private fun isOff(estimate: Estimate, neutral: Double) =
+        estimate.interval?.let { neutral !in it.lower..it.upper } == true
 
     /** [error] where the truth is [value], in words. */
     private fun high(error: Double, value: Double): String {
         val side = if (error < 0) "low" else "high"
         val share = if (abs(value) > abs(error)) " (${three.format(100 * abs(error / value))} %)" else ""
-        return "${three.format(abs(error))}${diagnosed.unitAfter} too $side$share where that shows ${three.format(value)}"
+        val size = three.format(abs(error)) + diagnosed.unitAfter
+        return "$size too $side$share where that shows ${three.format(value)}"
     }
 }

@@ -100,7 +100,7 @@ class Diagnosed(
             .filter { (cause, _) -> cause.label in causes }
             .joinToString("") { (_, words) -> ", with $words" }
 
-    /** How the sensor's gain and offset differ from the reference's, or null where they do not clearly, or none is free. */
+    /** How the sensor's gain and offset are off the reference; null where they are not clearly, or were given. */
     val calibration: String? = if (log.reference == null) null else Calibration(this).words()
 
     /** [parameters] in words. */
