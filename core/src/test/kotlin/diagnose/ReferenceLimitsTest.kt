@@ -55,21 +55,21 @@ class ReferenceLimitsTest {
         assertEquals(Verdict.Consistent, Diagnosis(log).run().verdict)
     }
 
-    /** A truth that goes from sample to sample at once, [within] a row, every minute, as [shown] by a sensor. */
-    private fun bench(within: () -> Double, shown: (truth: (Double) -> Double) -> DoubleArray): DiagnosisResult {
-        val starts = List(n / 55) { 57.0 * it + within() }
-        val levels = List(starts.size) { 2 + 8 * random.nextDouble() }
+    /** A truth that goes from sample to sample at once, every [apart] s, as [shown] by a sensor. */
+    private fun bench(rows: Int, apart: () -> Double, shown: (truth: (Double) -> Double) -> DoubleArray): DiagnosisResult {
+        val starts = generateSequence(0.0) { it + apart() }.takeWhile { it < rows }.toList()
+        val levels = List(starts.size) { 2 + 9 * random.nextDouble() }
         fun truth(time: Double) = levels[starts.indexOfLast { it <= time }.coerceAtLeast(0)]
-        val times = DoubleArray(n) { it.toDouble() }
+        val times = DoubleArray(rows) { it.toDouble() }
         val values = shown(::truth)
         for (i in values.indices) values[i] += 0.02 * random.nextGaussian()
-        val reference = DoubleArray(n) { truth(times[it]) + 0.001 * random.nextGaussian() }
-        return Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, reference)).run()
+        val reference = DoubleArray(rows) { truth(times[it]) + 0.02 * random.nextGaussian() }
+        return Diagnosis(MeasuredSeries(times, DoubleArray(rows), DoubleArray(rows), values, reference)).run()
     }
 
     @Test
     fun aDelayOfLessThanARowBehindSharpStepsIsNoDeadTime() {
-        val result = bench({ 0.0 }) { truth ->
+        val result = bench(n, { 57.0 }) { truth ->
             var state = truth(0.0)
             var shown = state
             DoubleArray(n) { row ->
@@ -84,9 +84,9 @@ class ReferenceLimitsTest {
 
     @Test
     fun rampsThatBeginWithinARowHaveNoDeadBand() {
-        val result = bench({ random.nextDouble() }) { truth ->
+        val result = bench(LONG, { 50 + 80 * random.nextDouble() }) { truth ->
             var shown = truth(0.0)
-            DoubleArray(n) { row ->
+            DoubleArray(LONG) { row ->
                 if (row > 0) repeat(10) { k -> shown += (truth(row - 0.95 + 0.1 * k) - shown).coerceIn(-0.008, 0.008) }
                 shown
             }
@@ -100,7 +100,7 @@ class ReferenceLimitsTest {
     fun aShiftOfLessThanATenthOfARowIsToldAndNotNamed() {
         val times = DoubleArray(LONG) { it.toDouble() }
         val truth = DoubleArray(LONG) { water(times[it]) }
-        val values = DoubleArray(LONG) { water(times[it] - 0.06) + 0.002 * random.nextGaussian() }
+        val values = DoubleArray(LONG) { water(times[it] + 0.06) + 0.002 * random.nextGaussian() }
         val result = Diagnosis(MeasuredSeries(times, DoubleArray(LONG), DoubleArray(LONG), values, truth)).run()
         assertEquals(Verdict.Consistent, result.verdict)
     }

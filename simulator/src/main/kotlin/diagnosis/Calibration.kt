@@ -41,6 +41,6 @@ internal class Calibration(private val diagnosed: Diagnosed) {
         val side = if (error < 0) "low" else "high"
         val share = if (abs(value) > abs(error)) " (${three.format(100 * abs(error / value))} %)" else ""
         val size = three.format(abs(error)) + diagnosed.unitAfter
-        return "$size too $side$share where that shows ${three.format(value)}"
+        return "$size too $side$share where the reference shows ${three.format(value)}"
     }
 }
