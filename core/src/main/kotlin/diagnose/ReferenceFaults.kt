@@ -23,7 +23,7 @@ internal class ReferenceFaults(
     /** How the reference differs if that explains as much as causes do that are worth [explained]; null if not. */
     fun words(explained: Double): String? {
         val ahead = -late.fit.numbers[late.fit.model.slot(late.term)]
-        val isLate = ahead > SmallShifts.LEAST_ROWS * series.period && late.pValue * tried < level && late.foretells &&
+        val isLate = ahead > 0 && late.pValue * tried < level && late.foretells &&
             late.fit.score - late.cost >= explained
         return when {
             isLate ->
