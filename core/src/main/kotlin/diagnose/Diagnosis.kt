@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.abs
+import kotlin.math.sqrt
 
 /**
  * Finds what a simulation gets wrong about a measured log, by name.
@@ -54,14 +55,31 @@ public class Diagnosis(
         val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
         val shown = noise.spread * abs(rough.numbers[ResponseModel.GAIN])
         if (!(shown > NOISY * Spikes.spread(rough.whitened))) return null
-        return series.withQuieter(noise.smoothed())
+        // How much of its noise is taken off is asked of the readings: what is left would make a response that smooths
+        // it (the truth held, and a lag more that undoes the lead) look likelier than the right one. Nothing is to go
+        // that is more than the noise.
+        val courses = SmoothCourse(reference, unknown.isBroken)
+        val most = noise.spread * (1 + CLEARLY / sqrt(2.0 * series.size))
+        val smooth = SmoothCourse.STIFFNESSES.map(courses::of).filter { course ->
+            squares(DoubleArray(series.size) { reference[it] - course[it] }) <= most * most * series.size
+        }
+        return (smooth + noise.smoothed()).map(series::withQuieter).maxBy(::explained)
+    }
+
+    /** Twice the log-likelihood of the base for [quiet], this log with another reference. */
+    private fun explained(quiet: MeasuredSeries): Double {
+        val model = ResponseModel(quiet, rough.model.terms, false, Scales(quiet, unknown))
+        return Fitting.fit(model, rough.numbers, rough.free, used, longest, guess = rough.noise).score
     }
 
     private fun weighed(): DiagnosisResult {
         val first = weighing(null)
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
         // with each beginning of it, because what came after may make up for the wrong way.
-        val doubtful = first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
+        // Where it moves in sharp steps a row's delay goes with the one way and half of it with the other, too much for
+        // the numbers of one to do for the other.
+        val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) ||
+            first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         return (if (doubtful) better(first) else first).result().also { progress(1.0) }
     }
 
@@ -160,5 +178,8 @@ public class Diagnosis(
 
         /** Noise of the reference, in that of the readings, above which it is taken off. */
         const val NOISY = 0.2
+
+        /** Standard errors of the reference's noise by which what is taken off may be larger. */
+        const val CLEARLY = 3.0
     }
 }

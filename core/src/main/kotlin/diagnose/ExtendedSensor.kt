@@ -10,12 +10,13 @@ import kotlin.math.sqrt
  * A fitted model as a sensor that the simulator runs.
  *
  * @param spikes single readings that are far off; null for none. @param isRounded whether readings are rounded although
- *   the model says nothing of it.
+ *   the model says nothing of it. @param leftOut what of the model is no property of the sensor.
  */
 internal class ExtendedSensor(
     private val fit: ModelFit,
     private val spikes: SpikeSize?,
     private val isRounded: Boolean = false,
+    private val leftOut: Set<Cause> = emptySet(),
 ) {
     private val model = fit.model
     private val numbers = fit.numbers
@@ -29,7 +30,7 @@ internal class ExtendedSensor(
     fun spec(name: String): SensorSpec = SensorSpec(name, response() + shown())
 
     private fun value(cause: Cause, k: Int = 0): Double? =
-        model.terms.firstOrNull { it.cause == cause }?.let { numbers[model.slot(it) + k] }
+        model.terms.firstOrNull { it.cause == cause && cause !in leftOut }?.let { numbers[model.slot(it) + k] }
 
     private fun response(): List<SensorStage> = buildList {
         value(Cause.POSITION_OFFSET)?.let { behind ->

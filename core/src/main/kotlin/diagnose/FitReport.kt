@@ -72,8 +72,16 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         }
         val reach = NORMAL_95 * error
         if (!reach.isFinite() || reach == 0.0) return null
-        if (!parameter.logarithmic) return Interval(parameter.possible(value - reach), value + reach)
+        if (!parameter.logarithmic) {
+            return Interval(parameter.possible(value - reach - open(fit, parameter)), value + reach)
+        }
         return Interval(value * exp(-minOf(reach, FAR)), value * exp(minOf(reach, FAR)))
+    }
+
+    /** What sharp steps of a truth that is held leave open of [parameter], downward: each may have come a row later. */
+    private fun open(fit: ModelFit, parameter: Parameter): Double {
+        val isOpen = parameter.name == "dead_time_s" && fit.model.held && fit.model.scales.unknown?.isSharp == true
+        return if (isOpen) series.period else 0.0
     }
 
     /**

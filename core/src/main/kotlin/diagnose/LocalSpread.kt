@@ -53,7 +53,12 @@ internal object LocalSpread {
         val series = fit.model.series
         val shown = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
         val rates = DoubleArray(series.size) { abs(shown[it] - shown[maxOf(it - 1, 0)]) }
-        return listOf(series.times, shown, rates, series.speed) + fit.model.scales.centred.values
+        // A lag shows a front late and flat: noise that is larger in the front itself goes with the truth's own rate.
+        val truth = series.reference?.let { u ->
+            DoubleArray(u.size) { abs(u[minOf(it + 1, u.size - 1)] - u[maxOf(it - 1, 0)]) }
+        }
+        return listOf(series.times, shown, rates, series.speed) + listOfNotNull(truth) +
+            fit.model.scales.centred.values
     }
 
     /**

@@ -19,6 +19,22 @@ internal val Cause.conditionalNumber: Int?
         else -> null
     }
 
+/** Whether this shows in how the reading follows the truth from row to row. */
+internal val Cause.isTiming: Boolean
+    get() = when (this) {
+        Cause.ASYMMETRIC_RESPONSE,
+        Cause.SECOND_ORDER_RESPONSE,
+        Cause.TWO_PATH_RESPONSE,
+        Cause.DEAD_TIME,
+        Cause.SLEW_LIMIT,
+        Cause.FLOW_DEPENDENT_RESPONSE,
+        Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+        Cause.HYSTERESIS,
+        Cause.POSITION_OFFSET,
+        -> true
+        else -> false
+    }
+
 /** Which number of a model stands where. */
 internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales: Scales) {
     /** Index of the first parameter of each term, by its key. */

@@ -15,7 +15,7 @@ internal object Spikes {
     private val FREEDOMS = listOf(3.0, 5.0, 8.0, 15.0, 30.0)
     private val WIDTHS = listOf(0.85, 0.9, 0.95, 1.0, 1.05)
 
-    /** Of the way there the way back, less half: of a single row it is 1, of a jump a half. */
+    /** How far a row is off the middle of those beside it, over the longer of the ways there: 1 of a single row, else ½. */
     private const val RETURNED = 0.75
 
     /**
@@ -35,11 +35,14 @@ internal object Spikes {
         }
     }
 
-    /** Whether after row [i] the [residuals] come back: after a jump, or after what fades slowly, they stay. */
+    /**
+     * Whether row [i] of [residuals] is off by itself: after a jump, or after what fades slowly, they stay where they
+     * are, and the rows beside a wild one are off only what it makes of their middle.
+     */
     fun isSingle(residuals: DoubleArray, i: Int): Boolean {
         if (i == 0 || i == residuals.size - 1) return true
         val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
-        return off > RETURNED * abs(residuals[i] - residuals[i - 1])
+        return off > RETURNED * maxOf(abs(residuals[i] - residuals[i - 1]), abs(residuals[i] - residuals[i + 1]))
     }
 
     /** Standard deviation of [residuals], of which single ones may be wild. */

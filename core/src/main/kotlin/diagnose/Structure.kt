@@ -28,8 +28,9 @@ internal class Structure(private val fit: ModelFit) {
     private val series = fit.model.series
     private val scales = fit.model.scales
     private val n = series.size
-    private val basis = Evidence.orthonormal(fit.jacobian.toList())
+    private val basis by lazy { Evidence.orthonormal(fit.jacobian.toList() + stepShifts()) }
     private val square = squares(fit.whitened)
+    private val isSharp = scales.unknown?.isSharp == true
     private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
     private val rate = DoubleArray(n) { i ->
         val from = maxOf(i - 1, 0)
@@ -127,6 +128,17 @@ internal class Structure(private val fit: ModelFit) {
             val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
             state += -expm1(-dt / tau) * (column[i] - state)
             state
+        }
+    }
+
+    /** What each step of a sharp truth, a little later, would add, whitened: when within its row it came is not known. */
+    private fun stepShifts(): List<DoubleArray> {
+        val isBroken = scales.unknown?.takeIf { isSharp }?.isBroken ?: return emptyList()
+        val starts = (1 until n).filter { isBroken[it] }
+        return starts.mapIndexed { k, from ->
+            val to = starts.getOrElse(k + 1) { n }
+            val column = DoubleArray(n) { if (it in from until to) rate[it] else 0.0 }
+            column.also { fit.noise.whiten(it, it) }
         }
     }
 

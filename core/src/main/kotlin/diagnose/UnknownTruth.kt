@@ -13,10 +13,12 @@ import kotlin.math.sqrt
  *
  * @property isGap whether the step before a row is too long for the truth to be guessed, length n.
  * @property isBroken whether no smooth curve goes through the step before a row, length n; gaps included.
+ * @property isSharp whether the truth hardly moves but in such steps, as where samples are changed at once on a bench.
  */
 internal class UnknownTruth private constructor(
     val isGap: BooleanArray,
     val isBroken: BooleanArray,
+    val isSharp: Boolean,
     private val doubts: DoubleArray,
     private val times: DoubleArray,
 ) {
@@ -54,7 +56,13 @@ internal class UnknownTruth private constructor(
     companion object {
         /** Nothing is in doubt in [series]. */
         fun none(series: MeasuredSeries) =
-            UnknownTruth(BooleanArray(series.size), BooleanArray(series.size), DoubleArray(series.size), series.times)
+            UnknownTruth(
+                BooleanArray(series.size),
+                BooleanArray(series.size),
+                false,
+                DoubleArray(series.size),
+                series.times,
+            )
 
         /** What the reference of [series] leaves open. */
         fun of(series: MeasuredSeries): UnknownTruth {
@@ -79,7 +87,8 @@ internal class UnknownTruth private constructor(
                     else -> 0.0
                 }
             }
-            return UnknownTruth(isGap, isBroken, doubts, times)
+            val sudden = DoubleArray(n) { if (isBroken[it]) steps[it] else 0.0 }
+            return UnknownTruth(isGap, isBroken, squares(sudden) > MOSTLY * squares(steps), doubts, times)
         }
 
         /**
@@ -113,6 +122,9 @@ internal class UnknownTruth private constructor(
         private const val STEEPER = 3.0
 
         private const val OFTEN = 0.08
+
+        /** Of the squares of all steps: a truth of which sudden ones have more is sharp. */
+        private const val MOSTLY = 0.9
 
         /** Shocks below this, in standard deviations of the noise, are left out. */
         private const val LEAST = 0.1

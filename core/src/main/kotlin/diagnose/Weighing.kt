@@ -50,10 +50,12 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val verdict = insufficient() ?: unlisted(loose) ?: verdict(forward.alike(chosen), certain, left.first())
+        val shifts = SmallShifts(last)
+        val (small, clear) = chosen.zip(forward.alike(chosen)).partition { (trial, set) -> shifts.isSmall(trial, set) }
+        val verdict = insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
-        val sensor = ExtendedSensor(last, size)
+        val sensor = ExtendedSensor(last, size, leftOut = small.map { (trial, _) -> trial.term.cause }.toSet())
         val extended = if (named) sensor.spec("extended") else null
         val candidates = candidates(size, loose.pValue)
         val baseline = report.assessment(base, baseHeldOut)
@@ -70,14 +72,14 @@ internal class Weighing(
             },
             left,
             spikes,
-            warnings(left.first(), named) + report.warnings +
+            warnings(left.first(), named) + shifts.words(small.map { it.first }) + report.warnings +
                 if (named) sensor.losses + lost(changing) else emptyList(),
-            if (named) effects() else emptyList(),
+            if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),
         )
     }
 
-    private fun effects() = chosen.map { NamedEffect(it.term.cause, report.estimates(last, listOf(it.term))) }
+    private fun effect(term: Term) = NamedEffect(term.cause, report.estimates(last, listOf(term)))
 
     private fun lost(changing: Boolean) = if (changing) {
         listOf("A change of the water belongs to the field, not to the sensor: the sensor file does not hold it.")
@@ -89,7 +91,9 @@ internal class Weighing(
         if (named && most.adjusted < settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${most.description}.")
         }
-        if (base.model.held) {
+        if (scales.unknown?.isSharp == true) {
+            add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
+        } else if (base.model.held && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
             add(
                 "The truth looks held over each step, as a simulation holds it; a sensor in water would have a time " +
                     "constant half a step shorter.",
@@ -129,7 +133,8 @@ internal class Weighing(
         val all = sets + certain.map { listOf(it) }
         val structured = left.adjusted < settings.structureLevel
         val least = chosen.minOfOrNull { it.ratio } ?: 0.0
-        val isTiming = structured || sets.flatten().any { it in TIMING }
+        // A truth that is guessed between rows swings beyond both ends of what it does.
+        val isTiming = structured || sets.flatten().any { it.isTiming || it == Cause.SATURATION }
         return when {
             isTiming && base.model.scales.unknown?.isMostly == true -> Verdict.InsufficientData(
                 "the truth often moves within a row or two, and how it went in between might explain what is left",
@@ -228,20 +233,5 @@ internal class Weighing(
 
         /** Standard errors by which what is not known of the truth may move a fit before its causes are in doubt. */
         const val MOST_UNKNOWN = 2.0
-
-        /** Causes that show in how the reading follows the truth from row to row. */
-        val TIMING = setOf(
-            Cause.ASYMMETRIC_RESPONSE,
-            Cause.SECOND_ORDER_RESPONSE,
-            Cause.TWO_PATH_RESPONSE,
-            Cause.DEAD_TIME,
-            Cause.SLEW_LIMIT,
-            Cause.FLOW_DEPENDENT_RESPONSE,
-            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
-            Cause.HYSTERESIS,
-            Cause.POSITION_OFFSET,
-            // A truth that is guessed between rows swings beyond both ends of what it does.
-            Cause.SATURATION,
-        )
     }
 }

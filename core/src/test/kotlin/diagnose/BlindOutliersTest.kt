@@ -6,6 +6,7 @@ import stillwater.sensor.SensorStage
 import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
+import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
 /** Outliers of which few are far enough off to be told by themselves. */
@@ -16,13 +17,16 @@ class BlindOutliersTest {
     private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
     private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) }
 
-    /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them off by up to 0.14. */
-    private fun outliers(every: Int): BlindOutliers {
+    /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them [off], by up to 0.14. */
+    private fun outliers(
+        every: Int,
+        off: (Random) -> Double = { it.nextDouble(-0.14, 0.14) },
+    ): BlindOutliers {
         val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(0.02))
         val sensor = SensorSpec("hidden", stages).build(truth[0], Random(7))
         val random = Random(8)
         val values = DoubleArray(n) { i ->
-            val wrong = if (i % every == every / 2) random.nextDouble(-0.14, 0.14) else 0.0
+            val wrong = if (i % every == every / 2) off(random) else 0.0
             sensor.step(truth[i], 1.0, Conditions.NONE) + wrong
         }
         val series = MeasuredSeries(times, x, y, values, null)
@@ -37,6 +41,12 @@ class BlindOutliersTest {
     fun theTailsOfAllReadingsTellOfOutliers() {
         val found = outliers(every = 30)
         assertTrue(found.pValue < 1e-6, "${found.pValue} ${found.rows}")
+    }
+
+    @Test
+    fun aWildRowCountsOnce() {
+        // Rows 75, 225 and so on, by half of what the water has.
+        assertEquals(List(6) { 75 + 150 * it }, outliers(every = 150) { 1.0 }.rows)
     }
 
     @Test

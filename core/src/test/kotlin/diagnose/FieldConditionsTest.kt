@@ -65,6 +65,18 @@ class FieldConditionsTest {
     }
 
     @Test
+    fun noiseThatGrowsWithTheWatersOwnRateIsNoCause() {
+        for (seed in 5L..6L) {
+            val water = Water(seed)
+            val random = java.util.Random(seed + 100)
+            val rates = DoubleArray(n) { abs(water.at(it + 0.05) - water.at(it - 0.05)) / 0.1 }
+            val noisy = lagged(water::at)
+            for (i in 0 until n) noisy[i] += 0.02 * (0.4 + 1.2 * rates[i] / rates.average()) * random.nextGaussian()
+            assertEquals(Verdict.Consistent, diagnosed(noisy, truth(water)).verdict, "seed $seed")
+        }
+    }
+
+    @Test
     fun aReferenceThatIsLateIsSaidToBe() {
         for (seed in 11L..13L) {
             val water = Water(seed)

@@ -45,6 +45,56 @@ class ReferenceLimitsTest {
         assertTrue(left < 0.025, "$left")
     }
 
+    @Test
+    fun whatIsLeftOfTheNoiseOfAReferenceIsNoResponse() {
+        // As noisy as the readings of a sensor that is no later than the water.
+        val times = DoubleArray(LONG) { it.toDouble() }
+        fun noisy() = DoubleArray(LONG) { 2 * water(times[it]) + 0.05 * random.nextGaussian() }
+        val log = MeasuredSeries(times, times, DoubleArray(LONG), noisy(), noisy())
+        assertEquals(Verdict.Consistent, Diagnosis(log).run().verdict)
+    }
+
+    /** A truth that goes from sample to sample at once, on a row, as [shown] by a sensor. */
+    private fun bench(shown: (truth: (Double) -> Double) -> DoubleArray): DiagnosisResult {
+        val starts = List(n / 57 + 1) { 57.0 * it }
+        val levels = List(starts.size) { 2 + 9 * random.nextDouble() }
+        fun truth(time: Double) = levels[starts.indexOfLast { it <= time }.coerceAtLeast(0)]
+        val times = DoubleArray(n) { it.toDouble() }
+        val values = shown(::truth)
+        for (i in values.indices) values[i] += 0.02 * random.nextGaussian()
+        val reference = DoubleArray(n) { truth(times[it]) + 0.02 * random.nextGaussian() }
+        return Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, reference)).run()
+    }
+
+    @Test
+    fun aDelayOfLessThanARowBehindSharpStepsIsNoDeadTime() {
+        val result = bench { truth ->
+            var state = truth(0.0)
+            var shown = state
+            DoubleArray(n) { row ->
+                if (row > 0) state += (1 - exp(-1 / 8.0)) * (truth(row - 0.5) - state)
+                shown = shown.coerceIn(state - 0.15, state + 0.15)
+                shown
+            }
+        }
+        assertEquals(Verdict.Named(listOf(Cause.HYSTERESIS)), result.verdict)
+        assertTrue(result.warnings.any { "cannot show" in it }, "${result.warnings}")
+    }
+
+    @Test
+    fun aShiftOfLessThanATenthOfARowIsToldAndNotNamed() {
+        val times = DoubleArray(LONG) { it.toDouble() }
+        val truth = DoubleArray(LONG) { water(times[it]) }
+        var state = water(0.0)
+        val values = DoubleArray(LONG) { row ->
+            if (row > 0) repeat(20) { k -> state += (1 - exp(-0.05 / 8)) * (water(row - 1.035 + 0.05 * k) - state) }
+            state + 0.002 * random.nextGaussian()
+        }
+        val result = Diagnosis(MeasuredSeries(times, DoubleArray(LONG), DoubleArray(LONG), values, truth)).run()
+        assertEquals(Verdict.Consistent, result.verdict)
+        assertTrue(result.warnings.any { "too little to matter" in it }, "${result.warnings}")
+    }
+
     /** Rounds of a circle, a little apart, in water that rises by [rise] a second. */
     private fun rounds(rise: Double): ChangingWater {
         val angle = DoubleArray(n) { it / 20.0 }
@@ -63,5 +113,10 @@ class ReferenceLimitsTest {
         assertTrue(changed.pValue < 1e-6, "${changed.pValue}")
         assertEquals(0.001, changed.rate, 3 * changed.error)
         assertTrue(rounds(0.0).pValue > 0.01)
+    }
+
+    private companion object {
+        /** Rows in which what a short log hides shows. */
+        const val LONG = 2000
     }
 }

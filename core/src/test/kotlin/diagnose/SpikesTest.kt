@@ -1,8 +1,11 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 /** Single wrong readings among normal noise, and noise with heavy tails and none. */
@@ -36,5 +39,14 @@ class SpikesTest {
         val noise = DoubleArray(n) { random.normal() }
         // One in two hundred of χ² with three degrees.
         assertTrue(Spikes.ratio(noise).ratio < 12.8 && Spikes.tails(noise) < 6.6)
+    }
+
+    @Test
+    fun theRowsBesideAWildOneAreNotWild() {
+        val random = Random(8)
+        val rows = DoubleArray(n) { 0.02 * random.normal() }
+        rows[100] += 2.0
+        assertEquals(listOf(100), (98..102).filter { Spikes.isSingle(rows, it) && abs(rows[it]) > 0.5 })
+        assertFalse(Spikes.isSingle(rows, 99) || Spikes.isSingle(rows, 101))
     }
 }

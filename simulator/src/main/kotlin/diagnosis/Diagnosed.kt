@@ -91,8 +91,17 @@ class Diagnosed(
         return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
     }
 
-    /** Whether what was named is the base model's own lag, so that there is nothing to extend it by. */
+    /** Whether nothing that was named changes how the base model follows the water. */
     val isBaseNamed: Boolean get() = result.extended === result.baseline
+
+    /** What the extended sensor has beside such a base, in words; empty for nothing. */
+    val besideBase: String
+        get() = listOf(Cause.OUTLIERS to "the outliers", Cause.QUANTISATION to "the rounding")
+            .filter { (cause, _) -> cause.label in causes }
+            .joinToString("") { (_, words) -> ", with $words" }
+
+    /** How the sensor's gain and offset are off the reference; null where they are not clearly, or were given. */
+    val calibration: String? = if (log.reference == null) null else Calibration(this).words()
 
     /** [parameters] in words. */
     fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { "${name(it)} ${number(it)}" }
@@ -118,7 +127,7 @@ class Diagnosed(
     /** [words] of a unit, with the readings' own in it where it is known. */
     fun inUnit(words: String): String = if (unit == null) words else words.replace(SENSOR_UNITS, unit)
 
-    /** Five lines for the terminal. */
+    /** Five lines for the terminal, and one more where the [calibration] is off. */
     fun lines(): List<String> {
         val three = SignificantDigits(3)
         val base = result.baseline
@@ -126,11 +135,12 @@ class Diagnosed(
         val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
         val best = result.candidates.firstOrNull()
         val sensor = if (isGiven) "the sensor given" else "lag of ${tau?.let(::number) ?: "unknown length"}"
-        return listOf(
+        return listOfNotNull(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
             "base: $sensor; residuals " +
                 three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)",
+            calibration,
             if (after != null) {
                 extension(base, after, three)
             } else {
@@ -150,7 +160,7 @@ class Diagnosed(
 
     private fun extension(base: ModelAssessment, after: ModelAssessment, three: SignificantDigits): String =
         if (after === base) {
-            "extended: the base, whose lag is what was named"
+            "extended: the base's own lag$besideBase"
         } else {
             "extended: held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
                 "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"

@@ -176,13 +176,18 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         val isNamed = candidate.cause in named
         val plot = LinePlot(
             candidate.cause.label,
-            if (isNamed) "" else "looks likely by itself, but is no part of the answer",
+            if (isNamed) "" else "likely by itself, but not named",
             series,
             "Time since the first row (s)",
             quantity,
             references = listOf(0.0),
         )
-        val caption = if (isNamed) candidate.cause.sentence else "Not named. Tried was: ${candidate.cause.sentence}"
+        val caption = when {
+            isNamed -> candidate.cause.sentence
+            result.verdict is Verdict.Unexplained ->
+                "A hint, and not named: it explains a part and not the rest. Tried was: ${candidate.cause.sentence}"
+            else -> "Not named. Tried was: ${candidate.cause.sentence}"
+        }
         return DiagnosisFigure("cause-${candidate.cause.label}", plot.draw(), caption)
     }
 

@@ -59,13 +59,14 @@ internal class DiagnosisReport(
 
     private fun stillwater.report.ReportSection.answer() {
         paragraph(diagnosed.answer)
+        diagnosed.calibration?.let { paragraph("${it.replaceFirstChar { first -> first.uppercase() }}.") }
         result.separatingManoeuvre?.let { paragraph("What would tell the causes apart: $it.") }
         val after = result.extended ?: return
         val before = result.baseline
         if (diagnosed.isBaseNamed) {
             paragraph(
-                "What is at work is the lag of the base model itself: ${diagnosed.numbers(after.parameters)}. There " +
-                    "is nothing to extend it by.",
+                "What the readings follow the water by is the lag of the base model itself: " +
+                    "${diagnosed.numbers(after.parameters)}. extended-sensor.json holds it${diagnosed.besideBase}.",
             )
             return leftOver()
         }

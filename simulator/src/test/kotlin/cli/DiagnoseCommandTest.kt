@@ -66,6 +66,22 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun aSensorThatReadsHighIsSaidTo() {
+        val lines = List(300) { i ->
+            val truth = 5 + sin(i / 9.0) + 0.5 * sin(i / 23.0)
+            "$i,${1.12 * truth + 0.003 * sin(41.0 * i * i)},$truth"
+        }
+        val file = directory.resolve("high.csv")
+        Files.write(file, listOf("time_s,probe,sample") + lines)
+        val out = directory.resolve("high")
+        val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--unit", "mg/L", "--out", "$out")
+        assertContains(result.stdout, "verdict: consistent")
+        assertContains(result.stdout, "calibration against the reference: gain 1.12 [")
+        assertContains(result.stdout, "mg/L too high (12.0 %)")
+        assertContains(Files.readString(out.resolve("report.html")), "Calibration against the reference: gain 1.12 [")
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")

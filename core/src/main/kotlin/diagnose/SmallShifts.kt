@@ -1,0 +1,94 @@
+package stillwater.diagnose
+
+import java.util.Locale
+import kotlin.math.abs
+
+/**
+ * Effects of the model [last] that are too small to be named, however surely they show: they are kept in the model, so
+ * that nothing else is taken for them.
+ *
+ * Shifts of less than a tenth of a row are within what clocks, fixes and the way a log is sampled do. And where the
+ * truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less than a shift
+ * of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a delay of half
+ * a step then puts it back where it was.
+ */
+internal class SmallShifts(private val last: ModelFit) {
+    private val model = last.model
+    private val period = model.series.period
+
+    /** Whether the log leaves open when, within a row, the truth moved. */
+    private val isWithinRows = model.scales.unknown?.isSharp == true
+
+    /** By how much a truth that is held over each step is ahead of one that goes on evenly, s. */
+    private val lead = if (model.held) period / 2 else 0.0
+
+    /** Of [trial], which may be any of [set]: whether it is too small. */
+    fun isSmall(trial: Trial, set: List<Cause>): Boolean {
+        val shift = shift(trial.term, set)
+        val isLittle = shift != null && minOf(abs(shift), abs(shift - lead)) < LEAST_ROWS * period
+        return isLittle || (isWithinRows && isLessThanARow(trial.term))
+    }
+
+    /** [small] effects in words for the reader; none if there are none. */
+    fun words(small: List<Trial>): List<String> = small.map { trial ->
+        val number = last.numbers[model.slot(trial.term)]
+        val unit = model.parameters[model.slot(trial.term)].unit
+        "A ${trial.term.cause.label} of ${"%.2g".format(Locale.ROOT, number)} $unit was fitted beside and is " +
+            "not named: " + when {
+                isWithinRows -> SHARP
+                model.held && number > lead / 2 -> "it undoes the lead of a truth that is held over each step."
+                else -> "less than a tenth of a row is too little to matter."
+            }
+    }
+
+    /** By how much the readings are late for [term], s; null where that is not what it does. */
+    private fun shift(term: Term, set: List<Cause>): Double? {
+        // A number of the base that was given has no place of its own.
+        val number = model.slotOrNull(term)?.let { last.numbers.getOrNull(it) } ?: return null
+        return when (term.cause) {
+            Cause.DEAD_TIME -> number
+            Cause.POSITION_OFFSET -> number / model.scales.ordinarySpeed
+            // A short second lag does what a dead time does.
+            Cause.SECOND_ORDER_RESPONSE -> number.takeIf { Cause.DEAD_TIME in set }
+            else -> null
+        }
+    }
+
+    /** Whether what [term] does to the readings is less than a dead time of a row would. */
+    private fun isLessThanARow(term: Term): Boolean {
+        if (term.cause == Cause.DEAD_TIME) return last.numbers[model.slot(term)] < (1 + LEAST_ROWS) * period
+        if (!term.cause.isTiming) return false
+        val prompt = model.terms.filter { it.cause != Cause.DEAD_TIME }
+        val rest = prompt.filter { it.key != term.key }
+        val all = shown(prompt)
+        val without = shown(rest)
+        val shifted = shown(rest + Term(Cause.DEAD_TIME))
+        val change = DoubleArray(all.size) { all[it] - without[it] }
+        val moved = DoubleArray(all.size) { shifted[it] - without[it] }
+        return squares(change) < squares(moved)
+    }
+
+    /** What the model shows with [terms] alone, their numbers as in [last]; a dead time is one row's. */
+    private fun shown(terms: List<Term>): DoubleArray {
+        val other = ResponseModel(model.series, terms, model.held, model.scales)
+        val numbers = DoubleArray(other.parameters.size) { if (it < ResponseModel.BASE) last.numbers[it] else 0.0 }
+        for (term in terms) {
+            val to = other.slotOrNull(term) ?: continue
+            val from = model.slotOrNull(term)
+            if (term.cause == Cause.DEAD_TIME) {
+                numbers[to] = period
+            } else if (from != null) {
+                for (k in 0 until other.width(term)) numbers[to + k] = last.numbers[from + k]
+            }
+        }
+        return DoubleArray(model.series.size).also { other.predict(numbers, it) }
+    }
+
+    companion object {
+        /** Rows; a shift of less is not named. */
+        private const val LEAST_ROWS = 0.1
+
+        /** Why nothing of less than a row shows where the truth is sharp. */
+        const val SHARP = "the truth moves in sharp steps, and when between two rows each came is not known."
+    }
+}
