@@ -127,6 +127,17 @@ class CorrectFiles(
             put("spread", finite(result.agreement.spread))
             put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
         }
+        result.margin?.let {
+            putJsonObject("reference") {
+                put("rows", it.rows)
+                put("covered", finite(it.covered))
+                put("factor", it.factor)
+                put("held_out_covered", finite(it.heldOut))
+                put("widened", it.isMisfit)
+            }
+        }
+        put("left_out", result.track.outlying.count { it })
+        put("at_range_end", result.track.clipped.count { it })
         put("learned_on", result.learned.readings)
         put("blocks", result.learned.blocks)
     }
