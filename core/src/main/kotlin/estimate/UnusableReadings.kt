@@ -33,7 +33,8 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
          * Those of [series].
          *
          * @param resolution step in which readings are rounded, sensor units, at least 0.
-         * @param range the sensor's range where it is known, sensor units; ends that are infinite are looked for.
+         * @param range the sensor's range where it is known, sensor units; ends that are infinite, and those
+         * that no reading comes to, are looked for.
          */
         public fun of(
             series: TrackSeries,
@@ -43,8 +44,12 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
             if (series.size < FEWEST) return none(series.size)
             val wild = wild(series, resolution)
             val ends = ByteArray(series.size)
-            mark(series.values, wild, 1, range.endInclusive, ends)
-            mark(series.values, wild, -1, range.start, ends)
+            for ((side, end) in listOf(1 to range.endInclusive, -1 to range.start)) {
+                // An end that was learned is off by a part of the last digit.
+                val isAt = BooleanArray(series.size) { end.isFinite() && side * (series.values[it] - end) >= -resolution }
+                if (isAt.none { it }) mark(series.values, wild, side, ends)
+                for (i in isAt.indices) if (isAt[i]) ends[i] = side.toByte()
+            }
             return UnusableReadings(wild, ends)
         }
 
@@ -87,14 +92,10 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
         }
 
         /**
-         * Marks the readings at the upper ([side] 1) or lower (−1) end of the range: the given [end], or the extreme
-         * reading, if it comes again and again at a stretch as no other value does.
+         * Marks the readings at the upper ([side] 1) or lower (−1) end of the range: the extreme reading, if it comes
+         * again and again at a stretch as no other value does.
          */
-        private fun mark(values: DoubleArray, wild: BooleanArray, side: Int, end: Double, ends: ByteArray) {
-            if (end.isFinite()) {
-                for (i in values.indices) if (side * (values[i] - end) >= 0) ends[i] = side.toByte()
-                return
-            }
+        private fun mark(values: DoubleArray, wild: BooleanArray, side: Int, ends: ByteArray) {
             val usable = values.indices.filter { !wild[it] }
             val extreme = usable.maxOf { side * values[it] }
             val opposite = usable.maxOf { -side * values[it] }

@@ -65,7 +65,7 @@ class UnusableReadingsTest {
     @Test
     fun anEndThatIsKnownIsNotLookedFor() {
         val values = doubleArrayOf(4.0, 5.0, 5.0, 4.5, 3.0) + DoubleArray(40) { 4 + 0.01 * it }
-        val unusable = UnusableReadings.of(series(values), DIGIT, 3.0..5.0)
+        val unusable = UnusableReadings.of(series(values), DIGIT, 3.001..5.001)
         assertEquals(listOf(1, 2), values.indices.filter { unusable.ends[it] > 0 })
         assertEquals(listOf(4), values.indices.filter { unusable.ends[it] < 0 })
     }

@@ -16,8 +16,9 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
     private fun outlying(): String? {
         val outlying = result.track.outlying.count { it }
         if (outlying == 0) return null
-        return "$outlying readings stand out from those around them as no water here does and were left out: " +
-            "their rows are foretold from the others, with intervals that reach to the readings"
+        val stand = if (outlying == 1) "reading stands" else "readings stand"
+        return "$outlying $stand out from those around them as no water here does and are left out: their rows are " +
+            "foretold from the others, with intervals that reach to the readings"
     }
 
     private fun atEnd(side: Int, end: String, open: String): String? {

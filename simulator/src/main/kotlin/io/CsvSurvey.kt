@@ -266,9 +266,12 @@ internal class CsvSurvey internal constructor(
         private fun conditionProblem(row: CsvRow): LogProblem? {
             for (i in conditionNames.indices) {
                 val column = columns.conditions.getValue(conditionNames[i])
-                if (conditionSlots[i] < SLOTS) continue
-                sizeProblem(row, conditionSlots[i], column, SquareReach.LARGEST)?.let { return it }
-                if (row.numbers[conditionSlots[i]].isFinite()) continue
+                val slot = conditionSlots[i]
+                if (slot < SLOTS) continue
+                if (row.numbers[slot].isFinite()) {
+                    sizeProblem(row, slot, column, SquareReach.LARGEST)?.let { return it }
+                    continue
+                }
                 val text = row.textOf(column)
                 if (CellText.isMissing(text)) continue
                 val reason = "rows with text where a number belongs"
