@@ -18,13 +18,18 @@ import kotlin.math.sqrt
  * @param held whether the reference is held at each row's value over the step before it.
  * @param series the readings. Retained. @param reference the truth at each reading, sensor units of its own, length n.
  *   Retained, not modified.
+ * @param unusable readings that say nothing of the sensor's state, which goes on through them as the reference has it.
  */
 public class ReferenceLearner(
     private val series: TrackSeries,
     private val reference: DoubleArray,
     private val held: Boolean = false,
+    private val unusable: UnusableReadings = UnusableReadings.none(series.size),
 ) : ResponseLearner {
     init {
+        require(unusable.wild.size == series.size) {
+            "unusable (${unusable.wild.size}) must be as long as series (${series.size})"
+        }
         require(reference.size == series.size) {
             "reference (${reference.size}) must be as long as series (${series.size})"
         }
@@ -33,6 +38,8 @@ public class ReferenceLearner(
 
     override val groups: Int = (series.size / GROUP).coerceIn(2, MOST_GROUPS)
     private val groupOf = IntArray(series.size) { (it.toLong() * groups / series.size).toInt() }
+    private val usable = BooleanArray(series.size) { unusable.isUsable(it) }
+    private val count = usable.count { it }
     private val shown = DoubleArray(series.size)
     private val residuals = DoubleArray(series.size)
     private val lag = LagWeights()
@@ -77,19 +84,20 @@ public class ReferenceLearner(
         val delays = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
         val best = delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
         val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(best))
-        for (i in residuals.indices) residuals[i] = series.values[i] - offset - gain * shown[i]
-        val left = sqrt(residuals.sumOf { it * it } / residuals.size)
+        leave(gain, offset)
+        val left = sqrt(residuals.sumOf { it * it } / maxOf(1, count))
         val bent = kotlin.math.abs(gain) * sqrt(bend / maxOf(1, count)) / FROM_DOUBLE
         return if (left > 0) bent / left else Double.POSITIVE_INFINITY
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
-        if (series.size < FEWEST) return null
+        if (count < FEWEST) return null
         val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
         if (kind == ResponseKind.SLEW) {
-            val slopes = DoubleArray(series.size - 1) {
+            val slopes = (0 until series.size - 1).filter { usable[it] && usable[it + 1] }.map {
                 kotlin.math.abs(series.values[it + 1] - series.values[it]) / (series.times[it + 1] - series.times[it])
-            }.apply { sort() }
+            }.sorted()
+            if (slopes.isEmpty()) return null
             val top = slopes[(slopes.size * TOP).toInt()]
             if (!(top > 0)) return null
             // The rate is in the reference's units, the slopes in the readings'; spreads say how the two compare.
@@ -103,8 +111,9 @@ public class ReferenceLearner(
     /** Spread of the readings over that of the reference. */
     private fun scale(): Double {
         fun spread(numbers: DoubleArray): Double {
-            val mean = numbers.average()
-            return sqrt(numbers.sumOf { (it - mean) * (it - mean) })
+            val seen = numbers.filterIndexed { i, _ -> usable[i] }
+            val mean = seen.average()
+            return sqrt(seen.sumOf { (it - mean) * (it - mean) })
         }
         return spread(series.values) / spread(reference)
     }
@@ -118,37 +127,48 @@ public class ReferenceLearner(
     private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
         respond(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }))
         val (gain, offset) = fit()
+        leave(gain, offset)
         var own = 0.0
         var next = 0.0
         for (i in residuals.indices) {
-            residuals[i] = series.values[i] - offset - gain * shown[i]
             own += residuals[i] * residuals[i]
             if (i > 0) next += residuals[i] * residuals[i - 1]
         }
         val correlation = if (own > 0) (next / own).coerceIn(0.0, MOST_CORRELATION) else 0.0
         var sum = 0.0
         for (i in residuals.indices) sum += surprise(i, correlation).let { it * it }
-        val variance = maxOf(sum / residuals.size, LEAST)
+        val variance = maxOf(sum / maxOf(1, count), LEAST)
         return DoubleArray(residuals.size) { i ->
-            -(ln(variance) + surprise(i, correlation).let { it * it } / variance) / 2
+            if (usable[i]) -(ln(variance) + surprise(i, correlation).let { it * it } / variance) / 2 else 0.0
         }
     }
 
-    private fun surprise(i: Int, correlation: Double) =
-        if (i ==
-            0
-        ) {
-            residuals[0] * sqrt(1 - correlation * correlation)
-        } else {
-            residuals[i] - correlation * residuals[i - 1]
+    /** What the response leaves of the readings, into [residuals]: nothing of those that do not count. */
+    private fun leave(gain: Double, offset: Double) {
+        for (i in residuals.indices) {
+            residuals[i] = if (usable[i]) series.values[i] - offset - gain * shown[i] else 0.0
         }
+    }
+
+    /** Of a reading that the one before foretells; after none, and after one that does not count, it is of its own. */
+    private fun surprise(i: Int, correlation: Double) = when {
+        !usable[i] -> 0.0
+        i == 0 || !usable[i - 1] -> residuals[i] * sqrt(1 - correlation * correlation)
+        else -> residuals[i] - correlation * residuals[i - 1]
+    }
 
     private fun fit(): Pair<Double, Double> {
-        val x = shown.average()
-        val z = series.values.average()
+        var x = 0.0
+        var z = 0.0
+        for (i in shown.indices) {
+            if (!usable[i]) continue
+            x += shown[i] / count
+            z += series.values[i] / count
+        }
         var sxx = 0.0
         var sxz = 0.0
         for (i in shown.indices) {
+            if (!usable[i]) continue
             sxx += (shown[i] - x) * (shown[i] - x)
             sxz += (shown[i] - x) * (series.values[i] - z)
         }
@@ -217,9 +237,12 @@ public class ReferenceLearner(
          * Whether the readings of [series] show the [reference] held over each step, clearly: by six units of twice the
          * log-likelihood of a first-order lag, as the diagnosis asks for.
          */
-        public fun isHeld(series: TrackSeries, reference: DoubleArray): Boolean =
-            ReferenceLearner(series, reference, held = true).firstOrder() >
-                ReferenceLearner(series, reference).firstOrder() + CLEARLY
+        public fun isHeld(
+            series: TrackSeries,
+            reference: DoubleArray,
+            unusable: UnusableReadings = UnusableReadings.none(series.size),
+        ): Boolean = ReferenceLearner(series, reference, held = true, unusable).firstOrder() >
+            ReferenceLearner(series, reference, held = false, unusable).firstOrder() + CLEARLY
 
         private const val CLEARLY = 6.0
         private const val EVALUATIONS = 60

@@ -45,6 +45,7 @@ public class TrackAgreement private constructor(
             DoubleArray(n) { track.values[it] + wider(track.upper[it] - track.values[it], it) },
             track.silent,
             track.outlying,
+            track.clipped,
         )
     }
 

@@ -21,6 +21,7 @@ public class LikelyResponse(public val responses: List<Response>, public val wei
  * @property silent readings at which the sensor was at its rate limit and said one side only, length n.
  * @property outlying readings taken for outliers: their values are foretold from the others, and their intervals reach
  * to the readings themselves, length n.
+ * @property clipped readings at an end of the sensor's range: the sensor was there or beyond, length n.
  */
 public class CorrectedTrack internal constructor(
     public val values: DoubleArray,
@@ -28,6 +29,7 @@ public class CorrectedTrack internal constructor(
     public val upper: DoubleArray,
     public val silent: BooleanArray,
     public val outlying: BooleanArray,
+    public val clipped: BooleanArray = BooleanArray(values.size),
 ) {
     /** The same values, with intervals that hold those of [other] as well, which is possible too but less likely. */
     public fun holding(other: CorrectedTrack): CorrectedTrack = CorrectedTrack(
@@ -36,6 +38,27 @@ public class CorrectedTrack internal constructor(
         DoubleArray(values.size) { maxOf(upper[it], other.upper[it]) },
         silent,
         outlying,
+        clipped,
+    )
+
+    /** The same values, with intervals that reach [factor] times as far either way; above 0. */
+    public fun scaledBy(factor: Double): CorrectedTrack = CorrectedTrack(
+        values,
+        DoubleArray(values.size) { values[it] - factor * (values[it] - lower[it]) },
+        DoubleArray(values.size) { values[it] + factor * (upper[it] - values[it]) },
+        silent,
+        outlying,
+        clipped,
+    )
+
+    /** The same values, with intervals that reach [margin], sensor units, at least 0, farther either way. */
+    public fun widenedBy(margin: Double): CorrectedTrack = CorrectedTrack(
+        values,
+        DoubleArray(values.size) { lower[it] - margin },
+        DoubleArray(values.size) { upper[it] + margin },
+        silent,
+        outlying,
+        clipped,
     )
 }
 
@@ -48,9 +71,18 @@ public class CorrectedTrack internal constructor(
  *
  * @param series the readings. Retained.
  * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
+ * @param unusable readings that are known to say nothing, or one side only, of what the sensor is at; more wild ones may
+ * be found.
  */
-public class TrackCorrector(private val series: TrackSeries, private val resolution: Double = 0.0) {
+public class TrackCorrector(
+    private val series: TrackSeries,
+    private val resolution: Double = 0.0,
+    private val unusable: UnusableReadings = UnusableReadings.none(series.size),
+) {
     init {
+        require(unusable.wild.size == series.size) {
+            "unusable (${unusable.wild.size}) must be as long as series (${series.size})"
+        }
         require(resolution >= 0 && resolution.isFinite()) { "resolution ($resolution) must be at least 0 and finite" }
     }
 
@@ -73,6 +105,7 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
             DoubleArray(series.size),
             BooleanArray(series.size) { row -> parts.any { it.sides.silent[row] } },
             BooleanArray(series.size),
+            BooleanArray(series.size) { unusable.ends[it].toInt() != 0 },
         )
         pieces(PIECE) { rows, from, to ->
             val mixture = NormalMixture(to - from)
@@ -99,13 +132,26 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         track.upper[row] = maxOf(track.upper[row], series.values[row] + resolution / 2)
     }
 
-    private fun stretch(rows: IntRange, sides: SensorSides) = Stretch(
-        series.times.copyOfRange(rows.first, rows.last + 1),
-        DoubleArray(rows.last - rows.first + 1) { series.values[rows.first + it] - level },
-        sides.silent.copyOfRange(rows.first, rows.last + 1),
-        sides.rising.copyOfRange(rows.first, rows.last + 1),
-        sides.looseness.copyOfRange(rows.first, rows.last + 1),
-    )
+    private fun stretch(rows: IntRange, sides: SensorSides): Stretch {
+        val stretch = Stretch(
+            series.times.copyOfRange(rows.first, rows.last + 1),
+            DoubleArray(rows.last - rows.first + 1) { series.values[rows.first + it] - level },
+            sides.silent.copyOfRange(rows.first, rows.last + 1),
+            sides.rising.copyOfRange(rows.first, rows.last + 1),
+            sides.looseness.copyOfRange(rows.first, rows.last + 1),
+        )
+        for (row in rows) {
+            val i = row - rows.first
+            stretch.outlying[i] = unusable.wild[row]
+            val end = unusable.ends[row].toInt()
+            if (end == 0) continue
+            // At an end of its range the sensor is there or beyond.
+            stretch.silent[i] = true
+            stretch.rising[i] = end > 0
+            stretch.looseness[i] = 0.0
+        }
+        return stretch
+    }
 
     private fun run(
         part: Part,
@@ -122,7 +168,7 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         TrackSmoother(stretch, part.response, part.along, agitation, series.medianStep).smooth(mean, variance)
         for (row in from until to) {
             val i = row - rows.first
-            val side = if (!stretch.silent[i]) {
+            val side = if (!part.sides.silent[row]) {
                 0
             } else if (stretch.rising[i]) {
                 1
@@ -166,7 +212,8 @@ public class TrackCorrector(private val series: TrackSeries, private val resolut
         pieces(SAMPLE) { rows, _, _ -> if (rows.last - rows.first > sample.last - sample.first) sample = rows }
         val stretch = stretch(sample, SensorSides(series, response, resolution))
         val calm = DoubleArray(stretch.size) { 1.0 }
-        val spread = sqrt(stretch.values.sumOf { it * it } / stretch.size).coerceAtLeast(LEAST + resolution)
+        val tame = stretch.values.filterIndexed { i, _ -> !stretch.outlying[i] }
+        val spread = sqrt(tame.sumOf { it * it } / maxOf(1, tame.size)).coerceAtLeast(LEAST + resolution)
         val least = ln(maxOf(resolution / sqrt(12.0), spread * SMALLEST_NOISE))
         fun at(logs: DoubleArray, smoothness: Smoothness) =
             AlongTrack(exp(logs[0]), exp(logs[1]), exp(maxOf(logs[2], least)), smoothness)

@@ -4,6 +4,7 @@ import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import stillwater.sensor.TimeConstant
+import kotlin.math.abs
 import kotlin.math.sqrt
 
 /**
@@ -14,12 +15,17 @@ import kotlin.math.sqrt
  *
  * @property response how it follows. @property gain dimensionless, of all stages after the response.
  * @property needs names of the conditions without which it cannot be undone.
+ * @property range between which readings are shown, sensor units; infinite where it has no end. Readings at an end say
+ * one side only.
+ * @property play width of the dead band within which the truth may move unseen, sensor units; 0 for none.
  */
 public class UndoableSensor private constructor(
     public val response: Response,
     private val shown: List<SensorStage>,
     private val timeConstant: TimeConstant?,
     public val needs: Set<String>,
+    public val range: ClosedFloatingPointRange<Double> = ENDLESS,
+    public val play: Double = 0.0,
 ) {
     public val gain: Double =
         shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { product, stage -> product * stage.gain }
@@ -77,11 +83,17 @@ public class UndoableSensor private constructor(
         var response = Response()
         var changing: TimeConstant? = null
         val shown = ArrayList<SensorStage>()
+        var range = ENDLESS
+        var play = 0.0
         val needs = LinkedHashSet<String>()
 
         fun follows(change: Response) {
             require(shown.isEmpty()) {
                 "a stage that takes time after a gain, an offset or what else is added cannot be undone"
+            }
+            require(range == ENDLESS) {
+                "a stage that takes time after a saturation cannot be undone: the readings do not show when it was at " +
+                    "its end"
             }
             response = change
         }
@@ -90,6 +102,25 @@ public class UndoableSensor private constructor(
             require(response == Response()) { WITH_OTHERS }
             changing = timeConstant
             needs += conditions
+        }
+
+        /** What is added to the readings once they end is added to the ends. */
+        fun shows(stage: SensorStage) {
+            shown += stage
+            if (range == ENDLESS) return
+            range = if (stage is SensorStage.Calibration) {
+                val ends = listOf(range.start, range.endInclusive).map { stage.gain * it + stage.offset }
+                ends.min()..ends.max()
+            } else {
+                // They move; those that readings show are found in the readings.
+                ENDLESS
+            }
+        }
+
+        fun ends(stage: SensorStage.Range) {
+            val lower = stage.lower ?: Double.NEGATIVE_INFINITY
+            val upper = stage.upper ?: Double.POSITIVE_INFINITY
+            range = maxOf(lower, range.start)..minOf(upper, range.endInclusive)
         }
 
         fun combined(stage: SensorStage.Combined) {
@@ -115,13 +146,17 @@ public class UndoableSensor private constructor(
     }
 
     public companion object {
+        /** A range without ends. */
+        public val ENDLESS: ClosedFloatingPointRange<Double> = Double.NEGATIVE_INFINITY..Double.POSITIVE_INFINITY
+
         private const val WITH_OTHERS =
             "a lag that changes with conditions cannot be undone beside a dead time or another lag"
 
         /**
          * [spec] as it can be undone: dead times, up to two lags or two paths, or one lag that changes with conditions,
-         * and a slew limit; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise and
-         * quantisation anywhere.
+         * and a slew limit; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise,
+         * quantisation and outliers anywhere. Of a hysteresis and of the ends of a range what can be known is kept:
+         * [play] and [range].
          *
          * @throws IllegalArgumentException if [spec] has a stage that cannot be undone; the message names it.
          */
@@ -131,7 +166,8 @@ public class UndoableSensor private constructor(
             val isMixed = found.changing != null &&
                 (found.response.deadTime > 0 || found.response.slewRate.isFinite() || !isAlone(found.response))
             require(!isMixed) { WITH_OTHERS }
-            return UndoableSensor(found.response, found.shown, found.changing, found.needs)
+            val range = found.range
+            return UndoableSensor(found.response, found.shown, found.changing, found.needs, range, found.play)
         }
 
         private fun isAlone(response: Response) = response.lags.size == 1 || response.slowShare > 0
@@ -143,7 +179,8 @@ public class UndoableSensor private constructor(
                 found.follows(response.copy(lags = response.lags + lag))
             }
             when (stage) {
-                is SensorStage.Noise, is SensorStage.Quantum -> Unit
+                // Outliers are found in the readings one by one.
+                is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
                 is SensorStage.Delay -> found.follows(response.copy(deadTime = response.deadTime + stage.deadTime))
                 is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))
                 is SensorStage.Asymmetric -> lag(ResponseLag(stage.rising, stage.falling))
@@ -164,16 +201,16 @@ public class UndoableSensor private constructor(
                     lag(ResponseLag(stage.timeConstant))
                 }
                 is SensorStage.Combined -> found.combined(stage)
-                is SensorStage.Calibration, is SensorStage.Drifting, is SensorStage.Jumps -> found.shown += stage
+                is SensorStage.Calibration, is SensorStage.Drifting, is SensorStage.Jumps -> found.shows(stage)
                 is SensorStage.Cross -> {
-                    found.shown += stage
+                    found.shows(stage)
                     found.needs += stage.condition
                 }
-                is SensorStage.Backlash, is SensorStage.Range, is SensorStage.Outlying ->
-                    throw IllegalArgumentException(
-                        "hysteresis, saturation and outliers cannot be undone, because what they hide is lost: take " +
-                            "them out of the file to have the rest undone",
-                    )
+                is SensorStage.Range -> found.ends(stage)
+                is SensorStage.Backlash -> {
+                    val gain = found.shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { g, c -> g * c.gain }
+                    found.play += stage.width / abs(gain)
+                }
             }
         }
     }

@@ -84,12 +84,33 @@ class UndoableSensorTest {
         }
     }
 
+    /** As the diagnosis writes them: a sensor of which something is lost is undone but for that. */
     @Test
-    fun whatIsLostIsRefusedByName() {
-        for (stage in listOf(SensorStage.Backlash(0.1), SensorStage.Range(0.0, 5.0), SensorStage.Outlying(0.1, 1.0))) {
-            val problem = assertFailsWith<IllegalArgumentException> { UndoableSensor.of(SensorSpec("", listOf(stage))) }
-            assertContains(problem.message.orEmpty(), "hysteresis, saturation and outliers cannot be undone")
+    fun whatIsLostDoesNotHinderTheRest() {
+        val stages = listOf(
+            SensorStage.Lag(8.0),
+            SensorStage.Backlash(0.3),
+            SensorStage.Calibration(-2.0, 1.0),
+            SensorStage.Range(-19.0, null),
+            SensorStage.Noise(0.02),
+            SensorStage.Outlying(0.01, 6.0),
+        )
+        val sensor = UndoableSensor.of(SensorSpec("", stages))
+        assertEquals(8.0, sensor.response.lags.single().rising)
+        assertEquals(-19.0..Double.POSITIVE_INFINITY, sensor.range)
+        assertEquals(0.3, sensor.play)
+        // Behind a gain both are in the readings' units.
+        val before = listOf(SensorStage.Range(null, 5.0), stages[2], stages[1])
+        assertEquals(-9.0..Double.POSITIVE_INFINITY, UndoableSensor.of(SensorSpec("", before)).range)
+        assertEquals(0.15, UndoableSensor.of(SensorSpec("", before)).play)
+    }
+
+    @Test
+    fun whatCannotBeUndoneIsRefused() {
+        val problem = assertFailsWith<IllegalArgumentException> {
+            UndoableSensor.of(SensorSpec("", listOf(SensorStage.Range(0.0, 5.0), SensorStage.Lag(6.0))))
         }
+        assertContains(problem.message.orEmpty(), "after a saturation cannot be undone")
         assertFailsWith<IllegalArgumentException> {
             UndoableSensor.of(SensorSpec("", listOf(SensorStage.Delay(2.0), SensorStage.FlowLag(6.0, 1.0, 0.5))))
         }

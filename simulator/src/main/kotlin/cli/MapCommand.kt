@@ -9,6 +9,7 @@ import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.correct.CorrectCautions
 import stillwater.correct.CorrectedLog
 import stillwater.io.DecimalText
 import stillwater.io.SurveyLog
@@ -130,7 +131,8 @@ class MapCommand : WorkCommand("map") {
 
     private fun correction(opened: SurveyLog, spec: SensorSpec): GivenCorrection = try {
         val corrected = CorrectedLog.of(opened, spec, hasReference = false, conditions.map { it.first })
-        GivenCorrection(spec.name, corrected.track.values)
+        val cautions = CorrectCautions(corrected, unit?.let { " $it" }.orEmpty())
+        GivenCorrection(spec.name, corrected.track.values, cautions.lines)
     } catch (wrong: IllegalArgumentException) {
         throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
     }

@@ -81,7 +81,8 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
             "What the log says about the sensor's response",
             "log score on held-out runs of the track, behind the best",
             standings.sortedBy { it.behind }.map {
-                val name = summary.words(it.candidate) + if (it.isOpen) ", open" else ""
+                // Names with all their numbers run out of the figure; the table has them.
+                val name = it.candidate.kind.label + if (it.isOpen) ", open" else ""
                 Bar(name, it.behind, maxOf(0.0, it.behind - 2 * it.error), it.behind + 2 * it.error)
             },
             "Behind the best (natural logarithm of the density)",
@@ -90,7 +91,8 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
             "evidence",
             figure,
             "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked " +
-                "open is not ruled out; an asymmetric lag is not open where a symmetric one explains as much.",
+                "open is not ruled out; an asymmetric lag is not open where a symmetric one explains as much. The " +
+                "table under Candidates has the parameters.",
         )
     }
 

@@ -127,6 +127,17 @@ class CorrectFiles(
             put("spread", finite(result.agreement.spread))
             put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
         }
+        result.margin?.let {
+            putJsonObject("reference") {
+                put("rows", it.rows)
+                put("covered", finite(it.covered))
+                put("factor", it.factor)
+                put("held_out_covered", finite(it.heldOut))
+                put("widened", it.isMisfit)
+            }
+        }
+        put("left_out", result.track.outlying.count { it })
+        put("at_range_end", result.track.clipped.count { it })
         put("learned_on", result.learned.readings)
         put("blocks", result.learned.blocks)
     }
@@ -248,7 +259,8 @@ class CorrectFiles(
                 "place, and the intervals cover far less than 95 %. A sensor known to be rate limited is better " +
                 "given with --sensor.",
             "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
-                "and its interval reaches to the reading.",
+                "and its interval reaches to the reading. Of a reading at an end of the sensor's range it is known that " +
+                "the sensor was there or beyond.",
         )
     }
 }

@@ -77,14 +77,30 @@ internal class CorrectSummary(
             }
             val value = digits(candidate.parameter(i), 3)
             "${parameterName(candidate.kind.parameters[i])} $value" +
-                " (${digits(interval.start, 3)} to ${digits(interval.endInclusive, 3)})"
+                " (${least(candidate, i)} to ${most(candidate, i)})"
         }
         return "${candidate.kind.label}: $parameters"
     }
 
+    private fun isTime(candidate: CandidateResponse, i: Int) =
+        candidate.kind.parameters[i].let { it.endsWith("_s") && it != RATE }
+
+    /** Of a time far below the distance of rows all digits are chance. */
+    private fun least(candidate: CandidateResponse, i: Int): String {
+        val start = candidate.interval(i).start
+        val isNothing = isTime(candidate, i) && start < result.series.medianStep / STEP_PARTS
+        return if (isNothing && candidate.parameter(i) > start * STEP_PARTS) "0" else digits(start, 3)
+    }
+
+    private fun most(candidate: CandidateResponse, i: Int): String {
+        val end = candidate.interval(i).endInclusive
+        // Of a time that is a hundred times the value nothing is known but that it is open.
+        val isOpen = isTime(candidate, i) && end > OPEN * maxOf(candidate.parameter(i), result.series.medianStep)
+        return if (isOpen) "not bounded by this log" else digits(end, 3)
+    }
+
     /** Whether the time that parameter [i] is is too short to be seen in rows so far apart. */
-    private fun isNone(candidate: CandidateResponse, i: Int) = candidate.kind.parameters[i].endsWith("_s") &&
-        candidate.kind.parameters[i] != RATE &&
+    private fun isNone(candidate: CandidateResponse, i: Int) = isTime(candidate, i) &&
         candidate.interval(i).endInclusive < result.series.medianStep / 2
 
     private fun parameterName(name: String) = when (name) {
@@ -273,14 +289,8 @@ internal class CorrectSummary(
             if (silent > 0) {
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
             }
-            val outlying = result.track.outlying.count { it }
-            if (outlying > 0) {
-                add(
-                    "$outlying readings stand out from those around them as no water here does and were left out: " +
-                        "their rows are foretold from the others, with intervals that reach to the readings",
-                )
-            }
-            if (result.learned.readings in 1 until result.series.size && result.origin == SensorOrigin.REVISITS) {
+            addAll(CorrectCautions(result, unitAfter).lines)
+            if (result.learned.isPart && result.origin == SensorOrigin.REVISITS) {
                 add("the sensor was learned on the ${result.learned.readings} readings in the middle of the log")
             }
             if (result.learned.held) {
@@ -298,6 +308,9 @@ internal class CorrectSummary(
 
         /** Times below such a part of the distance of rows are none, however narrow their interval. */
         const val STEP_PARTS = 10
+
+        /** Times the value, or the distance of rows. */
+        const val OPEN = 100
 
         /** Legs that differ by a few percent more may do so by chance. */
         const val WORSE = 1.1

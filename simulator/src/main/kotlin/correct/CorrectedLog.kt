@@ -9,6 +9,7 @@ import stillwater.estimate.TrackAgreement
 import stillwater.estimate.TrackCorrector
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UndoableSensor
+import stillwater.estimate.UnusableReadings
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
 import stillwater.io.SquareReach
@@ -44,7 +45,8 @@ enum class SensorOrigin(val label: String) {
  * @property hinted the same with intervals that do; null where it hints at nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
- * for it.
+ * for it. @property margin how far the reference lies outside the intervals before they were widened for that; null
+ * where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
  */
 class CorrectedLog internal constructor(
@@ -59,6 +61,8 @@ class CorrectedLog internal constructor(
     val before: LegMismatch?,
     val after: LegMismatch?,
     val agreement: TrackAgreement,
+    internal val margin: ReferenceMargin?,
+    internal val unusable: UnusableReadings,
     private val conditions: Map<String, DoubleArray> = emptyMap(),
 ) {
     /** Where the sensor comes from. */
@@ -154,6 +158,7 @@ class CorrectedLog internal constructor(
             SquareReach.require(log, series.values, rows.references())
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
+            val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
             val learned = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
@@ -161,16 +166,22 @@ class CorrectedLog internal constructor(
                     listOf(LikelyResponse(listOf(undone.response), 1.0)),
                     given.stages,
                 )
-                hasReference -> SensorLearning.byReference(log, series, rows.references())
-                else -> SensorLearning.byRevisits(series)
+                hasReference -> SensorLearning.byReference(log, series, rows.references(), unusable)
+                else -> SensorLearning.byRevisits(series, unusable)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
             val others = withSpeed(series, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
-            val narrow = corrected(series, learned.likely, spec.stages, resolution, others)
+            fun corrected(likely: List<LikelyResponse>) =
+                corrected(series, likely, spec.stages, resolution, others, unusable)
+            val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
             // What a given sensor's intervals are is the giver's: they are told of, not changed.
-            val unhinted = if (learned.origin == SensorOrigin.GIVEN) narrow else agreement.widened(narrow)
-            val hinted = learned.hinted?.let { corrected(series, listOf(it), spec.stages, resolution, others) }
+            val agreed = if (learned.origin == SensorOrigin.GIVEN) narrow else agreement.widened(narrow)
+            val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
+            fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())
+                .takeIf { learned.origin == SensorOrigin.REFERENCE }
+            val margin = margin(agreed)
+            val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,
                 pass,
@@ -178,11 +189,13 @@ class CorrectedLog internal constructor(
                 learned,
                 spec,
                 unhinted,
-                hinted?.let(unhinted::holding),
+                hint?.let { margin(it)?.widened(it) ?: it },
                 statistics,
                 legs(series, series.values),
                 legs(series, unhinted.values),
                 agreement,
+                margin,
+                unusable,
                 others,
             )
         }
@@ -194,10 +207,12 @@ class CorrectedLog internal constructor(
             stages: List<SensorStage>,
             resolution: Double,
             conditions: Map<String, DoubleArray> = emptyMap(),
+            unusable: UnusableReadings = UnusableReadings.none(series.size),
         ): CorrectedTrack {
             val sensor = UndoableSensor.of(SensorSpec("", stages))
             val scaled = sensor.calibrated(series, conditions)
-            return TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(likely)
+            val out = if (sensor.gain < 0) unusable.mirrored() else unusable
+            return TrackCorrector(scaled, resolution / abs(sensor.gain), out).correct(likely).widenedBy(sensor.play / 2)
         }
 
         /** [conditions] and the speed, from the positions where the log does not hold it, as the diagnosis takes it. */

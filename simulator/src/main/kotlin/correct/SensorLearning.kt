@@ -13,6 +13,7 @@ import stillwater.estimate.ResponseKind
 import stillwater.estimate.ResponseLearner
 import stillwater.estimate.RevisitLearner
 import stillwater.estimate.TrackSeries
+import stillwater.estimate.UnusableReadings
 import stillwater.estimate.rateLimit
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
@@ -28,7 +29,7 @@ import kotlin.random.Random
  * that intervals have to hold, or null. @property stages the most likely, with its calibration.
  * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
  * readings without one. @property held whether the reference looks held over each step. @property fault why the
- * reference was not learned from, or null.
+ * reference was not learned from, or null. @property isPart whether usable readings were too many to learn on all.
  */
 internal data class Learned(
     val origin: SensorOrigin,
@@ -41,6 +42,7 @@ internal data class Learned(
     val held: Boolean = false,
     val fault: String? = null,
     val hinted: LikelyResponse? = null,
+    val isPart: Boolean = false,
 )
 
 /** Learns a log's sensor, from passes through the same water or from a reference. */
@@ -69,9 +71,10 @@ internal object SensorLearning {
     private const val MOST_ROUGHNESS = 0.5
     private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
-    /** What passes of [series] through the same water say. */
-    fun byRevisits(series: TrackSeries): Learned {
-        if (series.values.all { it == series.values[0] }) return nothing(series.size)
+    /** What passes of [all] through the same water say, without those readings that are [unusable]. */
+    fun byRevisits(all: TrackSeries, unusable: UnusableReadings = UnusableReadings.none(all.size)): Learned {
+        val series = if (unusable.isNone) all else all.at((0 until all.size).filter(unusable::isUsable))
+        if (series.size < FEWEST || series.values.all { it == series.values[0] }) return nothing(all.size)
         val rate = series.rateLimit()
         if (rate.isFinite()) {
             val response = ResponseKind.SLEW.response(rate)
@@ -96,13 +99,19 @@ internal object SensorLearning {
             part.size,
             learner.blocks,
             hinted = choice.likelyHint(),
+            isPart = part.size < series.size,
         )
     }
 
     private fun nothing(readings: Int) = Learned(SensorOrigin.NOTHING, null, NO_LAG, emptyList(), readings)
 
-    /** What [references], NaN where there is none, say of the readings of [series]. */
-    fun byReference(log: SurveyLog, series: TrackSeries, references: DoubleArray): Learned {
+    /** What [references], NaN where there is none, say of the readings of [series] but for the [unusable]. */
+    fun byReference(
+        log: SurveyLog,
+        series: TrackSeries,
+        references: DoubleArray,
+        unusable: UnusableReadings,
+    ): Learned {
         val known = (0 until series.size).filter { references[it].isFinite() }
         if (known.size < FEWEST) {
             val expected = "at least $FEWEST readings with a reference"
@@ -115,11 +124,12 @@ internal object SensorLearning {
         val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
         val part = series.at(usable)
         val reference = DoubleArray(usable.size) { references[usable[it]] }
-        val held = ReferenceLearner.isHeld(part, reference)
-        val learner = ReferenceLearner(part, reference, held)
-        fault(series, part, learner)?.let { return byRevisits(series).copy(fault = it) }
-        val choice =
-            requireNotNull(choice(learner, ResponseKind.entries) { ReferenceLearner(part, reference, held) })
+        val out = unusable.at(usable)
+        val held = ReferenceLearner.isHeld(part, reference, out)
+        fun another() = ReferenceLearner(part, reference, held, out)
+        val learner = another()
+        fault(series, part, learner)?.let { return byRevisits(series, unusable).copy(fault = it) }
+        val choice = requireNotNull(choice(learner, ResponseKind.entries, ::another))
 
         // What is undone is a response to water that changes all the time.
         fun undone(open: LikelyResponse) =
@@ -180,6 +190,11 @@ internal fun TrackSeries.at(rows: List<Int>): TrackSeries {
     fun of(values: DoubleArray) = DoubleArray(rows.size) { values[rows[it]] }
     return TrackSeries(of(times), of(xs), of(ys), of(values))
 }
+
+private fun UnusableReadings.at(rows: List<Int>) = UnusableReadings(
+    BooleanArray(rows.size) { wild[rows[it]] },
+    ByteArray(rows.size) { ends[rows[it]] },
+)
 
 private fun TrackSeries.middle(most: Int): TrackSeries {
     if (size <= most) return this

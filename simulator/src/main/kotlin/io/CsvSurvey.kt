@@ -134,11 +134,15 @@ internal class CsvSurvey internal constructor(
         private var readings = 0L
         private var rows = 0L
         private var headerSeen = false
+        private val far = FarFixes(::pass)
         private val order = TimeOrder(::use) { row, other, fault -> refuse(timeProblem(row, other, fault)) }
         private val local = DoubleArray(2)
         private val inDegrees = columns.latitude != CsvColumns.NONE
         private val northColumn = if (inDegrees) columns.latitude else columns.y
         private val eastColumn = if (inDegrees) columns.longitude else columns.x
+
+        /** Whether places are metres both ways; a transect's may be in any unit. */
+        private val isFlat = northColumn != CsvColumns.NONE && eastColumn != CsvColumns.NONE
 
         fun take(row: CsvRow) {
             if (row.isEnd) return
@@ -220,7 +224,8 @@ internal class CsvSurvey internal constructor(
             quoteProblem(row)?.let { return it }
             if (row.fields != columns.names.size) {
                 val expected = "${columns.names.size} fields as in the header"
-                return problem(row.line, null, expected, "${row.fields}", "rows with a wrong number of fields")
+                val found = "${row.fields}" + if (splitsDecimals(row)) " (decimal commas need another separator)" else ""
+                return problem(row.line, null, expected, found, "rows with a wrong number of fields")
             }
             return numberProblem(row, TIME, columns.time)
                 ?: numberProblem(row, NORTH, northColumn)
@@ -239,10 +244,18 @@ internal class CsvSurvey internal constructor(
             }
             val text = row.textOf(column)
             val reason = if (text.isBlank()) "rows with an empty field" else "rows with text where a number belongs"
-            val hint = if (row.numbers[slot].isInfinite()) " (too large)" else commaHint(text)
+            val hint = when {
+                text.trim() == columns.names[column] -> ", the header again: is this another log glued onto the first?"
+                row.numbers[slot].isInfinite() -> " (too large)"
+                else -> commaHint(text)
+            }
             val expected = if (slot == TIME) times.expected else "a finite number"
             return problem(row.line, column, expected, quoted(text) + hint, reason)
         }
+
+        /** Whether the row has about as many fields more as it would if commas stood in its numbers. */
+        private fun splitsDecimals(row: CsvRow) = layout.separator == ',' &&
+            row.fields > columns.names.size + 1 && row.fields <= 2 * columns.names.size
 
         private fun commaHint(text: String) = when {
             DecimalText.parse(text.replace(',', '.')).isNaN() -> ""
@@ -252,8 +265,13 @@ internal class CsvSurvey internal constructor(
 
         private fun conditionProblem(row: CsvRow): LogProblem? {
             for (i in conditionNames.indices) {
-                if (conditionSlots[i] < SLOTS || row.numbers[conditionSlots[i]].isFinite()) continue
                 val column = columns.conditions.getValue(conditionNames[i])
+                val slot = conditionSlots[i]
+                if (slot < SLOTS) continue
+                if (row.numbers[slot].isFinite()) {
+                    sizeProblem(row, slot, column, SquareReach.LARGEST)?.let { return it }
+                    continue
+                }
                 val text = row.textOf(column)
                 if (CellText.isMissing(text)) continue
                 val reason = "rows with text where a number belongs"
@@ -267,7 +285,7 @@ internal class CsvSurvey internal constructor(
             val longitude = row.numbers[EAST]
             val reason = "positions off the globe"
             timeSizeProblem(row)?.let { return it }
-            sizeProblem(row, VALUE, columns.value, LARGEST_NUMBER)?.let { return it }
+            sizeProblem(row, VALUE, columns.value, SquareReach.LARGEST)?.let { return it }
             return when {
                 !inDegrees -> sizeProblem(row, EAST, eastColumn, LARGEST_METRES)
                     ?: sizeProblem(row, NORTH, northColumn, LARGEST_METRES)
@@ -330,7 +348,14 @@ internal class CsvSurvey internal constructor(
         }
 
         private fun use(row: TimedRow) {
-            if (row.x.isNaN()) return skips.count("positions without a fix (0, 0)")
+            when {
+                row.x.isNaN() -> skips.count("positions without a fix (0, 0)")
+                isFlat -> far.take(row)
+                else -> pass(row)
+            }
+        }
+
+        private fun pass(row: TimedRow) {
             sink.take(BoatTime(row.seconds), row.x, row.y, row.value, row.conditions)
             readings++
         }
@@ -352,13 +377,14 @@ internal class CsvSurvey internal constructor(
         fun end(): LogPass {
             if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
             order.end()
-            return LogPass(readings, skips.toMap(), listOfNotNull(order.note, nights.note) + codes.notes())
+            far.end()
+            repeat(far.count.toInt()) { skips.count("single fixes far off") }
+            return LogPass(readings, skips.toMap(), listOfNotNull(order.note, nights.note, far.note) + codes.notes())
         }
     }
 
     companion object {
         private const val LONGEST_FIELD = 1 shl 20
-        private const val LARGEST_NUMBER = 1e300
         private const val SUMMARY = "lines that sum up"
         private const val NO_PLACE = "rows without a position"
         private const val LARGEST_METRES = 1e9

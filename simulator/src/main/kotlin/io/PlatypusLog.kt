@@ -130,8 +130,8 @@ internal class PlatypusLog private constructor(
                 sensor.field >= entry.data.size ->
                     refuse("at least ${sensor.field + 1} numbers", "${entry.data.size}", "readings without the field")
                 !value.isFinite() -> refuse("a finite number", "none", "readings that are no number")
-                abs(value) > LARGEST_VALUE ->
-                    refuse("a number within -$LARGEST_VALUE..$LARGEST_VALUE", "$value", "readings out of all bounds")
+                abs(value) > SquareReach.LARGEST ->
+                    refuse("a number within -$SquareReach.LARGEST..$SquareReach.LARGEST", "$value", "readings out of all bounds")
                 seconds <= lastSensorSeconds -> {
                     val fault = if (seconds < lastSensorSeconds) TimeFault.BACK else TimeFault.DUPLICATE
                     refuse("a ${sensor.type} time after $lastSensorSeconds s", "$seconds s", fault.reason)
@@ -178,7 +178,6 @@ internal class PlatypusLog private constructor(
     }
 
     companion object {
-        private const val LARGEST_VALUE = 1e300
         private const val LARGEST_EASTING = 1e6
         private const val LARGEST_NORTHING = 1e7
         private const val PLACEHOLDER_EASTING = 476_608.34

@@ -7,7 +7,8 @@ import kotlin.math.abs
  * nor, where a column holds nothing larger, so small that they vanish.
  */
 internal object SquareReach {
-    private const val LARGEST = 1e60
+    /** The largest number that any log may hold. */
+    const val LARGEST = 1e60
     private const val SMALLEST = 1e-60
 
     /**

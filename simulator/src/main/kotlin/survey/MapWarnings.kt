@@ -15,7 +15,7 @@ internal class MapWarnings(private val map: SurveyMap) {
     private val wording = Wording(map)
 
     /** The sentences, most important first. */
-    fun list(): List<String> = map.pass.warnings +
+    fun list(): List<String> = map.pass.warnings + map.correction?.cautions.orEmpty() +
         listOfNotNull(jumps(), gap(), outliers(), outsideRange(), skipped()) +
         epsilon() + listOfNotNull(standing()) + bounds() + listOfNotNull(map.interval?.warning(wording::value)) +
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })

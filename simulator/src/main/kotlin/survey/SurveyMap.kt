@@ -242,8 +242,15 @@ class SurveyMap internal constructor(
     }
 }
 
-/** Readings as [sensor], a sensor that was given, must have seen the water; [values] in the order of the log's rows. */
-class GivenCorrection(val sensor: String, private val values: DoubleArray) {
+/**
+ * Readings as [sensor], a sensor that was given, must have seen the water; [values] in the order of the log's rows.
+ * [cautions] say which of them are less certain than the others, one sentence each.
+ */
+class GivenCorrection(
+    val sensor: String,
+    private val values: DoubleArray,
+    val cautions: List<String> = emptyList(),
+) {
     /** The water at reading [row]. */
     internal fun at(row: Int): Double = values[row]
 }

@@ -123,6 +123,25 @@ class MapBadInputTest {
                 "rows with text where a number belongs",
             ),
             csv(
+                "another log glued onto it",
+                HEAD + GOOD + HEAD + GOOD,
+                "log.csv:5: column time_s: expected seconds or a time as 2025-06-01T12:00:00Z, " +
+                    "found 'time_s', the header again",
+                "rows with text where a number belongs",
+            ),
+            csv(
+                "a number beyond all that can be reckoned with",
+                HEAD + GOOD + "3,45.5,-73.1,1e300\n",
+                "log.csv:5: column do_mg_l: expected a number within -1.0E60..1.0E60, found 1.0E300",
+                "rows with a number out of all bounds",
+            ),
+            csv(
+                "decimal commas between commas",
+                HEAD + GOOD + "3,0,45,5,-73,1,8,1\n",
+                "log.csv:5: expected 4 fields as in the header, found 8 (decimal commas need another separator)",
+                "rows with a wrong number of fields",
+            ),
+            csv(
                 "decimal comma beside decimal points",
                 "time_s;x_m;y_m;v\n0;0;0;1.2\n1;1;0;2\n2;2;0;1,5\n",
                 "log.csv:4: column v: expected a finite number, found '1,5' (decimals need a point)",

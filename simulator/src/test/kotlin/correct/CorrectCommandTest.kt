@@ -112,7 +112,8 @@ class CorrectCommandTest {
     @Test
     fun badInputIsOneLineAndLeavesNothing() {
         val file = log(survey())
-        val twice = """{"name": "s", "stages": [{"type": "hysteresis", "width": 1.0}]}"""
+        val lag = """{"type": "first-order-lag", "time_constant_s": 6.0}"""
+        val twice = """{"name": "s", "stages": [{"type": "saturation", "upper": 5.0}, $lag]}"""
         val cases = listOf(
             listOf(file) to "--value",
             listOf(file, "--value", "fog") to "fog",

@@ -36,8 +36,8 @@ class GivenSensorTest {
 
     private fun file(name: String, text: String) = directory.resolve(name).also { it.writeText(text) }.toString()
 
-    private fun spec(stage: SensorStage) =
-        file("sensor.json", SensorSpec("test", listOf(stage)).toJson())
+    private fun spec(vararg stages: SensorStage) =
+        file("sensor.json", SensorSpec("test", stages.toList()).toJson())
 
     private fun water(along: Double) = 8 + sin(2 * PI * along / 60) + along / 100
 
@@ -119,6 +119,21 @@ class GivenSensorTest {
                 assertContains(result.stderr, word)
                 assertFalse(out.exists(), "$arguments")
             }
+        }
+    }
+
+    /** As the diagnosis writes it: what cannot be had back does not keep the lag from being undone. */
+    @Test
+    fun aSensorOfWhichSomethingIsLostIsUndoneButForThat() {
+        val lag = SensorStage.Lag(8.0)
+        val log = file("log.csv", survey(lag))
+        val extended =
+            spec(lag, SensorStage.Backlash(0.02), SensorStage.Range(null, 9.0), SensorStage.Outlying(0.01, 1.0))
+        for (command in listOf("correct", "map")) {
+            val result = run(command, log, "--value", "do_mg_l", "--sensor", extended)
+            assertEquals(0, result.statusCode, result.output)
+            assertContains(result.stderr, "hysteresis in the sensor hides changes within 0.02")
+            assertContains(result.stderr, "at the upper end of the sensor's range")
         }
     }
 

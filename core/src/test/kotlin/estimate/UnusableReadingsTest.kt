@@ -1,0 +1,77 @@
+package stillwater.estimate
+
+import org.junit.jupiter.api.Test
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.math.tanh
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+class UnusableReadingsTest {
+    private fun series(values: DoubleArray) =
+        TrackSeries(DoubleArray(values.size) { it.toDouble() }, values, values, values)
+
+    private fun found(values: DoubleArray, resolution: Double = DIGIT) =
+        UnusableReadings.of(series(values), resolution)
+
+    private fun rounded(value: Double, digit: Double = DIGIT) = digit * Math.rint(value / digit)
+
+    private fun wavy(random: Random, noise: Double = 0.02) = DoubleArray(ROWS) {
+        rounded(8 + sin(it / 17.0) + 0.6 * sin(it / 6.0) + noise * random.nextDouble(-1.7, 1.7))
+    }
+
+    @Test
+    fun everySpikeIsFoundAndNothingElse() {
+        val random = Random(4)
+        val values = wavy(random)
+        // Two of them side by side.
+        val spikes = (List(25) { 20 + 30 * it } + 21).toSet()
+        for (i in spikes) values[i] += if (random.nextBoolean()) 2.5 else -3.5
+        val unusable = found(values)
+        assertEquals(spikes, values.indices.filter { unusable.wild[it] }.toSet())
+        assertTrue(unusable.ends.all { it.toInt() == 0 })
+    }
+
+    /** A sensor without a lag crosses a front from one row to the next, and a patch in three. */
+    @Test
+    fun whatIsConfirmedByTheRowsAfterItStays() {
+        val random = Random(5)
+        val front = DoubleArray(ROWS) { rounded((if (it < 300) 4.0 else 9.0) + 0.02 * random.nextDouble(-1.7, 1.7)) }
+        val ramp = DoubleArray(ROWS) { rounded(6 + 2 * tanh((it - 300) / 1.5) + 0.02 * random.nextDouble(-1.7, 1.7)) }
+        val patch = wavy(random).also { values -> for (i in -2..2) values[400 + i] += 3 * exp(-i * i / 2.0) }
+        for (values in listOf(front, ramp, patch)) assertTrue(found(values).isNone)
+    }
+
+    @Test
+    fun readingsAtAnEndOfTheRangeAreFoundOnItsSide() {
+        val values = wavy(Random(6))
+        val clipped = DoubleArray(ROWS) { minOf(values[it], 9.0) }
+        val turned = DoubleArray(ROWS) { -clipped[it] }
+        val top = found(clipped)
+        assertEquals(values.indices.filter { values[it] >= 9.0 }, values.indices.filter { top.ends[it] > 0 })
+        assertEquals(values.indices.filter { values[it] >= 9.0 }, values.indices.filter { found(turned).ends[it] < 0 })
+        assertTrue(top.mirrored().ends.none { it > 0 })
+    }
+
+    /** Rounding makes runs of equal readings as well, the longest of them where the water turns; so does a stuck sensor. */
+    @Test
+    fun readingsThatAreRoundedCoarselyEndNowhere() {
+        val smooth = DoubleArray(ROWS) { rounded(8 + sin(it / 40.0), 0.1) }
+        val noisy = wavy(Random(7)).also { for (i in it.indices) it[i] = rounded(it[i], 0.5) }
+        for (values in listOf(smooth, noisy, DoubleArray(ROWS) { 8.0 })) assertTrue(found(values, 0.1).isNone)
+    }
+
+    @Test
+    fun anEndThatIsKnownIsNotLookedFor() {
+        val values = doubleArrayOf(4.0, 5.0, 5.0, 4.5, 3.0) + DoubleArray(40) { 4 + 0.01 * it }
+        val unusable = UnusableReadings.of(series(values), DIGIT, 3.001..5.001)
+        assertEquals(listOf(1, 2), values.indices.filter { unusable.ends[it] > 0 })
+        assertEquals(listOf(4), values.indices.filter { unusable.ends[it] < 0 })
+    }
+
+    private companion object {
+        const val ROWS = 800
+        const val DIGIT = 0.01
+    }
+}

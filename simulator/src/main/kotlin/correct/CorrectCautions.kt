@@ -1,0 +1,40 @@
+package stillwater.correct
+
+import stillwater.estimate.UndoableSensor
+import stillwater.survey.Wording.Companion.digits
+
+/**
+ * Which rows of a [CorrectedLog] are less certain than the others, and why, in words.
+ *
+ * @param result what it is about. @param unitAfter the readings' unit with a blank before it, or nothing.
+ */
+internal class CorrectCautions(private val result: CorrectedLog, private val unitAfter: String) {
+    /** One sentence each. */
+    val lines: List<String>
+        get() = listOfNotNull(outlying(), atEnd(1, "upper", "upward"), atEnd(-1, "lower", "downward"), play())
+
+    private fun outlying(): String? {
+        val outlying = result.track.outlying.count { it }
+        if (outlying == 0) return null
+        val stand = if (outlying == 1) "reading stands" else "readings stand"
+        return "$outlying $stand out from those around them as no water here does and are left out: their rows are " +
+            "foretold from the others, with intervals that reach to the readings"
+    }
+
+    private fun atEnd(side: Int, end: String, open: String): String? {
+        val ends = result.unusable.ends
+        val rows = ends.indices.filter { ends[it].toInt() == side }
+        if (rows.isEmpty()) return null
+        val at = digits(result.series.values[rows.first()])
+        return "${rows.size} of ${ends.size} readings are at the $end end of the sensor's range ($at$unitAfter): they " +
+            "were not learned from, and of the water there they say one side only, so that the intervals are wide " +
+            "$open there and as long after as the sensor remembers"
+    }
+
+    private fun play(): String? {
+        val play = UndoableSensor.of(result.spec).play
+        if (play == 0.0) return null
+        return "hysteresis in the sensor hides changes within ${digits(play)}$unitAfter: that cannot be undone, and " +
+            "the intervals were widened by half of it either way"
+    }
+}
