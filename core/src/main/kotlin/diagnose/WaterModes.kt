@@ -15,15 +15,19 @@ import kotlin.math.sqrt
  * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
  * doi:10.1016/j.apnum.2011.10.001.
  *
- * @param most columns at most. @param needed length of the shortest wave that the water has, m; null where that is not
- *   known. @param wider by how much of the track's size the waves' box is wider, where that is not known.
+ * Where the track is no line, those that stay are rings of plane waves ([WaterRings]).
+ *
+ * @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
+ *   ring over the noise's. @property first variances of the processes to begin with, over the noise's.
  */
-internal class WaterModes(
+internal class WaterModes private constructor(
     private val series: MeasuredSeries,
     private val track: SmoothTrack,
-    most: Int,
-    needed: Double? = null,
-    wider: Double = 0.0,
+    private val most: Int,
+    private val rings: WaterRings?,
+    private val spectrum: DoubleArray,
+    left: Double,
+    known: DoubleArray?,
 ) {
     private val n = series.size
     private val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
@@ -31,6 +35,7 @@ internal class WaterModes(
         median(DoubleArray(n - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) })
     private val found = ArrayList<DoubleArray>()
     private val bandOf = ArrayList<Int>()
+    private val ringOf = ArrayList<Int>()
 
     /** Length of the shortest process or wave, m. */
     var finest: Double = extent
@@ -50,7 +55,7 @@ internal class WaterModes(
         found += DoubleArray(n) { 1.0 }
         bandOf += 0
         var next = 1
-        val isLine = isLine()
+        val isLine = rings == null
         val room = ((if (isLine) LINE_MOVING else MOVING) * most / (TIMES.size * SHARES.size)).toInt()
         for (part in TIMES) {
             for (share in if (isLine) LINE_SHARES else SHARES) {
@@ -59,29 +64,26 @@ internal class WaterModes(
         }
         moving = 1 until next
         val still = most - found.size
-        val enough = LATTICE * maxOf(step, 1e-9 * extent)
-        val gaussian = shortest((FINEST * still).toInt())
-        val lattice = if (isLine) null else needed?.let { wide(it, still) } ?: fine(enough, gaussian, still, wider)
-        if (lattice != null) {
-            finest = lattice.shortest
-            lengths = List(next) { Double.POSITIVE_INFINITY } + lattice.lengths()
-            lattice.rings().forEach { add(it, next++) }
-        } else {
-            finest = gaussian
+        if (rings == null) {
+            finest = shortest((FINEST * still).toInt())
             ladder(still).forEach { add(it, next++) }
+        } else {
+            val columns = rings.columns(spectrum, left, still).groupBy({ it.first }, { it.second }).toSortedMap()
+            lengths = List(next) { Double.POSITIVE_INFINITY } + columns.keys.map { rings.lengths[it] }
+            finest = lengths.last()
+            columns.forEach { (ring, own) ->
+                add(own, next++)
+                ringOf += ring
+            }
         }
     }
 
-    /** Waves as short as [needed] in the widest box in which so many are enough; null where there is none. */
-    private fun wide(needed: Double, most: Int): WaterLattice? = WIDER.firstNotNullOfOrNull { wider ->
-        WaterLattice(track.x, track.y, most, needed, wider).takeIf { it.shortest <= needed * (1 + CLOSE) }
-    }
-
-    /** Waves in a box that is just wide enough; null where processes of the length [gaussian] show finer water. */
-    private fun fine(enough: Double, gaussian: Double, most: Int, wider: Double): WaterLattice? {
-        val narrow = WaterLattice(track.x, track.y, most, enough, 0.0)
-        if (narrow.shortest > maxOf(enough, WAVE * gaussian)) return null
-        return if (wider > 0) WaterLattice(track.x, track.y, most, enough, wider) else narrow
+    /** These with rings as strong as [variances] of their processes have been found to be. */
+    fun refined(variances: DoubleArray): WaterModes {
+        if (rings == null) return this
+        val next = spectrum.copyOf()
+        ringOf.forEachIndexed { i, ring -> next[ring] = spectrum[ring] * variances[moving.last + 1 + i] }
+        return WaterModes(series, track, most, rings, next, UNSEEN, variances.copyOf(moving.last + 1))
     }
 
     /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */
@@ -94,13 +96,6 @@ internal class WaterModes(
             length *= FACTOR
         }
         return ladder.reversed()
-    }
-
-    /** Whether the track is a line gone to and fro, as a float's casts: then it comes back often, to changed water. */
-    private fun isLine(): Boolean {
-        val east = track.x.max() - track.x.min()
-        val north = track.y.max() - track.y.min()
-        return minOf(east, north) < 1e-3 * maxOf(east, north)
     }
 
     /** The shortest length of which [columns] columns hold all that the track can tell, m. */
@@ -130,6 +125,13 @@ internal class WaterModes(
 
     /** Number of processes. */
     val bands: Int = band.max() + 1
+
+    /** Variances of the processes to begin with, over the noise's. */
+    val first: DoubleArray = when {
+        rings == null -> DoubleArray(bands) { FIRST_RATIO / size }
+        known == null -> DoubleArray(bands) { FIRST_RATIO / bands }
+        else -> DoubleArray(bands) { if (it < known.size) known[it] else 1.0 }
+    }
 
     /** Each column along the track at height 1. */
     val columns: Array<DoubleArray> = found.toTypedArray()
@@ -186,7 +188,30 @@ internal class WaterModes(
         }
     }
 
-    private companion object {
+    companion object {
+        /** Water of [most] columns of which nothing is known: all rings that so many can show are as strong. */
+        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int): WaterModes {
+            val east = track.x.max() - track.x.min()
+            val north = track.y.max() - track.y.min()
+            // A line gone to and fro, as a float's casts: it comes back often, to changed water.
+            if (minOf(east, north) < 1e-3 * maxOf(east, north)) {
+                return WaterModes(series, track, most, null, DoubleArray(0), 0.0, null)
+            }
+            val step = median(
+                DoubleArray(series.size - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) },
+            )
+            val rings = WaterRings(track.x, track.y, LATTICE * maxOf(step, 1e-9 * hypot(east, north)))
+            val room = most - 1 - TIMES.size * SHARES.size * (MOVING * most / (TIMES.size * SHARES.size)).toInt()
+            val coarsest = rings.coarsest(room)
+            val spectrum = DoubleArray(rings.size) { if (it < coarsest) 1.0 else 0.0 }
+            return WaterModes(series, track, most, rings, spectrum, LEFT * coarsest, null)
+        }
+
+        private const val FIRST_RATIO = 1e4
+
+        /** Part of the water's variance that may be left anywhere, and of the noise's where that is known. */
+        private const val LEFT = 1e-6
+        private const val UNSEEN = 1e-3
         const val FINEST = 0.75
         const val FACTOR = 2.2
 
