@@ -216,10 +216,26 @@ internal class BlindSearch(
         return best
     }
 
-    /** [state] with water that does not change in time. */
-    fun still(state: BlindState): BlindState {
+    /** Whether the water of [state] does not change in time. */
+    fun isStill(state: BlindState): Boolean = state.modes.moving.all { state.variances[it] <= LEAST }
+
+    /** [state] with water that does not change in time, and with what suits that. */
+    fun still(state: BlindState): BlindState =
+        if (isStill(state)) state else climbed(requieted(climbed(held(state))))
+
+    /** [state] with water that does not change in time, all else the same. */
+    fun held(state: BlindState): BlindState {
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) LEAST else state.variances[it] }
         return settled(state.model.terms, state.numbers, state.fit.design.noise, variances, before = state)
+    }
+
+    /** [state] with water that may change in time, and with what suits that. */
+    fun opened(state: BlindState): BlindState {
+        if (!isStill(state)) return state
+        val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
+        val open =
+            settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
+        return climbed(open)
     }
 
     /** Which numbers of [model] are fitted: the lag's and the terms'. */
@@ -367,6 +383,9 @@ internal class BlindSearch(
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
+
+        /** Variance over the noise's of water that changes, to begin with. */
+        const val OPENED = 10.0
         const val ROUNDS = 2
         const val HELD = 6.0
         const val STEPS = 8

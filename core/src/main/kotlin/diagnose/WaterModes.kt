@@ -78,6 +78,9 @@ internal class WaterModes private constructor(
         }
     }
 
+    /** Whether rings finer than these were offered, and are not in the water. */
+    val isWhole: Boolean get() = rings != null && spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
+
     /** These with rings as strong as [variances] of their processes have been found to be. */
     fun refined(variances: DoubleArray): WaterModes {
         if (rings == null) return this
