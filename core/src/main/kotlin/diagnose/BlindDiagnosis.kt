@@ -40,7 +40,8 @@ internal class BlindDiagnosis(
         }
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
         val still = search.still(base)
-        val lags = listOf(base, still).distinct().map { BlindLag(search, it) }
+        val lags = listOf(base, still).filter { it.score > base.score - FAR_CHANGE }.distinct()
+            .map { BlindLag(search, it) }
         val lag = lags.maxBy { it.likeliest }
         base = lag.timeConstant
         isShapeOpen = lag.isOpen(settings.separation)
@@ -88,11 +89,8 @@ internal class BlindDiagnosis(
                     tries.attempt(term)
                 }
                 // Water that changes in time may have taken what the sensor does.
-                val others = if (still === state) {
-                    emptyMap()
-                } else {
-                    terms.associateWith { if (it.cause in SLOW) heldTries.attempt(it) else stillTries.attempt(it) }
-                }
+                val both = terms.filter { still !== state && (it.cause in SLOW || changing < FAR_CHANGE) }
+                val others = both.associateWith { (if (it.cause in SLOW) heldTries else stillTries).attempt(it) }
                 fun worth(trial: BlindTrial) = maxOf(trial.worth, others[trial.term]?.worth ?: 0.0)
                 val likely = all.filter { it.ratio > LIKELY || others[it.term]?.let(::isLikelyOnStill) == true }
                     .sortedByDescending(::worth).take(MOST_LIKELY).toSet()
@@ -132,6 +130,24 @@ internal class BlindDiagnosis(
          * way.
          */
         private fun settled(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+            val first = settledAsIs(trial, other)
+            return if (first.term?.cause == Cause.OFFSET_STEPS && first.pValue < settings.level) grown(first) else first
+        }
+
+        /** [trial], of jumps, with more of them: what the first leave shows others. */
+        private fun grown(trial: BlindTrial): BlindTrial {
+            val before = trial.state ?: return trial
+            val term = checkNotNull(trial.term)
+            val more = BlindTrials(search, before).oneMoreJump(term) ?: return trial
+            val after = search.improved(search.requieted(with(before, more)))
+            val gain = after.score - before.score - 2 * (tries.searched(2) - tries.searched(1))
+            if (gain < LIKELY) return trial
+            val base = if (search.isStill(after)) still else state
+            val next = tries.settled(more, after, maxOf(base.score, likewise(base, after)), searched(more))
+            return grown(if (base === state) next else next.among(base.score - state.score))
+        }
+
+        private fun settledAsIs(trial: BlindTrial, other: BlindTrial?): BlindTrial {
             val isSlow = trial.term?.cause in SLOW
             val onState = if (isSlow && other != null && !(trial.ratio > LIKELY)) null else found(state, trial)
             val onStill = other?.takeIf { !isSlow || isLikelyOnStill(it) }
@@ -379,6 +395,9 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+
+        /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
+        private const val FAR_CHANGE = 300.0
 
         /** Twice the gain in log-likelihood that water which changes must add to a drift or a jump to be kept beside it. */
         private const val CHANGING_TOO = 10.0

@@ -68,7 +68,7 @@ internal class BlindSearch(
         fun at(waves: WaterModes, lag: Double) =
             settled(emptyList(), base(lag), state.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, waves)
         if (isEnough(state)) return redone(state)
-        val best = at(WaterModes.flat(series, track, most), state.timeConstant)
+        val best = at(rough.flat(most), state.timeConstant)
         if (best.isResolved) return redone(best)
         val others = LAGS.map { it * series.period }.filter { abs(ln(it / state.timeConstant)) > FAR_LAG }
         return redone((others.map { at(best.modes, it) } + best).maxBy { it.score })
@@ -376,7 +376,7 @@ internal class BlindSearch(
 
         /** Parts of the work that may be done at the same time. */
         const val PARTS = 4
-        const val REDONE = 3
+        const val REDONE = 2
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5

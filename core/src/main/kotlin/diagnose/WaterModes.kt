@@ -78,6 +78,9 @@ internal class WaterModes private constructor(
         }
     }
 
+    /** Water of [most] columns of which nothing is known, on the same track. */
+    fun flat(most: Int): WaterModes = flat(series, track, most, rings)
+
     /** Whether rings finer than these were offered, and are not in the water. */
     val isWhole: Boolean get() = rings != null && spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
 
@@ -193,7 +196,9 @@ internal class WaterModes private constructor(
 
     companion object {
         /** Water of [most] columns of which nothing is known: all rings that so many can show are as strong. */
-        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int): WaterModes {
+        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int): WaterModes = flat(series, track, most, null)
+
+        private fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, known: WaterRings?): WaterModes {
             val east = track.x.max() - track.x.min()
             val north = track.y.max() - track.y.min()
             // A line gone to and fro, as a float's casts: it comes back often, to changed water.
@@ -203,7 +208,7 @@ internal class WaterModes private constructor(
             val step = median(
                 DoubleArray(series.size - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) },
             )
-            val rings = WaterRings(track.x, track.y, LATTICE * maxOf(step, 1e-9 * hypot(east, north)))
+            val rings = known ?: WaterRings(track.x, track.y, LATTICE * maxOf(step, 1e-9 * hypot(east, north)))
             val room = most - 1 - TIMES.size * SHARES.size * (MOVING * most / (TIMES.size * SHARES.size)).toInt()
             val coarsest = rings.coarsest(room)
             val spectrum = DoubleArray(rings.size) { if (it < coarsest) 1.0 else 0.0 }
