@@ -5,20 +5,22 @@ import kotlin.math.hypot
 import kotlin.math.sqrt
 
 /**
- * The water where nobody knows it: a sum of Gaussian processes of several lengths, the shorter ones as short as the log
- * can tell, and of some that also change in time.
+ * The water where nobody knows it: waves of many lengths, the shorter ones as short as the log can tell, and some
+ * processes that also change in time.
  *
- * Each has the covariance exp(-d²/2ℓ² - Δt²/2T²) between rows and a variance of its own, which the log tells: so no
- * smoothness is assumed, and a lag that weakens short waves is not told by that. Rows of one process are F β with β of
- * one variance and F a pivoted Cholesky factor, which has as many columns as the track needs, wherever it goes.
+ * What stays are rings of plane waves ([WaterRings]), each of a variance of its own, which the log tells: so no smoothness
+ * is assumed, and a lag that weakens short waves is not told by that. Where the track is a line, they are Gaussian
+ * processes of several lengths. Those that change have the covariance exp(-d²/2ℓ² - Δt²/2T²). Rows of one process are
+ * F β with β of one variance and F a pivoted Cholesky factor, which has as many columns as the track needs, wherever it
+ * goes.
  *
  * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
  * doi:10.1016/j.apnum.2011.10.001.
  *
- * Where the track is no line, those that stay are rings of plane waves ([WaterRings]).
- *
  * @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
- *   ring over the noise's. @property first variances of the processes to begin with, over the noise's.
+ *   ring over the noise's, or over each other's where nothing is known. @param left variance, in the same measure, that
+ *   may be left anywhere. @param known variances of the level and of what changes over the noise's; null where nothing is
+ *   known.
  */
 internal class WaterModes private constructor(
     private val series: MeasuredSeries,
@@ -79,10 +81,12 @@ internal class WaterModes private constructor(
     }
 
     /** Water of [most] columns of which nothing is known, on the same track. */
-    fun flat(most: Int): WaterModes = flat(series, track, most, rings)
+    fun flat(most: Int): WaterModes =
+        if (rings == null) flat(series, track, most) else flatRings(series, track, most, rings)
 
     /** Whether rings finer than these were offered, and are not in the water. */
-    val isWhole: Boolean get() = rings != null && spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
+    val isWhole: Boolean
+        get() = rings != null && spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
 
     /** These with rings as strong as [variances] of their processes have been found to be. */
     fun refined(variances: DoubleArray): WaterModes {
@@ -195,10 +199,11 @@ internal class WaterModes private constructor(
     }
 
     companion object {
-        /** Water of [most] columns of which nothing is known: all rings that so many can show are as strong. */
-        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int): WaterModes = flat(series, track, most, null)
-
-        private fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, known: WaterRings?): WaterModes {
+        /**
+         * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to waves
+         * of [shortest] m.
+         */
+        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, shortest: Double = 0.0): WaterModes {
             val east = track.x.max() - track.x.min()
             val north = track.y.max() - track.y.min()
             // A line gone to and fro, as a float's casts: it comes back often, to changed water.
@@ -208,7 +213,11 @@ internal class WaterModes private constructor(
             val step = median(
                 DoubleArray(series.size - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) },
             )
-            val rings = known ?: WaterRings(track.x, track.y, LATTICE * maxOf(step, 1e-9 * hypot(east, north)))
+            val least = maxOf(STEPS_A_WAVE * step, STEPS_A_WAVE * 1e-9 * hypot(east, north), shortest)
+            return flatRings(series, track, most, WaterRings(track.x, track.y, least))
+        }
+
+        private fun flatRings(series: MeasuredSeries, track: SmoothTrack, most: Int, rings: WaterRings): WaterModes {
             val room = most - 1 - TIMES.size * SHARES.size * (MOVING * most / (TIMES.size * SHARES.size)).toInt()
             val coarsest = rings.coarsest(room)
             val spectrum = DoubleArray(rings.size) { if (it < coarsest) 1.0 else 0.0 }
@@ -220,26 +229,22 @@ internal class WaterModes private constructor(
         /** Part of the water's variance that may be left anywhere, and of the noise's where that is known. */
         private const val LEFT = 1e-6
         private const val UNSEEN = 1e-3
-        const val FINEST = 0.75
-        const val FACTOR = 2.2
+        private const val FINEST = 0.75
+        private const val FACTOR = 2.2
 
         /** The shortest waves that a process holds, over its length: e⁻⁴ of the longest's power. */
-        const val WAVE = 2.2
+        private const val WAVE = 2.2
 
-        /** Steps from row to row in the shortest wave of a lattice: shorter ones nobody's lag lets through. */
-        const val LATTICE = 8.0
-        const val SHORTEST = 2.0
-        const val CLOSE = 1e-6
-
-        /** Long waves need a box that is wider by some of the track's size: too narrow ones leave what looks like noise. */
-        val WIDER = doubleArrayOf(0.6, 0.4, 0.25).toList()
-        const val ENOUGH = 1e-4
-        const val MOVING = 0.15
-        const val LINE_MOVING = 0.6
-        const val THINNED = 1200
-        const val HALVINGS = 6
-        val TIMES = doubleArrayOf(2.0, 8.0).toList()
-        val SHARES = doubleArrayOf(1.5, 5.0).toList()
-        val LINE_SHARES = doubleArrayOf(4.0, 16.0).toList()
+        /** Steps from row to row in the shortest wave of a ring: shorter ones nobody's lag lets through. */
+        private const val STEPS_A_WAVE = 8.0
+        private const val SHORTEST = 2.0
+        private const val ENOUGH = 1e-4
+        private const val MOVING = 0.15
+        private const val LINE_MOVING = 0.6
+        private const val THINNED = 1200
+        private const val HALVINGS = 6
+        private val TIMES = doubleArrayOf(2.0, 8.0).toList()
+        private val SHARES = doubleArrayOf(1.5, 5.0).toList()
+        private val LINE_SHARES = doubleArrayOf(4.0, 16.0).toList()
     }
 }

@@ -31,7 +31,8 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
     /** The wave numbers that end each ring, 1/m, the longest waves first. */
     private val edges: DoubleArray = run {
         val first = PI / maxOf(extent, least)
-        generateSequence(first) { it * FACTOR }.takeWhile { it <= 2 * PI / least || it == first }.toList().toDoubleArray()
+        generateSequence(first) { it * FACTOR }.takeWhile { it <= 2 * PI / least || it == first }.toList()
+            .toDoubleArray()
     }
 
     /** Number of rings. */
