@@ -38,7 +38,12 @@ internal class BlindDiagnosis(
             loose.rows.forEach { search.used[it] = false }
             base = search.improved(search.evened(base))
         }
-        val lag = BlindLag(search, base)
+        // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
+        val still = search.still(base)
+        val lags = listOf(base, still).filter { it.score > base.score - FAR_CHANGE }.distinct()
+            .map { BlindLag(search, it) }
+        val lag = lags.maxBy { it.likeliest }
+        base = lag.timeConstant
         isShapeOpen = lag.isOpen(settings.separation)
         isLagSeen = lag.isSeen
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
@@ -54,10 +59,18 @@ internal class BlindDiagnosis(
     }
 
     /** All causes and looks on top of one model. */
-    inner class Round(val state: BlindState) {
+    inner class Round(model: BlindState) {
+        private val still = search.still(model)
+        private val open = search.opened(model)
+
+        /** The model, with water that changes in time or does not. */
+        val state = if (open.score > still.score) open else still
         private val tries = BlindTrials(search, state)
-        private val still = search.still(state)
-        private val stillTries = BlindTrials(search, still)
+        private val stillTries = if (still === state) tries else BlindTrials(search, still)
+
+        /** Water that does not change, all else as it is: noise that suits such water may wander as a drift does. */
+        private val held = if (still === state) state else search.held(state)
+        private val heldTries = if (still === state) tries else BlindTrials(search, held)
 
         /**
          * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other
@@ -66,28 +79,33 @@ internal class BlindDiagnosis(
         private val isBlurred = !state.isResolved
 
         /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
-        val changing = state.score - still.score
+        val changing = maxOf(open.score - still.score, 0.0)
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> =
             terms().filter { term -> state.model.terms.none { it.key == term.key } }.let { terms ->
                 val all = terms.mapIndexed { i, term ->
                     tell(i.toDouble() / terms.size)
-                    if (term.cause in SLOW) stillTries.attempt(term) else tries.attempt(term)
+                    tries.attempt(term)
                 }
-                val likely = all.filter { isLikely(it) }.sortedByDescending { it.worth }.take(MOST_LIKELY).toSet()
+                // Water that changes in time may have taken what the sensor does.
+                val both = terms.filter { still !== state && (it.cause in SLOW || changing < FAR_CHANGE) }
+                val others = both.associateWith { (if (it.cause in SLOW) heldTries else stillTries).attempt(it) }
+                fun worth(trial: BlindTrial) = maxOf(trial.worth, others[trial.term]?.worth ?: 0.0)
+                val likely = all.filter { it.ratio > LIKELY || others[it.term]?.let(::isLikelyOnStill) == true }
+                    .sortedByDescending(::worth).take(MOST_LIKELY).toSet()
                 all.map {
+                    val other = others[it.term]
                     when {
-                        isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it)
-                        it in likely -> settled(it)
-                        it.term?.cause in SLOW -> it.instead(-changing)
+                        isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
+                        it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
                         else -> it
                     }
                 }
             }
 
-        /** Whether [trial] may be worth water and noise of its own. */
-        private fun isLikely(trial: BlindTrial): Boolean {
+        /** Whether [trial], on water that does not change, may be worth water and noise of its own. */
+        private fun isLikelyOnStill(trial: BlindTrial): Boolean {
             val isSlow = trial.term?.cause in SLOW
             return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
         }
@@ -97,8 +115,8 @@ internal class BlindDiagnosis(
          * what they would do, passes over the same water that contradict each other, a wrong response does, too. Else
          * it counts where it explains more than missing waves could be taken for.
          */
-        private fun resolved(trial: BlindTrial): BlindTrial {
-            val settled = settled(trial)
+        private fun resolved(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+            val settled = settled(trial, other)
             val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
             val isClear = goesWithMore || settled.state?.let { it.isResolved || FinerWaves.isNone(it, search) } == true
             return if (isClear) settled else settled.atMost(0.0)
@@ -111,30 +129,74 @@ internal class BlindDiagnosis(
          * where they explain more than such water, and against such water where they do not: something changed either
          * way.
          */
-        private fun settled(trial: BlindTrial): BlindTrial {
+        private fun settled(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+            val first = settledAsIs(trial, other)
+            return if (first.term?.cause == Cause.OFFSET_STEPS && first.pValue < settings.level) grown(first) else first
+        }
+
+        /** [trial], of jumps, with more of them: what the first leave shows others. */
+        private fun grown(trial: BlindTrial): BlindTrial {
+            val before = trial.state ?: return trial
             val term = checkNotNull(trial.term)
-            val without = if (term.cause in SLOW) still else state
-            val begun = when {
-                term.cause == Cause.SATURATION -> tries.ended(term, trial, without)
-                isBlurred -> begun(without, term, trial)
-                else -> with(without, trial)
+            val more = BlindTrials(search, before).oneMoreJump(term) ?: return trial
+            val after = search.improved(search.requieted(with(before, more)))
+            val gain = after.score - before.score - 2 * (tries.searched(2) - tries.searched(1))
+            if (gain < LIKELY) return trial
+            val base = if (search.isStill(after)) still else state
+            val next = tries.settled(more, after, maxOf(base.score, likewise(base, after)), searched(more))
+            return grown(if (base === state) next else next.among(base.score - state.score))
+        }
+
+        private fun settledAsIs(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+            val isSlow = trial.term?.cause in SLOW
+            val onState = if (isSlow && other != null && !(trial.ratio > LIKELY)) null else found(state, trial)
+            val onStill = other?.takeIf { !isSlow || isLikelyOnStill(it) }
+                ?.let { found(if (isSlow) held else still, it) }
+            if (isSlow && onStill != null && (onState == null || onState.score < onStill.score + CHANGING_TOO)) {
+                return heldAgainstChange(checkNotNull(other), onStill)
             }
-            val found = search.improved(search.requieted(if (isBlurred) search.improved(begun) else begun))
-            val searched = if (term.times.isEmpty()) 0.0 else tries.searched(term.times.size)
-            val first = tries.settled(trial, found, without.score, searched)
-            if (first.pValue > settings.level) return first.instead(-maxOf(state.score - without.score, 0.0))
+            val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }).maxBy { it.score }
+            val searched = searched(trial)
+            val first = tries.settled(trial, found, state.score, searched)
+            if (first.pValue > settings.level) return first
+            // The same noise may suit the model without it as well.
+            return tries.settled(trial, found, maxOf(state.score, likewise(state, found)), searched)
+        }
+
+        private fun searched(trial: BlindTrial): Double =
+            trial.term?.times.orEmpty().let { if (it.isEmpty()) 0.0 else tries.searched(it.size) }
+
+        /** [trial], a drift or a jump in water that does not change, as [found] has it. */
+        private fun heldAgainstChange(trial: BlindTrial, found: BlindState): BlindTrial {
+            val searched = searched(trial)
+            val first = tries.settled(trial, found, still.score, searched)
+            if (first.pValue > settings.level) return first.instead(-maxOf(state.score - still.score, 0.0))
             // The same noise may suit the models without it as well.
-            val best = maxOf(without.score, likewise(without, found))
-            val rest = if (without === state) best else maxOf(state.score, likewise(state, found))
+            val best = maxOf(still.score, likewise(still, found))
+            val rest = if (still === state) best else maxOf(state.score, likewise(state, found))
             val trying = tries.settled(trial, found, best, searched)
             return when {
                 found.score > rest -> trying.among(best - rest)
                 // It explains most of what water that changes does: something changed, and both are in the answer.
-                without !== state && found.score - best > (rest - best) / 2 && trying.pValue < settings.level ->
+                still !== state && found.score - best > (rest - best) / 2 && trying.pValue < settings.level ->
                     trying.beside(search.climbed(with(state, trying)))
                 else -> trying.instead(best - rest)
             }
         }
+
+        /** The model of [trial] on top of [without] with the water and the noise that suit it. */
+        private fun found(without: BlindState, trial: BlindTrial): BlindState {
+            val term = checkNotNull(trial.term)
+            val begun = when {
+                term.cause == Cause.SATURATION -> tries.ended(term, trial, without)
+                isFar(term) -> begun(without, term, trial)
+                else -> with(without, trial)
+            }
+            return search.improved(search.requieted(if (isFar(term)) search.improved(begun) else begun))
+        }
+
+        /** Whether a fit of [term] may have to begin far from what the water makes of it: a slow path is like long waves. */
+        private fun isFar(term: Term) = isBlurred || term.cause == Cause.TWO_PATH_RESPONSE
 
         /** The likeliest of [trial] and of other beginnings of [term], far from what the wrong water makes of it. */
         private fun begun(without: BlindState, term: Term, trial: BlindTrial): BlindState {
@@ -225,7 +287,7 @@ internal class BlindDiagnosis(
         val full = chosen.last().state
         for (i in 0 until chosen.size - 1) {
             val others = search.improved(search.requieted(without(chosen.first().round.state, chosen, i)))
-            val without = if (chosen[i].trial.term?.cause in SLOW) search.improved(search.still(others)) else others
+            val without = if (chosen[i].trial.term?.cause in SLOW) search.still(others) else others
             val lost = (full.score - without.score) / chosen[i].trial.inflation
             if (lost > NEEDLESS) continue
             val rest = chosen.filterIndexed { k, _ -> k != i }
@@ -333,6 +395,12 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+
+        /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
+        private const val FAR_CHANGE = 300.0
+
+        /** Twice the gain in log-likelihood that water which changes must add to a drift or a jump to be kept beside it. */
+        private const val CHANGING_TOO = 10.0
 
         /** The same that water finer than was resolved does not give a response of another shape. */
         private const val BEYOND_WAVES = 100.0

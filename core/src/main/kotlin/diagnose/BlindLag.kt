@@ -78,6 +78,9 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         return sqrt(state.variance * inflation / maxOf(squares(column), 1e-300))
     }
 
+    /** The highest score of all these. */
+    val likeliest: Double get() = maxOf(timeConstant.score, deadTime.score, both.score)
+
     /** How much more often than by the noise's model the log's stretches sway: what correlation inflates. */
     private val inflation: Double = run {
         val column = timeConstant.fit.unlike(timeConstant.derivative(ResponseModel.TIME_CONSTANT))

@@ -29,7 +29,7 @@ internal class BlindSearch(
     /** The water's waves; few until [best] has told which are needed. */
     val modes: WaterModes get() = fine ?: rough
     private var fine: WaterModes? = null
-    private val rough = WaterModes(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
+    private val rough = WaterModes.flat(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
 
     private fun noise(share: Double, steps: Double) =
         CorrelatedNoise(series.times, share, steps * series.period, used.copyOf())
@@ -63,29 +63,32 @@ internal class BlindSearch(
         return state
     }
 
-    /** [state] with as many waves as it takes; where even those it has are too few, in the box and at the lag they tell. */
+    /** [state] with as many waves as it takes; where even those it has are too few, at the lag they tell. */
     private fun finer(state: BlindState): BlindState {
         fun at(waves: WaterModes, lag: Double) =
             settled(emptyList(), base(lag), state.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, waves)
-        val needed = shortest(state)
-        if (needed != null) return at(WaterModes(series, track, most, needed), state.timeConstant)
-        val boxes = WIDER.map { WaterModes(series, track, most, wider = it) }.distinctBy { it.finest }
-        val all = boxes.map { at(it, state.timeConstant) }
-        val best = all.filter { it.isResolved }.ifEmpty { all }.maxBy { it.score }
-        if (best.isResolved) return best
+        if (isEnough(state)) return redone(state)
+        val best = at(rough.flat(most), state.timeConstant)
+        if (best.isResolved) return redone(best)
         val others = LAGS.map { it * series.period }.filter { abs(ln(it / state.timeConstant)) > FAR_LAG }
-        return (others.map { at(best.modes, it) } + best).maxBy { it.score }
+        return redone((others.map { at(best.modes, it) } + best).maxBy { it.score })
     }
 
-    /**
-     * A length shorter than that of all waves that [state] has found in the water, m; null where it has still shorter
-     * ones.
-     */
-    private fun shortest(state: BlindState): Double? {
-        val waves = state.modes
-        if (waves.lengths.isEmpty()) return null
-        val last = waves.lengths.indices.last { state.power(it) > UNSEEN * state.variance }
-        return if (last + 1 < waves.bands) minOf(waves.lengths[last], waves.finest * LONGER) / FINER else null
+    /** Whether the shortest waves that [state] has are not in the water. */
+    private fun isEnough(state: BlindState): Boolean =
+        state.modes.lengths.isNotEmpty() && state.power(state.modes.bands - 1) < UNSEEN * state.variance
+
+    /** [state] with waves as strong as they have been found to be, of which so many are enough as show above the noise. */
+    private fun redone(state: BlindState): BlindState {
+        var now = state
+        repeat(REDONE) {
+            val waves = now.modes.refined(now.variances)
+            if (waves === now.modes) return now
+            now = improved(
+                settled(now.model.terms, now.numbers, now.fit.design.noise, waves.first, FIRST_ROUNDS, waves),
+            )
+        }
+        return now
     }
 
     /** The noise's variance that [best] found, sensor units². */
@@ -213,10 +216,26 @@ internal class BlindSearch(
         return best
     }
 
-    /** [state] with water that does not change in time. */
-    fun still(state: BlindState): BlindState {
+    /** Whether the water of [state] does not change in time. */
+    fun isStill(state: BlindState): Boolean = state.modes.moving.all { state.variances[it] <= LEAST }
+
+    /** [state] with water that does not change in time, and with what suits that. */
+    fun still(state: BlindState): BlindState =
+        if (isStill(state)) state else climbed(requieted(climbed(held(state))))
+
+    /** [state] with water that does not change in time, all else the same. */
+    fun held(state: BlindState): BlindState {
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) LEAST else state.variances[it] }
         return settled(state.model.terms, state.numbers, state.fit.design.noise, variances, before = state)
+    }
+
+    /** [state] with water that may change in time, and with what suits that. */
+    fun opened(state: BlindState): BlindState {
+        if (!isStill(state)) return state
+        val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
+        val open =
+            settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
+        return climbed(open)
     }
 
     /** Which numbers of [model] are fitted: the lag's and the terms'. */
@@ -252,7 +271,7 @@ internal class BlindSearch(
         val columns = shown(terms, own, modes)
         var heights = before?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
-            variances.takeIf { it.size == modes.bands } ?: DoubleArray(modes.bands) { FIRST_RATIO / columns.size }
+            variances.takeIf { it.size == modes.bands } ?: modes.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
         var hidden = RangeEnd.beyond(model, at)
@@ -357,15 +376,16 @@ internal class BlindSearch(
 
         /** Parts of the work that may be done at the same time. */
         const val PARTS = 4
-        const val FINER = 1.3
-        val WIDER = doubleArrayOf(0.0, 0.25, 0.6).toList()
+        const val REDONE = 2
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5
-        const val LONGER = 8.0
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
+
+        /** Variance over the noise's of water that changes, to begin with. */
+        const val OPENED = 10.0
         const val ROUNDS = 2
         const val HELD = 6.0
         const val STEPS = 8
@@ -373,7 +393,6 @@ internal class BlindSearch(
 
         /** Twice the gain in log-likelihood below which nothing is tried once more. */
         const val ENOUGH = 2.0
-        const val FIRST_RATIO = 1e4
         const val FLAT = 1e-8
         const val LEAST = 1e-8
         const val MOST = 1e10

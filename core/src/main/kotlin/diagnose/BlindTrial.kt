@@ -280,6 +280,14 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return best ?: fitted(Term(Cause.OFFSET_STEPS, times = listOf(series.duration / 2)), 0.0)
     }
 
+    /** The jumps of [term], which this model has, and the one that serves best beside them; null where none is worth it. */
+    fun oneMoreJump(term: Term): BlindTrial? {
+        if (term.times.size >= MOST_JUMPS) return null
+        val (time, _) = place(z, term.times) ?: return null
+        val more = fitted(Term(Cause.OFFSET_STEPS, times = (term.times + time).sorted()), 0.0)
+        return more.takeIf { it.ratio * it.inflation > JUMP_WORTH }
+    }
+
     /** What the best of many places gains by chance, for [count] jumps. */
     fun searched(count: Int): Double = count * 2 * ln(minOf(PLACES, n / 10).toDouble())
 

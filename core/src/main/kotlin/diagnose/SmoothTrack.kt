@@ -4,7 +4,8 @@ import stillwater.estimate.TrackSeries
 
 /**
  * Where the boat was, from fixes that jitter: through the rows about each one goes a parabola of time, as wide as it
- * foretells the fixes left out best.
+ * foretells the fixes left out best. Where the log has speed and heading, what fixes are off the way reckoned from
+ * these is smoothed as well, and taken if it foretells them better.
  *
  * A fix that is repeated until the receiver has a new one is put on the way between the two first.
  *
@@ -13,13 +14,22 @@ import stillwater.estimate.TrackSeries
 internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray) {
     companion object {
         private val REACHES = intArrayOf(2, 3, 5, 8, 12)
+        private val LONG_REACHES = intArrayOf(5, 12, 25, 50, 100)
 
         /** The smoothed way of [series]. */
         fun of(series: MeasuredSeries): SmoothTrack {
             val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
             val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, it) }
             val best = fits.minBy { it.missed }
-            return SmoothTrack(best.x, best.y)
+            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(best.x, best.y)
+            val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
+            val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
+            val other = LONG_REACHES.map { Parabolas(series, east, north, it) }.minBy { it.missed }
+            if (other.missed > best.missed) return SmoothTrack(best.x, best.y)
+            return SmoothTrack(
+                DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
+                DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
+            )
         }
     }
 

@@ -5,25 +5,31 @@ import kotlin.math.hypot
 import kotlin.math.sqrt
 
 /**
- * The water where nobody knows it: a sum of Gaussian processes of several lengths, the shorter ones as short as the log
- * can tell, and of some that also change in time.
+ * The water where nobody knows it: waves of many lengths, the shorter ones as short as the log can tell, and some
+ * processes that also change in time.
  *
- * Each has the covariance exp(-d²/2ℓ² - Δt²/2T²) between rows and a variance of its own, which the log tells: so no
- * smoothness is assumed, and a lag that weakens short waves is not told by that. Rows of one process are F β with β of
- * one variance and F a pivoted Cholesky factor, which has as many columns as the track needs, wherever it goes.
+ * What stays are rings of plane waves ([WaterRings]), each of a variance of its own, which the log tells: so no smoothness
+ * is assumed, and a lag that weakens short waves is not told by that. Where the track is a line, they are Gaussian
+ * processes of several lengths. Those that change have the covariance exp(-d²/2ℓ² - Δt²/2T²). Rows of one process are
+ * F β with β of one variance and F a pivoted Cholesky factor, which has as many columns as the track needs, wherever it
+ * goes.
  *
  * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
  * doi:10.1016/j.apnum.2011.10.001.
  *
- * @param most columns at most. @param needed length of the shortest wave that the water has, m; null where that is not
- *   known. @param wider by how much of the track's size the waves' box is wider, where that is not known.
+ * @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
+ *   ring over the noise's, or over each other's where nothing is known. @param left variance, in the same measure, that
+ *   may be left anywhere. @param known variances of the level and of what changes over the noise's; null where nothing is
+ *   known.
  */
-internal class WaterModes(
+internal class WaterModes private constructor(
     private val series: MeasuredSeries,
     private val track: SmoothTrack,
-    most: Int,
-    needed: Double? = null,
-    wider: Double = 0.0,
+    private val most: Int,
+    private val rings: WaterRings?,
+    private val spectrum: DoubleArray,
+    left: Double,
+    known: DoubleArray?,
 ) {
     private val n = series.size
     private val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
@@ -31,6 +37,7 @@ internal class WaterModes(
         median(DoubleArray(n - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) })
     private val found = ArrayList<DoubleArray>()
     private val bandOf = ArrayList<Int>()
+    private val ringOf = ArrayList<Int>()
 
     /** Length of the shortest process or wave, m. */
     var finest: Double = extent
@@ -50,7 +57,7 @@ internal class WaterModes(
         found += DoubleArray(n) { 1.0 }
         bandOf += 0
         var next = 1
-        val isLine = isLine()
+        val isLine = rings == null
         val room = ((if (isLine) LINE_MOVING else MOVING) * most / (TIMES.size * SHARES.size)).toInt()
         for (part in TIMES) {
             for (share in if (isLine) LINE_SHARES else SHARES) {
@@ -59,29 +66,34 @@ internal class WaterModes(
         }
         moving = 1 until next
         val still = most - found.size
-        val enough = LATTICE * maxOf(step, 1e-9 * extent)
-        val gaussian = shortest((FINEST * still).toInt())
-        val lattice = if (isLine) null else needed?.let { wide(it, still) } ?: fine(enough, gaussian, still, wider)
-        if (lattice != null) {
-            finest = lattice.shortest
-            lengths = List(next) { Double.POSITIVE_INFINITY } + lattice.lengths()
-            lattice.rings().forEach { add(it, next++) }
-        } else {
-            finest = gaussian
+        if (rings == null) {
+            finest = shortest((FINEST * still).toInt())
             ladder(still).forEach { add(it, next++) }
+        } else {
+            val columns = rings.columns(spectrum, left, still).groupBy({ it.first }, { it.second }).toSortedMap()
+            lengths = List(next) { Double.POSITIVE_INFINITY } + columns.keys.map { rings.lengths[it] }
+            finest = lengths.last()
+            columns.forEach { (ring, own) ->
+                add(own, next++)
+                ringOf += ring
+            }
         }
     }
 
-    /** Waves as short as [needed] in the widest box in which so many are enough; null where there is none. */
-    private fun wide(needed: Double, most: Int): WaterLattice? = WIDER.firstNotNullOfOrNull { wider ->
-        WaterLattice(track.x, track.y, most, needed, wider).takeIf { it.shortest <= needed * (1 + CLOSE) }
-    }
+    /** Water of [most] columns of which nothing is known, on the same track. */
+    fun flat(most: Int): WaterModes =
+        if (rings == null) flat(series, track, most) else flatRings(series, track, most, rings)
 
-    /** Waves in a box that is just wide enough; null where processes of the length [gaussian] show finer water. */
-    private fun fine(enough: Double, gaussian: Double, most: Int, wider: Double): WaterLattice? {
-        val narrow = WaterLattice(track.x, track.y, most, enough, 0.0)
-        if (narrow.shortest > maxOf(enough, WAVE * gaussian)) return null
-        return if (wider > 0) WaterLattice(track.x, track.y, most, enough, wider) else narrow
+    /** Whether rings finer than these were offered, and are not in the water. */
+    val isWhole: Boolean
+        get() = rings != null && spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
+
+    /** These with rings as strong as [variances] of their processes have been found to be. */
+    fun refined(variances: DoubleArray): WaterModes {
+        if (rings == null) return this
+        val next = spectrum.copyOf()
+        ringOf.forEachIndexed { i, ring -> next[ring] = spectrum[ring] * variances[moving.last + 1 + i] }
+        return WaterModes(series, track, most, rings, next, UNSEEN, variances.copyOf(moving.last + 1))
     }
 
     /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */
@@ -94,13 +106,6 @@ internal class WaterModes(
             length *= FACTOR
         }
         return ladder.reversed()
-    }
-
-    /** Whether the track is a line gone to and fro, as a float's casts: then it comes back often, to changed water. */
-    private fun isLine(): Boolean {
-        val east = track.x.max() - track.x.min()
-        val north = track.y.max() - track.y.min()
-        return minOf(east, north) < 1e-3 * maxOf(east, north)
     }
 
     /** The shortest length of which [columns] columns hold all that the track can tell, m. */
@@ -130,6 +135,13 @@ internal class WaterModes(
 
     /** Number of processes. */
     val bands: Int = band.max() + 1
+
+    /** Variances of the processes to begin with, over the noise's. */
+    val first: DoubleArray = when {
+        rings == null -> DoubleArray(bands) { FIRST_RATIO / size }
+        known == null -> DoubleArray(bands) { FIRST_RATIO / bands }
+        else -> DoubleArray(bands) { if (it < known.size) known[it] else 1.0 }
+    }
 
     /** Each column along the track at height 1. */
     val columns: Array<DoubleArray> = found.toTypedArray()
@@ -186,27 +198,53 @@ internal class WaterModes(
         }
     }
 
-    private companion object {
-        const val FINEST = 0.75
-        const val FACTOR = 2.2
+    companion object {
+        /**
+         * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to waves
+         * of [shortest] m.
+         */
+        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, shortest: Double = 0.0): WaterModes {
+            val east = track.x.max() - track.x.min()
+            val north = track.y.max() - track.y.min()
+            // A line gone to and fro, as a float's casts: it comes back often, to changed water.
+            if (minOf(east, north) < 1e-3 * maxOf(east, north)) {
+                return WaterModes(series, track, most, null, DoubleArray(0), 0.0, null)
+            }
+            val step = median(
+                DoubleArray(series.size - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) },
+            )
+            val least = maxOf(STEPS_A_WAVE * step, STEPS_A_WAVE * 1e-9 * hypot(east, north), shortest)
+            return flatRings(series, track, most, WaterRings(track.x, track.y, least))
+        }
+
+        private fun flatRings(series: MeasuredSeries, track: SmoothTrack, most: Int, rings: WaterRings): WaterModes {
+            val room = most - 1 - TIMES.size * SHARES.size * (MOVING * most / (TIMES.size * SHARES.size)).toInt()
+            val coarsest = rings.coarsest(room)
+            val spectrum = DoubleArray(rings.size) { if (it < coarsest) 1.0 else 0.0 }
+            return WaterModes(series, track, most, rings, spectrum, LEFT * coarsest, null)
+        }
+
+        private const val FIRST_RATIO = 1e4
+
+        /** Part of the water's variance that may be left anywhere, and of the noise's where that is known. */
+        private const val LEFT = 1e-6
+        private const val UNSEEN = 1e-3
+        private const val FINEST = 0.75
+        private const val FACTOR = 2.2
 
         /** The shortest waves that a process holds, over its length: e⁻⁴ of the longest's power. */
-        const val WAVE = 2.2
+        private const val WAVE = 2.2
 
-        /** Steps from row to row in the shortest wave of a lattice: shorter ones nobody's lag lets through. */
-        const val LATTICE = 8.0
-        const val SHORTEST = 2.0
-        const val CLOSE = 1e-6
-
-        /** Long waves need a box that is wider by some of the track's size: too narrow ones leave what looks like noise. */
-        val WIDER = doubleArrayOf(0.6, 0.4, 0.25).toList()
-        const val ENOUGH = 1e-4
-        const val MOVING = 0.15
-        const val LINE_MOVING = 0.6
-        const val THINNED = 1200
-        const val HALVINGS = 6
-        val TIMES = doubleArrayOf(2.0, 8.0).toList()
-        val SHARES = doubleArrayOf(1.5, 5.0).toList()
-        val LINE_SHARES = doubleArrayOf(4.0, 16.0).toList()
+        /** Steps from row to row in the shortest wave of a ring: shorter ones nobody's lag lets through. */
+        private const val STEPS_A_WAVE = 8.0
+        private const val SHORTEST = 2.0
+        private const val ENOUGH = 1e-4
+        private const val MOVING = 0.15
+        private const val LINE_MOVING = 0.6
+        private const val THINNED = 1200
+        private const val HALVINGS = 6
+        private val TIMES = doubleArrayOf(2.0, 8.0).toList()
+        private val SHARES = doubleArrayOf(1.5, 5.0).toList()
+        private val LINE_SHARES = doubleArrayOf(4.0, 16.0).toList()
     }
 }

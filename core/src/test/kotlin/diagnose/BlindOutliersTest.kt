@@ -30,7 +30,7 @@ class BlindOutliersTest {
             sensor.step(truth[i], 1.0, Conditions.NONE) + wrong
         }
         val series = MeasuredSeries(times, x, y, values, null)
-        val modes = WaterModes(series, SmoothTrack.of(series), MOST, SHORTEST)
+        val modes = WaterModes.flat(series, SmoothTrack.of(series), MOST, SHORTEST)
         val white = CorrelatedNoise(times, 0.0, 10.0, BooleanArray(n) { true })
         val noise = BlindNoise(white, DoubleArray(n) { 1.0 })
         val numbers = doubleArrayOf(3.5, 1.0, 0.0, 0.0)

@@ -26,7 +26,7 @@ class FinerWavesTest {
     /** The water as waves of [shortest] m and longer; that of the log has some of 4π and 6π m. */
     private fun state(shortest: Double, spread: Double = 1.0): BlindState {
         val white = CorrelatedNoise(series.times, 0.0, 10.0, BooleanArray(n) { true })
-        val modes = WaterModes(series, SmoothTrack.of(series), MOST, shortest)
+        val modes = WaterModes.flat(series, SmoothTrack.of(series), MOST, shortest)
         val noise = BlindNoise(white, DoubleArray(n) { spread })
         return search.settled(emptyList(), doubleArrayOf(3.5, 1.0, 0.0, 0.0), noise, DoubleArray(0), ROUNDS, modes)
     }

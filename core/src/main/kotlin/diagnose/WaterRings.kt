@@ -1,0 +1,158 @@
+package stillwater.diagnose
+
+import org.hipparchus.linear.EigenDecompositionSymmetric
+import org.hipparchus.linear.MatrixUtils
+import kotlin.math.PI
+import kotlin.math.hypot
+import kotlin.math.roundToInt
+import kotlin.math.sqrt
+
+/**
+ * Still water along a track as a sum of plane waves of all directions, in rings of lengths, each ring of a variance of
+ * its own.
+ *
+ * Waves whose numbers fill a disc of radius k have the covariance 2 J₁(kd)/(kd) between places d apart; a ring is the
+ * difference of two discs. Of the sum of all rings a pivoted Cholesky factor along the track has as many columns as can
+ * be told apart, whatever way the track goes: about A k²/4π where it fills an area A, L k/π where it is a line of the
+ * length L. The factor is turned so that its columns are in the order of the lengths of their waves; the prior stays of
+ * unit variance and uncorrelated.
+ *
+ * Sources: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
+ * doi:10.1016/j.apnum.2011.10.001; Slepian 1983, Some comments on Fourier analysis, uncertainty and modeling,
+ * doi:10.1137/1025078, for how many columns that takes.
+ *
+ * @param x metres east. @param y metres north. @param least the shortest length allowed, m.
+ */
+internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray, least: Double) {
+    private val n = x.size
+    private val extent = hypot(x.max() - x.min(), y.max() - y.min())
+    private val kernel = DiscKernel()
+
+    /** The wave numbers that end each ring, 1/m, the longest waves first. */
+    private val edges: DoubleArray = run {
+        val first = PI / maxOf(extent, least)
+        generateSequence(first) { it * FACTOR }.takeWhile { it <= 2 * PI / least || it == first }.toList()
+            .toDoubleArray()
+    }
+
+    /** Number of rings. */
+    val size: Int get() = edges.size
+
+    /** The shortest wave of each ring, m. */
+    val lengths: List<Double> get() = edges.map { 2 * PI / it }
+
+    /** The first rings, as many as [most] columns can show where all are equally strong. */
+    fun coarsest(most: Int): Int {
+        var low = 1
+        var high = size
+        val thin = maxOf(1, n / THINNED)
+        while (low < high) {
+            val middle = (low + high + 1) / 2
+            val flat = DoubleArray(size) { if (it < middle) 1.0 else 0.0 }
+            if (factor(flat, LEFT * middle, most + 1, thin).columns.size > most) high = middle - 1 else low = middle
+        }
+        return low
+    }
+
+    /** A factor's columns, each along the track, and the rows at which each was the one that told most. */
+    private class Factor(val columns: List<DoubleArray>, val pivots: List<Int>)
+
+    /**
+     * Columns along the track and the ring of each, the longest waves first.
+     *
+     * @param spectrum variance of each ring. @param left variance that may be left anywhere.
+     * @param most columns at most.
+     */
+    fun columns(spectrum: DoubleArray, left: Double, most: Int): List<Pair<Int, DoubleArray>> {
+        val factor = factor(spectrum, left, most, 1)
+        val places = factor.pivots
+        val r = places.size
+        val lower = Array(r) { a -> DoubleArray(a + 1) { b -> factor.columns[b][places[a]] } }
+        // In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue.
+        val order = Array(r) { a -> DoubleArray(r) { b -> ordered(spectrum, distance(places[a], places[b])) } }
+        for (column in 0 until r) {
+            val solved = solved(lower, DoubleArray(r) { order[it][column] })
+            for (a in 0 until r) order[a][column] = solved[a]
+        }
+        for (a in 0 until r) solved(lower, order[a]).copyInto(order[a])
+        for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a]
+        val turned = EigenDecompositionSymmetric(MatrixUtils.createRealMatrix(order), 1e-12, false)
+        return (0 until r).map { k ->
+            val ring = turned.getEigenvalue(k).roundToInt().coerceIn(0, size - 1)
+            val heights = turned.getEigenvector(k)
+            val out = DoubleArray(n)
+            for (j in 0 until r) {
+                val height = heights.getEntry(j)
+                val column = factor.columns[j]
+                for (i in 0 until n) out[i] += height * column[i]
+            }
+            ring to out
+        }.sortedBy { it.first }
+    }
+
+    private fun ring(ring: Int, d: Double, spectrum: DoubleArray): Double {
+        val b = edges[ring] * edges[ring]
+        if (ring == 0) return spectrum[0] * kernel.at(edges[0] * d)
+        val a = edges[ring - 1] * edges[ring - 1]
+        return spectrum[ring] * (b * kernel.at(edges[ring] * d) - a * kernel.at(edges[ring - 1] * d)) / (b - a)
+    }
+
+    private fun covariance(spectrum: DoubleArray, d: Double): Double {
+        var sum = 0.0
+        for (k in edges.indices) if (spectrum[k] > 0) sum += ring(k, d, spectrum)
+        return sum
+    }
+
+    private fun ordered(spectrum: DoubleArray, d: Double): Double {
+        var sum = 0.0
+        for (k in 1 until edges.size) if (spectrum[k] > 0) sum += k * ring(k, d, spectrum)
+        return sum
+    }
+
+    private fun distance(a: Int, b: Int) = hypot(x[a] - x[b], y[a] - y[b])
+
+    private fun factor(spectrum: DoubleArray, left: Double, most: Int, thin: Int): Factor {
+        val count = (n + thin - 1) / thin
+        val columns = ArrayList<DoubleArray>()
+        val pivots = ArrayList<Int>()
+        val rest = DoubleArray(count) { spectrum.sum() }
+        while (columns.size < most) {
+            var pivot = 0
+            for (i in 1 until count) if (rest[i] > rest[pivot]) pivot = i
+            if (rest[pivot] < left) break
+            val scale = 1 / sqrt(rest[pivot])
+            val column = DoubleArray(count) { covariance(spectrum, distance(it * thin, pivot * thin)) }
+            for (other in columns) {
+                val share = other[pivot]
+                for (i in 0 until count) column[i] -= share * other[i]
+            }
+            for (i in 0 until count) {
+                column[i] *= scale
+                rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)
+            }
+            rest[pivot] = 0.0
+            columns += column
+            pivots += pivot
+        }
+        return Factor(columns, pivots)
+    }
+
+    private fun solved(lower: Array<DoubleArray>, column: DoubleArray): DoubleArray {
+        val out = column.copyOf()
+        for (a in out.indices) {
+            var sum = out[a]
+            val row = lower[a]
+            for (b in 0 until a) sum -= row[b] * out[b]
+            out[a] = sum / row[a]
+        }
+        return out
+    }
+
+    private companion object {
+        const val FACTOR = 1.3
+        const val THINNED = 1200
+
+        /** Part of the variance that may be left anywhere: a thousandth of the water. */
+        const val LEFT = 1e-6
+    }
+}

@@ -1,0 +1,62 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import kotlin.math.PI
+import kotlin.math.cos
+import kotlin.math.hypot
+import kotlin.math.sin
+import kotlin.math.sqrt
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertTrue
+
+/** Where the boat was, from fixes that jitter by half a metre. */
+class SmoothTrackTest {
+    private val n = 600
+    private val times = DoubleArray(n) { it.toDouble() }
+    private val course = DoubleArray(n) { 0.4 * sin(it / 15.0) + it / 80.0 }
+    private val speed = DoubleArray(n) { 1 + 0.3 * sin(it / 40.0) }
+
+    @Test
+    fun speedAndHeadingSmoothWhatFixesAlone() {
+        val reckoned = error(headed = { course[it] })
+        assertTrue(reckoned < 0.6 * error(headed = null), "$reckoned, seed $SEED")
+    }
+
+    @Test
+    fun aCompassAndACurrentAreToldByTheFixes() {
+        // Clockwise from north, and 0.2 m/s of current to the east.
+        val reckoned = error(headed = { PI / 2 - course[it] }, current = 0.2)
+        assertTrue(reckoned < 0.6 * error(headed = null, current = 0.2), "$reckoned, seed $SEED")
+    }
+
+    @Test
+    fun headingsThatAreWrongAreNotUsed() {
+        val random = Random(SEED + 1)
+        val wrong = DoubleArray(n) { random.nextDouble(2 * PI) }
+        assertTrue(error(headed = { wrong[it] }) < 1.05 * error(headed = null), "seed $SEED")
+    }
+
+    /** Root mean square of how far the smoothed way is off the true one, m. */
+    private fun error(headed: ((Int) -> Double)?, current: Double = 0.0): Double {
+        val x = DoubleArray(n)
+        val y = DoubleArray(n)
+        for (i in 1 until n) {
+            x[i] = x[i - 1] + current + (speed[i - 1] * cos(course[i - 1]) + speed[i] * cos(course[i])) / 2
+            y[i] = y[i - 1] + (speed[i - 1] * sin(course[i - 1]) + speed[i] * sin(course[i])) / 2
+        }
+        val random = java.util.Random(SEED)
+        val fixes = listOf(x, y).map { way -> DoubleArray(n) { way[it] + 0.5 * random.nextGaussian() } }
+        val conditions = if (headed == null) {
+            emptyMap()
+        } else {
+            mapOf(Conditions.SPEED to speed, Conditions.HEADING to DoubleArray(n) { headed(it) })
+        }
+        val smooth = SmoothTrack.of(MeasuredSeries(times, fixes[0], fixes[1], DoubleArray(n), null, conditions))
+        return sqrt((0 until n).sumOf { hypot(smooth.x[it] - x[it], smooth.y[it] - y[it]).let { d -> d * d } } / n)
+    }
+
+    private companion object {
+        const val SEED = 20261122L
+    }
+}
