@@ -30,7 +30,12 @@ internal class DeadReckoning private constructor(val x: DoubleArray, val y: Doub
             )
             val steps = Array(ways.size) { k -> DoubleArray(n - ROWS) { ways[k][it + ROWS] - ways[k][it] } }
             fun along(fixes: DoubleArray): DoubleArray {
-                val shares = SymmetricSystem.of(steps, DoubleArray(n - ROWS) { fixes[it + ROWS] - fixes[it] }).solve(0.0)
+                val shares = SymmetricSystem.of(
+                    steps,
+                    DoubleArray(n - ROWS) {
+                        fixes[it + ROWS] - fixes[it]
+                    },
+                ).solve(0.0)
                 return DoubleArray(n) { i -> ways.indices.sumOf { shares[it] * ways[it][i] } }
             }
             return DeadReckoning(along(x), along(y)).takeIf { way -> (way.x + way.y).all { it.isFinite() } }

@@ -159,7 +159,11 @@ public class BoundedExtendedFilter(
 
     /** Brings [cell] up to date with what was learned of the sensor. */
     internal fun bring(cell: Int) {
-        if (cell == stayCell) writeDue() else if (follows(cell)) write(cell)
+        if (cell == stayCell) {
+            writeDue()
+        } else if (follows(cell)) {
+            write(cell)
+        }
     }
 
     private fun follows(cell: Int) = settings.learnsResponse && ratios.known && weights[cell] > 0

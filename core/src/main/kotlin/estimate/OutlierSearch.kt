@@ -13,7 +13,9 @@ import kotlin.math.ln
 internal class OutlierSearch(private val stretch: Stretch, private val likelihood: () -> Double) {
     /** Marks the outliers among the readings of which [surprises] has more than water usually gives. */
     fun mark(surprises: DoubleArray) {
-        val wild = stretch.values.indices.filter { !stretch.silent[it] && !stretch.outlying[it] && surprises[it] > WILD }
+        val wild = stretch.values.indices.filter {
+            !stretch.silent[it] && !stretch.outlying[it] && surprises[it] > WILD
+        }
             .sortedByDescending { surprises[it] }.take(MOST)
         if (wild.isEmpty()) return
         val range = stretch.values.max() - stretch.values.min()

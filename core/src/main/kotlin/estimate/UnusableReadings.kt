@@ -46,7 +46,8 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
             val ends = ByteArray(series.size)
             for ((side, end) in listOf(1 to range.endInclusive, -1 to range.start)) {
                 // An end that was learned is off by a part of the last digit.
-                val isAt = BooleanArray(series.size) { end.isFinite() && side * (series.values[it] - end) >= -resolution }
+                val isAt =
+                    BooleanArray(series.size) { end.isFinite() && side * (series.values[it] - end) >= -resolution }
                 if (isAt.none { it }) mark(series.values, wild, side, ends)
                 for (i in isAt.indices) if (isAt[i]) ends[i] = side.toByte()
             }

@@ -54,7 +54,13 @@ internal class ReferenceMargin private constructor(
             val noise = NORMAL / sqrt(2.0) * changes[changes.size / 2]
             val needed = DoubleArray(rows.size) { i ->
                 val row = rows[i]
-                val half = if (off[i] > 0) track.upper[row] - track.values[row] else track.values[row] - track.lower[row]
+                val half = if (off[i] >
+                    0
+                ) {
+                    track.upper[row] - track.values[row]
+                } else {
+                    track.values[row] - track.lower[row]
+                }
                 val beyond = sqrt(maxOf(0.0, off[i] * off[i] - TWO_SIDED * TWO_SIDED * noise * noise))
                 if (beyond == 0.0) 0.0 else beyond / half
             }

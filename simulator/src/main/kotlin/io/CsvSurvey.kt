@@ -224,7 +224,8 @@ internal class CsvSurvey internal constructor(
             quoteProblem(row)?.let { return it }
             if (row.fields != columns.names.size) {
                 val expected = "${columns.names.size} fields as in the header"
-                val found = "${row.fields}" + if (splitsDecimals(row)) " (decimal commas need another separator)" else ""
+                val found =
+                    "${row.fields}" + if (splitsDecimals(row)) " (decimal commas need another separator)" else ""
                 return problem(row.line, null, expected, found, "rows with a wrong number of fields")
             }
             return numberProblem(row, TIME, columns.time)

@@ -131,7 +131,11 @@ internal class PlatypusLog private constructor(
                     refuse("at least ${sensor.field + 1} numbers", "${entry.data.size}", "readings without the field")
                 !value.isFinite() -> refuse("a finite number", "none", "readings that are no number")
                 abs(value) > SquareReach.LARGEST ->
-                    refuse("a number within -$SquareReach.LARGEST..$SquareReach.LARGEST", "$value", "readings out of all bounds")
+                    refuse(
+                        "a number within -$SquareReach.LARGEST..$SquareReach.LARGEST",
+                        "$value",
+                        "readings out of all bounds",
+                    )
                 seconds <= lastSensorSeconds -> {
                     val fault = if (seconds < lastSensorSeconds) TimeFault.BACK else TimeFault.DUPLICATE
                     refuse("a ${sensor.type} time after $lastSensorSeconds s", "$seconds s", fault.reason)
