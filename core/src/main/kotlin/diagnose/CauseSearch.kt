@@ -133,7 +133,7 @@ internal class CauseSearch(
         found.maxByOrNull { it.score }?.let { found += jumps(base, it.noise) }
         val shown = found.filter { jumpsPValue(base, it, it.score - base.score) < SHOWN * settings.level }
         val best = shown.ifEmpty { found }.maxByOrNull { it.score - JUMP_WORTH * jumpsBeyond(base, it) } ?: return base
-        return jumps(base, best)
+        return withMoreJumps(best)
     }
 
     /** [base] with the best jump, and with the best two, by [noise]. */
@@ -153,7 +153,7 @@ internal class CauseSearch(
         return JumpScan.of(before, JumpPlaces.edge(series.size)).pValue(gain, jumpsBeyond(base, fit))
     }
 
-    private fun jumps(base: ModelFit, first: ModelFit): ModelFit {
+    private fun withMoreJumps(first: ModelFit): ModelFit {
         var best = first
         for (count in first.model.terms.sumOf { it.times.size } until MOST_JUMPS) {
             val times = best.model.terms.flatMap { it.times }

@@ -92,8 +92,8 @@ public class UndoableSensor private constructor(
                 "a stage that takes time after a gain, an offset or what else is added cannot be undone"
             }
             require(range == ENDLESS) {
-                "a stage that takes time after a saturation cannot be undone: the readings do not show when it was at " +
-                    "its end"
+                "a stage that takes time after a saturation cannot be undone: the readings do not show when it was " +
+                    "at its end"
             }
             response = change
         }

@@ -26,9 +26,9 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
         val rows = ends.indices.filter { ends[it].toInt() == side }
         if (rows.isEmpty()) return null
         val at = digits(result.series.values[rows.first()])
-        return "${rows.size} of ${ends.size} readings are at the $end end of the sensor's range ($at$unitAfter): they " +
-            "were not learned from, and of the water there they say one side only, so that the intervals are wide " +
-            "$open there and as long after as the sensor remembers"
+        return "${rows.size} of ${ends.size} readings are at the $end end of the sensor's range ($at$unitAfter): " +
+            "they were not learned from, and of the water there they say one side only, so that the intervals are " +
+            "wide $open there and as long after as the sensor remembers"
     }
 
     private fun play(): String? {

@@ -259,8 +259,8 @@ class CorrectFiles(
                 "place, and the intervals cover far less than 95 %. A sensor known to be rate limited is better " +
                 "given with --sensor.",
             "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
-                "and its interval reaches to the reading. Of a reading at an end of the sensor's range it is known that " +
-                "the sensor was there or beyond.",
+                "and its interval reaches to the reading. Of a reading at an end of the sensor's range it is known " +
+                "that the sensor was there or beyond.",
         )
     }
 }

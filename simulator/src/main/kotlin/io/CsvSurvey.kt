@@ -134,7 +134,7 @@ internal class CsvSurvey internal constructor(
         private var readings = 0L
         private var rows = 0L
         private var headerSeen = false
-        private val far = FarFixes(::pass)
+        private val far = FarFixes(::hand)
         private val order = TimeOrder(::use) { row, other, fault -> refuse(timeProblem(row, other, fault)) }
         private val local = DoubleArray(2)
         private val inDegrees = columns.latitude != CsvColumns.NONE
@@ -352,11 +352,11 @@ internal class CsvSurvey internal constructor(
             when {
                 row.x.isNaN() -> skips.count("positions without a fix (0, 0)")
                 isFlat -> far.take(row)
-                else -> pass(row)
+                else -> hand(row)
             }
         }
 
-        private fun pass(row: TimedRow) {
+        private fun hand(row: TimedRow) {
             sink.take(BoatTime(row.seconds), row.x, row.y, row.value, row.conditions)
             readings++
         }
