@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sqrt
@@ -33,6 +34,14 @@ internal class BlindDiagnosis(
         val why = tooLittle(series)
         if (why != null) return BlindAnswer.none(series, why)
         var base = search.best()
+        val wave = base.modes.shortest
+        if (Passes.share(search.track.x, search.track.y, wave) < LEAST_PASSES) {
+            return BlindAnswer.none(
+                series,
+                "no pass comes within ${"%.2g".format(Locale.ROOT, wave / Passes.NEAR)} m of another, so that nothing tells " +
+                    "the water's own changes from what the sensor makes of them",
+            )
+        }
         val loose = BlindOutliers(base)
         if (loose.rows.isNotEmpty()) {
             loose.rows.forEach { search.used[it] = false }
@@ -388,6 +397,9 @@ internal class BlindDiagnosis(
          */
         const val STRICTER = 0.1
         private const val FEWEST_ROWS = 60
+
+        /** Share of the rows that must come near another pass. */
+        private const val LEAST_PASSES = 0.02
 
         /** Share of the work that the search for the lag is. */
         private const val SEARCH = 0.5

@@ -78,8 +78,8 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         return sqrt(state.variance * inflation / maxOf(squares(column), 1e-300))
     }
 
-    /** The highest score of all these. */
-    val likeliest: Double get() = maxOf(timeConstant.score, deadTime.score, both.score)
+    /** The highest score of all these; of both kinds together only where there is a lag at all. */
+    val likeliest: Double get() = maxOf(timeConstant.score, deadTime.score, if (isSeen) both.score else none.score)
 
     /** How much more often than by the noise's model the log's stretches sway: what correlation inflates. */
     private val inflation: Double = run {

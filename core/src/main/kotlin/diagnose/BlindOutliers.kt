@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.abs
+import kotlin.math.sign
 import kotlin.math.sqrt
 
 /** Single readings that the model of [state] leaves far off, among all rows. */
@@ -36,7 +37,13 @@ internal class BlindOutliers(state: BlindState) {
     /** After a jump the next reading stays; after an outlier it comes back. */
     private fun isSingle(i: Int): Boolean {
         val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
-        return Spikes.isSingle(residuals, i) && off > STEPS * resolution && isAlone(i)
+        return Spikes.isSingle(residuals, i) && off > STEPS * resolution && isAlone(i) && !isJump(i)
+    }
+
+    /** Whether the readings beside [i] are off by as much to the other side: so they are about a jump, which stays. */
+    private fun isJump(i: Int): Boolean {
+        val beside = minOf(off[i - 1] * off[i].sign, off[i + 1] * off[i].sign)
+        return beside < -ABOUT_A_JUMP * abs(off[i])
     }
 
     /** Whether reading [i] is off the line between its neighbours as none about it is: a sharp front is no outlier. */
@@ -88,6 +95,12 @@ internal class BlindOutliers(state: BlindState) {
         SpikeSize.of(rows, residuals, spread) ?: mixture?.let { SpikeSize(it.share, it.size * spread) }
 
     private companion object {
+        /**
+         * Of how far a row is off its neighbours' parabola, from where on the next being off the other way means a jump: of a
+         * single row it is 0.43, of a jump 1.
+         */
+        const val ABOUT_A_JUMP = 0.7
+
         /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
         const val BEYOND = 1.5e-4
         const val WINDOW = 12

@@ -19,7 +19,9 @@ internal class BlindSearch(
 
     /** Rows that are fitted. */
     val used = BooleanArray(n) { true }
-    private val track = SmoothTrack.of(series)
+
+    /** Where the boat was. */
+    val track: SmoothTrack = SmoothTrack.of(series)
 
     /** Quantities of the log. */
     val scales = Scales(series)

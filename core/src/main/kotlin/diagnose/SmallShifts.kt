@@ -4,12 +4,11 @@ import java.util.Locale
 import kotlin.math.abs
 
 /**
- * Effects of the model [last] that are too small to be named, however surely they show: they are kept in the model, so
- * that nothing else is taken for them.
+ * Effects of the model [last] that the way the log is sampled may make as well, however surely they show: they are kept in
+ * the model, so that nothing else is taken for them, and are not named.
  *
- * Shifts of less than a tenth of a row are within what clocks, fixes and the way a log is sampled do. And where the
- * truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less than a shift
- * of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a delay of half
+ * Where the truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less than a
+ * shift of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a delay of half
  * a step then puts it back where it was.
  */
 internal class SmallShifts(private val last: ModelFit) {
@@ -25,8 +24,8 @@ internal class SmallShifts(private val last: ModelFit) {
     /** Of [trial], which may be any of [set]: whether it is too small. */
     fun isSmall(trial: Trial, set: List<Cause>): Boolean {
         val shift = shift(trial.term, set)
-        val isLittle = shift != null && minOf(abs(shift), abs(shift - lead)) < LEAST_ROWS * period
-        return isLittle || (isWithinRows && isLessThanARow(trial.term))
+        val isUndone = shift != null && model.held && abs(shift - lead) < LEAST_ROWS * period
+        return isUndone || (isWithinRows && isLessThanARow(trial.term))
     }
 
     /** [small] effects in words for the reader; none if there are none. */
@@ -36,10 +35,17 @@ internal class SmallShifts(private val last: ModelFit) {
         "A ${trial.term.cause.label} of ${"%.2g".format(Locale.ROOT, number)} $unit was fitted beside and is " +
             "not named: " + when {
                 isWithinRows -> SHARP
-                model.held && number > lead / 2 -> "it undoes the lead of a truth that is held over each step."
-                else -> "less than a tenth of a row is too little to matter."
+                else -> "it undoes the lead of a truth that is held over each step."
             }
     }
+
+    /** What is to be said of those among [named] that are shifts of next to nothing; none if there are none. */
+    fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
+        named.filter { (trial, set) -> shift(trial.term, set)?.let { abs(it) < LEAST_ROWS * period } == true }
+            .map { (trial, _) ->
+                "The ${trial.term.cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way a log " +
+                    "is sampled do as much."
+            }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */
     private fun shift(term: Term, set: List<Cause>): Double? {
@@ -85,7 +91,7 @@ internal class SmallShifts(private val last: ModelFit) {
     }
 
     companion object {
-        /** Rows; a shift of less is not named. */
+        /** Rows; a shift of less is next to nothing. */
         private const val LEAST_ROWS = 0.1
 
         /** Why nothing of less than a row shows where the truth is sharp. */
