@@ -59,7 +59,7 @@ internal class BlindDiagnosis(
         val start = if (isShapeOpen) lag.both else base
         val first = Round(start)
         val chosen = forward(first)
-        val last = chosen.lastOrNull()?.state ?: start
+        val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: Round(last)
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }
@@ -98,13 +98,17 @@ internal class BlindDiagnosis(
                     tries.attempt(term)
                 }
                 // Water that changes in time may have taken what the sensor does.
-                val both = terms.filter { still !== state && (it.cause in SLOW || changing < FAR_CHANGE) }
-                val others = both.associateWith { (if (it.cause in SLOW) heldTries else stillTries).attempt(it) }
-                fun worth(trial: BlindTrial) = maxOf(trial.worth, others[trial.term]?.worth ?: 0.0)
-                val likely = all.filter { it.ratio > LIKELY || others[it.term]?.let(::isLikelyOnStill) == true }
+                val isOther = still !== state && changing > NO_CHANGE
+                val both = terms.filter { isOther && (it.cause in SLOW || changing < FAR_CHANGE) }
+                val others = both.associate {
+                    it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
+                }
+                fun other(trial: BlindTrial) = others[trial.term?.key]
+                fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
+                val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
                     .sortedByDescending(::worth).take(MOST_LIKELY).toSet()
                 all.map {
-                    val other = others[it.term]
+                    val other = other(it)
                     when {
                         isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
                         it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
@@ -153,6 +157,7 @@ internal class BlindDiagnosis(
             if (gain < LIKELY) return trial
             val base = if (search.isStill(after)) still else state
             val next = tries.settled(more, after, maxOf(base.score, likewise(base, after)), searched(more))
+            if (next.pValue >= settings.level) return trial
             return grown(if (base === state) next else next.among(base.score - state.score))
         }
 
@@ -169,7 +174,8 @@ internal class BlindDiagnosis(
             val first = tries.settled(trial, found, state.score, searched)
             if (first.pValue > settings.level) return first
             // The same noise may suit the model without it as well.
-            return tries.settled(trial, found, maxOf(state.score, likewise(state, found)), searched)
+            val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, found)) }
+            return tries.settled(trial, found, best, searched)
         }
 
         private fun searched(trial: BlindTrial): Double =
@@ -296,7 +302,7 @@ internal class BlindDiagnosis(
         val full = chosen.last().state
         for (i in 0 until chosen.size - 1) {
             val others = search.improved(search.requieted(without(chosen.first().round.state, chosen, i)))
-            val without = if (chosen[i].trial.term?.cause in SLOW) search.still(others) else others
+            val without = if (search.isStill(full)) search.still(others) else search.opened(others)
             val lost = (full.score - without.score) / chosen[i].trial.inflation
             if (lost > NEEDLESS) continue
             val rest = chosen.filterIndexed { k, _ -> k != i }
@@ -407,6 +413,9 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+
+        /** Twice the gain in log-likelihood of water that changes that is none. */
+        private const val NO_CHANGE = 2.0
 
         /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
         private const val FAR_CHANGE = 300.0

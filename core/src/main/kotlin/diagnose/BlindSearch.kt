@@ -84,11 +84,13 @@ internal class BlindSearch(
     private fun redone(state: BlindState): BlindState {
         var now = state
         repeat(REDONE) {
-            val waves = now.modes.refined(now.variances)
+            val waves = now.modes.refined(now.variances, most)
             if (waves === now.modes) return now
-            now = improved(
+            val next = improved(
                 settled(now.model.terms, now.numbers, now.fit.design.noise, waves.first, FIRST_ROUNDS, waves),
             )
+            if (next.score < now.score - ENOUGH) return now
+            now = next
         }
         return now
     }
@@ -237,7 +239,7 @@ internal class BlindSearch(
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
         val open =
             settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
-        return climbed(open)
+        return climbed(requieted(climbed(open)))
     }
 
     /** Which numbers of [model] are fitted: the lag's and the terms'. */

@@ -165,12 +165,46 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), searched, unlike)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
-        val halves = contradiction(unlike, without, found.variance * inflation)
+        val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
-        return BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
+        val settled =
+            BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
+        val isReal = own.any { isShown(found, free, it, inflation) } && !(term.cause == Cause.SATURATION && goOn(found))
+        return if (isReal) settled else settled.atMost(0.0)
     }
 
-    /** By how many standard errors the halves of the log differ about the size of the change [unlike] in [z]. */
+    /**
+     * Whether the log bounds number [i] of [found], away from where it does nothing: what is likelier with a number that may
+     * as well be nothing, or anything, is no cause that could be named. [free] are the numbers that are fitted.
+     */
+    private fun isShown(found: BlindState, free: List<Int>, i: Int, inflation: Double): Boolean {
+        val parameter = found.model.parameters[i]
+        if (found.model.terms.any { it.cause == Cause.SATURATION && i in range(found.model, it) }) return true
+        val columns = free.map { found.fit.unlike(found.derivative(it)) }.toTypedArray()
+        val system = SymmetricSystem.of(columns, found.whitened)
+        val variance = system.inverseDiagonal(free.indexOf(i)) * found.variance * inflation
+        val reach = BlindAnswer.REACH * sqrt(maxOf(variance, 0.0))
+        if (parameter.logarithmic) return reach < MOST_REACH
+        return !parameter.neutral.isFinite() || abs(found.numbers[i] - parameter.neutral) > reach
+    }
+
+    private fun range(model: ResponseModel, term: Term) = model.slot(term) until model.slot(term) + model.width(term)
+
+    /** Whether readings go on beyond the ends of the range that [found] has, more than noise takes them. */
+    private fun goOn(found: BlindState): Boolean {
+        val term = found.model.terms.first { it.cause == Cause.SATURATION }
+        val (lower, upper) = range(found.model, term).map { found.numbers[it] }
+        val far = BEYOND_NOISE * sqrt(found.variance) + scales.resolution
+        val beyond = series.values.indices.count {
+            search.used[it] && (series.values[it] < lower - far || series.values[it] > upper + far)
+        }
+        return beyond > maxOf(FEW_BEYOND, FEW_SHARE * n)
+    }
+
+    /**
+     * By how many standard errors the halves of the log differ about the size of the change [unlike] in [z]. What
+     * correlation inflates is told by what either half leaves with its own size: the other's would count as correlation.
+     */
     private fun contradiction(unlike: DoubleArray, z: DoubleArray, variance: Double): Double {
         val scores = DoubleArray(2)
         val weights = DoubleArray(2)
@@ -179,8 +213,11 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             scores[half] += unlike[i] * z[i]
             weights[half] += unlike[i] * unlike[i]
         }
-        val error = sqrt(variance * (1 / maxOf(weights[0], TINY) + 1 / maxOf(weights[1], TINY)))
-        return (scores[0] / maxOf(weights[0], TINY) - scores[1] / maxOf(weights[1], TINY)) / error
+        val sizes = DoubleArray(2) { scores[it] / maxOf(weights[it], TINY) }
+        val rest = DoubleArray(n) { i -> z[i] - sizes[if (2 * i < n) 0 else 1] * unlike[i] }
+        val inflated = variance * BlindEvidence.inflation(listOf(unlike), rest)
+        val error = sqrt(inflated * (1 / maxOf(weights[0], TINY) + 1 / maxOf(weights[1], TINY)))
+        return (sizes[0] - sizes[1]) / error
     }
 
     /** What [term] adds to what [found] shows, all else the same. */
@@ -358,6 +395,13 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     val residual: DoubleArray get() = z
 
     private companion object {
+        /** Logarithm of how far the ends of an interval may be from the number: a factor of ten. */
+        const val MOST_REACH = 2.3
+
+        /** Deviations of the noise that no reading at an end of the range is beyond it; and so many rows are none. */
+        const val BEYOND_NOISE = 4.0
+        const val FEW_BEYOND = 2.0
+        const val FEW_SHARE = 0.001
         const val TINY = 1e-290
         const val BASE_STEPS = 4
         const val LOOKS = 2

@@ -41,11 +41,12 @@ internal class DeadReckoning private constructor(val x: DoubleArray, val y: Doub
             return DeadReckoning(along(x), along(y)).takeIf { way -> (way.x + way.y).all { it.isFinite() } }
         }
 
-        /** The integral of [rate] over time, by trapezoids. */
+        /** The integral of [rate] over time, by trapezoids; nothing over gaps. */
         private fun summed(series: MeasuredSeries, rate: (Int) -> Double): DoubleArray {
             val out = DoubleArray(series.size)
             for (i in 1 until out.size) {
-                out[i] = out[i - 1] + (rate(i) + rate(i - 1)) / 2 * (series.times[i] - series.times[i - 1])
+                val dt = series.times[i] - series.times[i - 1]
+                out[i] = out[i - 1] + if (dt <= series.gap) (rate(i) + rate(i - 1)) / 2 * dt else 0.0
             }
             return out
         }

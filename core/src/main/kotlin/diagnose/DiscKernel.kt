@@ -9,6 +9,7 @@ internal class DiscKernel {
 
     /** The covariance at [x], dimensionless; 1 at 0. */
     fun at(x: Double): Double {
+        if (x > FARTHEST) return 0.0
         val place = x / STEP
         val i = place.toInt()
         if (i + 1 >= values.size) grow(i + 2)
@@ -33,7 +34,10 @@ internal class DiscKernel {
     }
 
     private companion object {
-        const val STEP = 0.05
+        const val STEP = 0.02
+
+        /** Where it is below a millionth. */
+        const val FARTHEST = 5000.0
         const val ORDERS = 3
         const val FIRST = 256
     }

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.hypot
 import kotlin.math.sqrt
@@ -31,6 +32,7 @@ internal class WaterModes private constructor(
     left: Double,
     known: DoubleArray?,
 ) {
+    private val isFlat = known == null
     private val n = series.size
     private val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
     private val step =
@@ -86,14 +88,21 @@ internal class WaterModes private constructor(
 
     /** Whether rings finer than these were offered, and are not in the water. */
     val isWhole: Boolean
-        get() = rings != null && spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
+        get() = rings != null && !isFlat && size < most &&
+            spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
 
-    /** These with rings as strong as [variances] of their processes have been found to be. */
-    fun refined(variances: DoubleArray): WaterModes {
+    /** These, of [most] columns, with rings as strong as [variances] of their processes have been found to be. */
+    fun refined(variances: DoubleArray, most: Int): WaterModes {
         if (rings == null) return this
-        val next = spectrum.copyOf()
-        ringOf.forEachIndexed { i, ring -> next[ring] = spectrum[ring] * variances[moving.last + 1 + i] }
-        return WaterModes(series, track, most, rings, next, UNSEEN, variances.copyOf(moving.last + 1))
+        val own = ringOf.withIndex().associate { (i, ring) -> ring to variances[moving.last + 1 + i] }
+        val next = DoubleArray(spectrum.size) { ring ->
+            // A ring without columns of its own is as strong as the next one, where nothing is known of it.
+            val times = own[ring] ?: if (isFlat) own.minBy { (other, _) -> abs(other - ring) }.value else 1.0
+            minOf(spectrum[ring] * times, BlindSearch.MOST)
+        }
+        // The kernel itself is interpolated.
+        val left = maxOf(UNSEEN, LEAST_SHARE * next.sum())
+        return WaterModes(series, track, most, rings, next, left, variances.copyOf(moving.last + 1))
     }
 
     /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */
@@ -204,17 +213,32 @@ internal class WaterModes private constructor(
          * of [shortest] m.
          */
         fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, shortest: Double = 0.0): WaterModes {
-            val east = track.x.max() - track.x.min()
-            val north = track.y.max() - track.y.min()
             // A line gone to and fro, as a float's casts: it comes back often, to changed water.
-            if (minOf(east, north) < 1e-3 * maxOf(east, north)) {
-                return WaterModes(series, track, most, null, DoubleArray(0), 0.0, null)
-            }
+            if (isLine(track)) return WaterModes(series, track, most, null, DoubleArray(0), 0.0, null)
             val step = median(
                 DoubleArray(series.size - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) },
             )
-            val least = maxOf(STEPS_A_WAVE * step, STEPS_A_WAVE * 1e-9 * hypot(east, north), shortest)
+            val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
+            val least = maxOf(STEPS_A_WAVE * step, extent / MOST_WAVES_ACROSS, shortest)
             return flatRings(series, track, most, WaterRings(track.x, track.y, least))
+        }
+
+        /** Whether the way is a line, in whatever direction: as wide as a thousandth of its length. */
+        private fun isLine(track: SmoothTrack): Boolean {
+            val east = track.x.average()
+            val north = track.y.average()
+            var xx = 0.0
+            var yy = 0.0
+            var xy = 0.0
+            for (i in track.x.indices) {
+                val a = track.x[i] - east
+                val b = track.y[i] - north
+                xx += a * a
+                yy += b * b
+                xy += a * b
+            }
+            val half = hypot((xx - yy) / 2, xy)
+            return (xx + yy) / 2 - half < LINE * LINE * ((xx + yy) / 2 + half)
         }
 
         private fun flatRings(series: MeasuredSeries, track: SmoothTrack, most: Int, rings: WaterRings): WaterModes {
@@ -229,6 +253,7 @@ internal class WaterModes private constructor(
         /** Part of the water's variance that may be left anywhere, and of the noise's where that is known. */
         private const val LEFT = 1e-6
         private const val UNSEEN = 1e-3
+        private const val LEAST_SHARE = 1e-8
         private const val FINEST = 0.75
         private const val FACTOR = 2.2
 
@@ -237,9 +262,13 @@ internal class WaterModes private constructor(
 
         /** Steps from row to row in the shortest wave of a ring: shorter ones nobody's lag lets through. */
         private const val STEPS_A_WAVE = 8.0
+
+        /** So many of the shortest waves across the track are more than columns can show, where fixes stand still. */
+        private const val MOST_WAVES_ACROSS = 500.0
         private const val SHORTEST = 2.0
         private const val ENOUGH = 1e-4
         private const val MOVING = 0.15
+        private const val LINE = 1e-3
         private const val LINE_MOVING = 0.6
         private const val THINNED = 1200
         private const val HALVINGS = 6

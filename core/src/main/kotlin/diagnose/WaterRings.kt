@@ -119,7 +119,7 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         while (columns.size < most) {
             var pivot = 0
             for (i in 1 until count) if (rest[i] > rest[pivot]) pivot = i
-            if (rest[pivot] < left) break
+            if (columns.isNotEmpty() && rest[pivot] < left) break
             val scale = 1 / sqrt(rest[pivot])
             val column = DoubleArray(count) { covariance(spectrum, distance(it * thin, pivot * thin)) }
             for (other in columns) {

@@ -50,7 +50,7 @@ class BlindDiagnosisTest {
     @Test
     fun whatTheHalvesContradictIsNotNamed() {
         val early = log(SensorStage.Asymmetric(9.0, 3.0)).values
-        val late = log(SensorStage.Asymmetric(5.0, 4.0)).values
+        val late = log(SensorStage.Asymmetric(4.8, 4.2)).values
         val values = DoubleArray(n) { if (it < n / 2) early[it] else late[it] }
         val times = DoubleArray(n) { it.toDouble() }
         val verdict = Diagnosis(MeasuredSeries(times, x, y, values, null)).run().verdict
@@ -124,6 +124,37 @@ class BlindDiagnosisTest {
     @Test
     fun readingsTooSmallToReckonWithAreTooLittle() {
         assertIs<Verdict.InsufficientData>(Diagnosis(log(SensorStage.Lag(5.0), scale = 1e-200)).run().verdict)
+    }
+
+    /** Nothing but smoothness would tell the water's changes from the sensor's there. */
+    @Test
+    fun aTowThatNeverComesBackIsTooLittle() {
+        val line = DoubleArray(n) { 0.8 * it }
+        val bent = DoubleArray(n) { 40 * sin(it / 200.0) }
+        val water = DoubleArray(n) { sin(line[it] / 7) + sin(line[it] / 15 + 1) }
+        val sensor = SensorSpec("hidden", listOf(SensorStage.Lag(5.0), SensorStage.Noise(0.004))).build(water[0], Random(7))
+        val values = DoubleArray(n) { sensor.step(water[it], 1.0, Conditions.NONE) }
+        val tow = MeasuredSeries(DoubleArray(n) { it.toDouble() }, line, bent, values, null)
+        val verdict = assertIs<Verdict.InsufficientData>(Diagnosis(tow).run().verdict)
+        assertContains(verdict.why, "no pass comes within")
+    }
+
+    /** Two places far apart, at which the boat mostly stands: the shortest waves would be a millionth of the way. */
+    @Test
+    fun stationsWithRepeatedFixesAreAnswered() {
+        val random = Random(11)
+        val east = DoubleArray(n) { i -> (if (i / 100 % 2 == 0) 0.0 else 5000.0) + if (i % 10 == 0) random.nextDouble() else 0.5 }
+        val north = DoubleArray(n) { i -> if (i % 10 == 0) random.nextDouble() else 0.5 }
+        val values = DoubleArray(n) { i -> (if (i / 100 % 2 == 0) 8.0 else 9.0) + 0.01 * random.nextDouble() }
+        Diagnosis(MeasuredSeries(DoubleArray(n) { it.toDouble() }, east, north, values, null)).run()
+    }
+
+    @Test
+    fun waterThatHoldsNothingIsAnswered() {
+        val random = Random(12)
+        val noise = DoubleArray(n) { 8 + 0.01 * (random.nextDouble() - random.nextDouble()) }
+        val verdict = Diagnosis(MeasuredSeries(DoubleArray(n) { it.toDouble() }, x, y, noise, null)).run().verdict
+        assertTrue(causes(verdict).isEmpty(), "$verdict")
     }
 
     @Test
