@@ -6,11 +6,11 @@ import kotlin.math.hypot
 /** How much of a track comes near another pass of itself: without that nothing but smoothness tells water from sensor. */
 internal object Passes {
     /** Parts of a wave that is near. */
-    const val NEAR = 4.0
+    const val NEAR = 2.0
     private const val APART = 2.0
 
     /**
-     * The share of the places ([x], [y]), m, in the order they were passed, that have another one within a quarter of
+     * The share of the places ([x], [y]), m, in the order they were passed, that have another one within half of
      * [wave], m, which is more than two such waves away along the way.
      */
     fun share(x: DoubleArray, y: DoubleArray, wave: Double): Double {

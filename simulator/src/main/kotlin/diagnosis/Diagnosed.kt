@@ -138,8 +138,12 @@ class Diagnosed(
         return listOfNotNull(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
-            "base: $sensor; residuals " +
-                three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)",
+            if (base.parameters.isEmpty()) {
+                "base: nothing was fitted"
+            } else {
+                "base: $sensor; residuals " +
+                    three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)"
+            },
             calibration,
             if (after != null) {
                 extension(base, after, three)
