@@ -38,7 +38,10 @@ internal class BlindDiagnosis(
         if (Passes.share(search.track.x, search.track.y, wave) < LEAST_PASSES) {
             return BlindAnswer.none(
                 series,
-                "no pass comes within ${"%.2g".format(Locale.ROOT, wave / Passes.NEAR)} m of another, so that nothing tells " +
+                "no pass comes within ${"%.2g".format(
+                    Locale.ROOT,
+                    wave / Passes.NEAR,
+                )} m of another, so that nothing tells " +
                     "the water's own changes from what the sensor makes of them",
             )
         }

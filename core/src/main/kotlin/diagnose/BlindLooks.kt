@@ -36,7 +36,12 @@ internal class BlindLooks(
 
     private fun shapes(): List<BlindTrial> = buildList {
         val age = standard(series.times)
-        add(trials.look("the value itself (a curved calibration, or water that was not the same on all passes)", listOf(product(value, value), cube(value))))
+        add(
+            trials.look(
+                "the value itself (a curved calibration, or water that was not the same on all passes)",
+                listOf(product(value, value), cube(value)),
+            ),
+        )
         add(trials.look("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
         val uneven = listOf(followed(product(rate, value)))
         add(trials.look("the rate of change, more at some values than at others", uneven))

@@ -72,7 +72,8 @@ internal class Weighing(
             },
             left,
             spikes,
-            warnings(left.first(), named) + shifts.words(small.map { it.first }) + shifts.cautions(clear) + report.warnings +
+            warnings(left.first(), named) + shifts.words(small.map { it.first }) + shifts.cautions(clear) +
+                report.warnings +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),

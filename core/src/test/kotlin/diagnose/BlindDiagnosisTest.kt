@@ -132,7 +132,10 @@ class BlindDiagnosisTest {
         val line = DoubleArray(n) { 0.8 * it }
         val bent = DoubleArray(n) { 40 * sin(it / 200.0) }
         val water = DoubleArray(n) { sin(line[it] / 7) + sin(line[it] / 15 + 1) }
-        val sensor = SensorSpec("hidden", listOf(SensorStage.Lag(5.0), SensorStage.Noise(0.004))).build(water[0], Random(7))
+        val sensor = SensorSpec(
+            "hidden",
+            listOf(SensorStage.Lag(5.0), SensorStage.Noise(0.004)),
+        ).build(water[0], Random(7))
         val values = DoubleArray(n) { sensor.step(water[it], 1.0, Conditions.NONE) }
         val tow = MeasuredSeries(DoubleArray(n) { it.toDouble() }, line, bent, values, null)
         val verdict = assertIs<Verdict.InsufficientData>(Diagnosis(tow).run().verdict)
@@ -143,7 +146,10 @@ class BlindDiagnosisTest {
     @Test
     fun stationsWithRepeatedFixesAreAnswered() {
         val random = Random(11)
-        val east = DoubleArray(n) { i -> (if (i / 100 % 2 == 0) 0.0 else 5000.0) + if (i % 10 == 0) random.nextDouble() else 0.5 }
+        val east = DoubleArray(n) { i ->
+            (if (i / 100 % 2 == 0) 0.0 else 5000.0) +
+                if (i % 10 == 0) random.nextDouble() else 0.5
+        }
         val north = DoubleArray(n) { i -> if (i % 10 == 0) random.nextDouble() else 0.5 }
         val values = DoubleArray(n) { i -> (if (i / 100 % 2 == 0) 8.0 else 9.0) + 0.01 * random.nextDouble() }
         Diagnosis(MeasuredSeries(DoubleArray(n) { it.toDouble() }, east, north, values, null)).run()
