@@ -51,7 +51,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
             "temperature. Intervals were made ${digits(margin.factor, 2)} times as wide, which holds " +
             "${percent(
                 margin.heldOut,
-            )} of rows in tenths of the log that had no say in it; diagnose --reference looks " +
+            )} of rows in tenths of the log that had no say in this factor, though one in what was learned; diagnose --reference looks " +
             "for the cause"
     }
 

@@ -45,7 +45,7 @@ enum class SensorOrigin(val label: String) {
  * @property hinted the same with intervals that do; null where it hints at nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
- * for it. @property margin how far the reference lies outside the intervals before they were widened for that; null
+ * for it. @property margin how far the reference lies outside [track]'s intervals before they were widened for that; null
  * where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
  */
@@ -182,6 +182,8 @@ class CorrectedLog internal constructor(
                 .takeIf { learned.origin == SensorOrigin.REFERENCE }
             val margin = margin(agreed)
             val unhinted = margin?.widened(agreed) ?: agreed
+            val hintMargin = hint?.let(::margin)
+            val isHintShown = learned.choice?.hinted?.isBounded == true
             return CorrectedLog(
                 log,
                 pass,
@@ -189,12 +191,12 @@ class CorrectedLog internal constructor(
                 learned,
                 spec,
                 unhinted,
-                hint?.let { margin(it)?.widened(it) ?: it },
+                hint?.let { unhinted.holding(hintMargin?.widened(it) ?: it) },
                 statistics,
                 legs(series, series.values),
                 legs(series, unhinted.values),
                 agreement,
-                margin,
+                if (isHintShown) hintMargin ?: margin else margin,
                 unusable,
                 others,
             )
