@@ -132,8 +132,8 @@ internal class Structure(private val fit: ModelFit) {
     }
 
     /**
-     * What each step of a sharp truth, a little later, would add, whitened: when within its row it came is not known. Of
-     * many steps the largest, which add most: the work grows with the square of their number.
+     * What each step of a sharp truth, a little later, would add, whitened: when within its row it came is not known.
+     * Of many steps the largest, which add most: the work grows with the square of their number.
      */
     private fun stepShifts(): List<DoubleArray> {
         val isBroken = scales.unknown?.takeIf { isSharp }?.isBroken ?: return emptyList()

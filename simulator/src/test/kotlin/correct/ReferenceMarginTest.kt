@@ -50,7 +50,8 @@ class ReferenceMarginTest {
         val readings = DoubleArray(ROWS) { water[it] + (if (it / 10 % 2 == 0) 0.2 else -0.2) + normal(0.01) }
         val series = TrackSeries(times, times, DoubleArray(ROWS), readings)
         val track = TrackCorrector(series).correct(listOf(LikelyResponse(listOf(Response()), 1.0)))
-        val margin = ReferenceMargin.of(series, track, DoubleArray(ROWS) { if (it % 10 == 5) water[it] else Double.NaN })
+        val references = DoubleArray(ROWS) { if (it % 10 == 5) water[it] else Double.NaN }
+        val margin = ReferenceMargin.of(series, track, references)
         assertTrue(margin.isMisfit && margin.covered < 0.5, "${margin.covered}, ${margin.factor}")
     }
 
