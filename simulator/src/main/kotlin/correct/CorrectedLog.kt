@@ -180,10 +180,8 @@ class CorrectedLog internal constructor(
             val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
             fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())
                 .takeIf { learned.origin == SensorOrigin.REFERENCE }
-            val margin = margin(agreed)
+            val (margin, hintMargin) = listOf(agreed, hint).map { it?.let(::margin) }
             val unhinted = margin?.widened(agreed) ?: agreed
-            val hintMargin = hint?.let(::margin)
-            val isHintShown = learned.choice?.hinted?.isBounded == true
             return CorrectedLog(
                 log,
                 pass,
@@ -196,7 +194,7 @@ class CorrectedLog internal constructor(
                 legs(series, series.values),
                 legs(series, unhinted.values),
                 agreement,
-                if (isHintShown) hintMargin ?: margin else margin,
+                hintMargin?.takeIf { learned.choice?.hinted?.isBounded == true } ?: margin,
                 unusable,
                 others,
             )
