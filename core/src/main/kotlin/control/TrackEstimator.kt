@@ -170,9 +170,9 @@ public class TrackEstimator(public val settings: TrackSettings = TrackSettings()
 
     /**
      * Errors e of fixes are white where the filter is right, of variance s. With κ = exp(−Δ / 8 s) their sum
-     * A ← κ A + e / √s has the variance N ← κ² N + 1; |A| above 3 √N is no chance, and the place is doubted by |C|,
-     * what fixes have moved it by: C ← λ (C + D Δ) + K e, with D ← λ D + K_c e, what they have changed the drift by,
-     * and λ = exp(−Δ / 15 s).
+     * A ← κ A + e / √s has the variance N ← κ² N + 1; |A| above 3 √N is chance in 1.1 % of fixes, with two axes, and
+     * the place is doubted by |C|, what fixes have moved it by: C ← λ (C + D Δ) + K e, with D ← λ D + K_c e, what
+     * they have changed the drift by, and λ = exp(−Δ / 15 s).
      */
     private fun watchMoves(errorX: Double, errorY: Double, s: Double, gainP: Double, gainC: Double) {
         val kept = exp(-sinceFix / REMEMBERED)

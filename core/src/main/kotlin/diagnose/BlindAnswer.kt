@@ -138,7 +138,7 @@ internal class BlindAnswer(
         if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${left.description}.")
         }
-        last.model.terms.filter { it.cause == Cause.CROSS_SENSITIVITY && BlindDiagnosis.mayBeWaters(it) }.forEach {
+        last.model.terms.filter { it.cause == Cause.CROSS_SENSITIVITY && BlindRivals.mayBeWaters(it) }.forEach {
             add(
                 "The ${it.condition} may go with the value in the water itself: water that changed between two " +
                     "passes looks like a sensor that also shows it.",

@@ -1,10 +1,6 @@
 package stillwater.diagnose
 
-import stillwater.model.Conditions
 import java.util.Locale
-import kotlin.math.abs
-import kotlin.math.exp
-import kotlin.math.sqrt
 
 /**
  * The diagnosis of a log without a reference: the water is inferred with the sensor, from passes over the same place.
@@ -31,7 +27,7 @@ internal class BlindDiagnosis(
 
     /** The answer. */
     fun run(): DiagnosisResult {
-        val why = tooLittle(series)
+        val why = TooLittle.why(series)
         if (why != null) return BlindAnswer.none(series, why)
         var base = search.best()
         val wave = base.modes.shortest
@@ -95,7 +91,7 @@ internal class BlindDiagnosis(
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> =
-            terms().filter { term -> state.model.terms.none { it.key == term.key } }.let { terms ->
+            BlindTerms.of(search, !isShapeOpen && isLagSeen).filter(::isNew).let { terms ->
                 val all = terms.mapIndexed { i, term ->
                     tell(i.toDouble() / terms.size)
                     tries.attempt(term)
@@ -119,6 +115,8 @@ internal class BlindDiagnosis(
                     }
                 }
             }
+
+        private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 
         /** Whether [trial], on water that does not change, may be worth water and noise of its own. */
         private fun isLikelyOnStill(trial: BlindTrial): Boolean {
@@ -181,8 +179,7 @@ internal class BlindDiagnosis(
             return tries.settled(trial, found, best, searched)
         }
 
-        private fun searched(trial: BlindTrial): Double =
-            trial.term?.times.orEmpty().let { if (it.isEmpty()) 0.0 else tries.searched(it.size) }
+        private fun searched(trial: BlindTrial): Double = tries.searched(trial.term?.times.orEmpty().size)
 
         /** [trial], a drift or a jump in water that does not change, as [found] has it. */
         private fun heldAgainstChange(trial: BlindTrial, found: BlindState): BlindTrial {
@@ -255,31 +252,6 @@ internal class BlindDiagnosis(
     /** Whether there is a lag at all, for certain. */
     private var isLagSeen = false
 
-    private fun terms(): List<Term> = buildList {
-        add(Term(Cause.ASYMMETRIC_RESPONSE))
-        // A lag that does not show for certain has no shape to be named.
-        if (!isShapeOpen && isLagSeen) {
-            add(Term(Cause.SECOND_ORDER_RESPONSE))
-            add(Term(Cause.TWO_PATH_RESPONSE))
-            add(Term(Cause.DEAD_TIME))
-        }
-        add(Term(Cause.SLEW_LIMIT))
-        val scales = search.scales
-        val spread = sqrt(scales.logSpeed.map { it * it }.average())
-        if (spread > EVEN) add(Term(Cause.FLOW_DEPENDENT_RESPONSE))
-        if (scales.warmth.any { abs(it) > LEAST_WARMTH }) add(Term(Cause.TEMPERATURE_DEPENDENT_RESPONSE))
-        for ((name, column) in scales.centred) {
-            if (name != Conditions.HEADING && column.any { it != 0.0 }) add(Term(Cause.CROSS_SENSITIVITY, name))
-        }
-        add(Term(Cause.DRIFT))
-        add(Term(Cause.OFFSET_STEPS))
-        add(Term(Cause.HYSTERESIS))
-        val noise = sqrt(search.lastVariance)
-        if (scales.resolution > COARSE * noise) add(Term(Cause.QUANTISATION))
-        add(Term(Cause.SATURATION))
-        if (spread > EVEN && !isShapeOpen && isLagSeen) add(Term(Cause.POSITION_OFFSET))
-    }
-
     private fun forward(first: Round): List<BlindStep> {
         val chosen = ArrayList<BlindStep>()
         var round = first
@@ -338,41 +310,18 @@ internal class BlindDiagnosis(
         val rivals = round.causes.filter { it.name !in taken && it.pValue < settings.level }
         // Others have water that changes beside them, where there is such water, and so are no answer in place of it.
         val isBesideChange = own.term?.cause in SLOW && round.changing > settings.separation
-        val others = alike(own, rivals.filter { !isBesideChange || it.term?.cause in SLOW })
+        val others = BlindRivals.alike(
+            own,
+            settings.setProbability,
+            rivals.filter {
+                !isBesideChange ||
+                    it.term?.cause in SLOW
+            },
+        )
         val cause = checkNotNull(step.trial.term).cause
-        val twin = listOfNotNull(Cause.TIME_VARYING_FIELD.takeIf { mayBeWaters(checkNotNull(step.trial.term)) })
+        val twin =
+            listOfNotNull(Cause.TIME_VARYING_FIELD.takeIf { BlindRivals.mayBeWaters(checkNotNull(step.trial.term)) })
         (listOf(cause) + twin + others).distinct()
-    }
-
-    /**
-     * The causes among [rivals] that with [own] make the smallest set that holds the right one with the probability
-     * asked for, each as likely before, as where there is a reference: core/docs/Diagnosis.md, (6).
-     */
-    private fun alike(own: BlindTrial, rivals: List<BlindTrial>): List<Cause> {
-        val others = rivals.filter { it.name != own.name }.sortedByDescending { it.likelier }
-        val odds = others.map { exp(minOf((it.likelier - own.likelier) / (2 * own.inflation), 0.0)) }
-        val total = 1 + odds.sum()
-        var covered = 1.0
-        val set = ArrayList<Cause>()
-        others.forEachIndexed { i, rival ->
-            val isOpen = covered < settings.setProbability * total || !isBehind(rival, own)
-            if (isOpen) set += checkNotNull(rival.term).cause
-            covered += odds[i]
-        }
-        return set
-    }
-
-    /**
-     * Whether [own] is far likelier than [rival], or stretches of the log agree that it is likelier: noise that is not
-     * what its model says makes differences of likelihood of itself. What acts at one moment, as a jump does, differs
-     * from the rest in few stretches, so that they are not asked about changes with time.
-     */
-    private fun isBehind(rival: BlindTrial, own: BlindTrial): Boolean {
-        if (own.term?.cause in SLOW) return true
-        val worse = rival.state ?: return true
-        val better = own.state ?: return true
-        return (own.likelier - rival.likelier) / own.inflation > BlindLag.MUCH ||
-            BlindEvidence.between(worse, better) > AGREED
     }
 
     /** The model with all that was chosen but the [left]-th. */
@@ -393,19 +342,10 @@ internal class BlindDiagnosis(
 
     companion object {
         /**
-         * Whether what [term] shows may as well be the water's own where nobody knows the water: a change of the
-         * sensor's offset is like one of all the water, and what else is measured in the water may go with the value
-         * there, so that where the water changed between two passes both changed. Speed and heading are the boat's.
-         */
-        fun mayBeWaters(term: Term): Boolean = term.cause in SLOW ||
-            (term.cause == Cause.CROSS_SENSITIVITY && term.condition !in setOf(Conditions.SPEED, Conditions.HEADING))
-
-        /**
          * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:
          * levels are lower by as much.
          */
         const val STRICTER = 0.1
-        private const val FEWEST_ROWS = 60
 
         /** Share of the rows that must come near another pass. */
         private const val LEAST_PASSES = 0.02
@@ -434,31 +374,8 @@ internal class BlindDiagnosis(
 
         /** The same below which a cause goes again, once others are named beside it. */
         private const val NEEDLESS = 8.0
-        private const val SMALLEST_RANGE = 1e-100
 
         /** Causes that water which changes in time can imitate. */
         val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)
-        private const val EVEN = 0.03
-
-        /** Student's t with 23 degrees of freedom, one-sided 5 %. */
-        private const val AGREED = 1.71
-        private const val LEAST_WARMTH = 0.05
-        private const val COARSE = 0.3
-
-        /** Why [series] cannot show anything, or null where it may. */
-        fun tooLittle(series: MeasuredSeries): String? = when {
-            series.size < FEWEST_ROWS -> "there are ${series.size} rows only"
-            isFlat(series.values) -> "the readings never change"
-            series.values.max() - series.values.min() < SMALLEST_RANGE ->
-                "the readings change by less than can be reckoned with"
-            isFlat(series.x) && isFlat(series.y) ->
-                "the boat never moves, so that no pass comes back to the same water"
-            else -> null
-        }
-
-        private fun isFlat(column: DoubleArray) = column.all { it == column[0] }
     }
 }
-
-/** A cause that was added: [trial], among what it was chosen from, and the model with it. */
-internal class BlindStep(val trial: BlindTrial, val round: BlindDiagnosis.Round, val state: BlindState)

@@ -25,6 +25,7 @@ internal class BlindSearch(
 
     /** Quantities of the log. */
     val scales = Scales(series)
+    private val columns = BlindColumns(series, scales, loops)
 
     private val most = (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES)
 
@@ -115,7 +116,6 @@ internal class BlindSearch(
 
     private fun turn() {
         held = !held
-        shownAs = null
     }
 
     /** Numbers of a lag of [timeConstant] s. */
@@ -272,14 +272,14 @@ internal class BlindSearch(
         before: BlindFit?,
     ): BlindState {
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
-        val columns = shown(terms, own, modes)
+        val columns = this.columns.shown(terms, own, modes, held)
         var heights = before?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
             variances.takeIf { it.size == modes.bands } ?: modes.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
         var hidden = RangeEnd.beyond(model, at)
-        var fit = BlindFit(designed(columns, hidden, noise), precisions(bands, modes), heights)
+        var fit = BlindFit(this.columns.designed(columns, hidden, noise), precisions(bands, modes), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
@@ -289,7 +289,7 @@ internal class BlindSearch(
             if (round < rounds) {
                 bands = WaterVariances.next(fit, residuals(model, at), modes)
                 hidden = RangeEnd.beyond(model, at)
-                fit = BlindFit(designed(columns, hidden, noise), precisions(bands, modes), heights)
+                fit = BlindFit(this.columns.designed(columns, hidden, noise), precisions(bands, modes), heights)
             }
         }
         val residuals = residuals(model, at)
@@ -303,63 +303,9 @@ internal class BlindSearch(
         return out
     }
 
-    /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
-    private fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes): Array<DoubleArray> {
-        val last = shownLast
-        val isSame = shownAs != null && shownAs == Triple(terms, numbers.toList(), modes)
-        if (last != null && isSame) return last
-        val fading =
-            DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / numbers[ResponseModel.TIME_CONSTANT]) }
-        return (seen(terms, numbers, modes.columns) + fading).also {
-            shownLast = it
-            shownAs = Triple(terms, numbers.toList(), modes)
-        }
-    }
-
-    private var shownLast: Array<DoubleArray>? = null
-    private var shownAs: Triple<List<Term>, List<Double>, WaterModes>? = null
-
-    /**
-     * The design of [columns], which is kept for the next that asks for the same; rows that are [hidden] say nothing of
-     * the water.
-     */
-    private fun designed(columns: Array<DoubleArray>, hidden: BooleanArray?, noise: BlindNoise): BlindDesign {
-        val last = designLast
-        val isSame = designOf === columns && designHidden.contentEquals(hidden)
-        if (last != null && isSame && last.noise === noise) return last
-        fun seen(column: DoubleArray) =
-            if (hidden == null) column else DoubleArray(n) { if (hidden[it]) 0.0 else column[it] }
-        return BlindDesign(Array(columns.size) { seen(columns[it]) }, noise, loops).also {
-            designLast = it
-            designOf = columns
-            designHidden = hidden
-        }
-    }
-
-    private var designLast: BlindDesign? = null
-    private var designOf: Array<DoubleArray>? = null
-    private var designHidden: BooleanArray? = null
-
     /** [waters] along the track as the linear parts of the sensor show them. */
-    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> {
-        val whole = ResponseModel(series.withReference(waters[0]), terms, held, scales)
-        val linear = terms.filter { it.cause in LINEAR }
-        val own = base(numbers[ResponseModel.TIME_CONSTANT]) + linear.flatMap { term ->
-            List(whole.width(term)) { numbers[whole.slot(term) + it] }
-        }
-        val columns = arrayOfNulls<DoubleArray>(waters.size)
-        // A model has working space of its own, which tasks cannot share.
-        loops.each(PARTS) { part ->
-            val truth = DoubleArray(n)
-            val model = ResponseModel(series.withReference(truth), linear, held, scales)
-            for (k in part until waters.size step PARTS) {
-                waters[k].copyInto(truth)
-                model.truthChanged()
-                columns[k] = DoubleArray(n).also { model.predict(own, it) }
-            }
-        }
-        return columns.requireNoNulls()
-    }
+    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> =
+        columns.seen(terms, numbers, waters, held)
 
     /** The phase along the track of a wave with [east] and [north] radians per metre, length n. */
     fun phases(east: Double, north: Double) = DoubleArray(n) { east * track.x[it] + north * track.y[it] }
@@ -369,6 +315,15 @@ internal class BlindSearch(
     }
 
     companion object {
+        /** Causes that show a sum of waters as the sum of what they show of each. */
+        val LINEAR = setOf(
+            Cause.SECOND_ORDER_RESPONSE,
+            Cause.TWO_PATH_RESPONSE,
+            Cause.DEAD_TIME,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.POSITION_OFFSET,
+        )
         const val MOST_WAVES = 450
 
         /** Share of the search that one of its parts is. */
@@ -378,8 +333,6 @@ internal class BlindSearch(
         /** Mean square of waves, over the noise's, that no cause's fit would miss. */
         const val UNSEEN = 1e-3
 
-        /** Parts of the work that may be done at the same time. */
-        const val PARTS = 4
         const val REDONE = 2
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
@@ -408,15 +361,5 @@ internal class BlindSearch(
         const val CLIMBS = 3
         const val MOST_CLIMBS = 5
         val UNEVEN = listOf(0.0, 0.3, 1.0, 3.0, 10.0, 100.0)
-
-        /** Causes that show a sum of waters as the sum of what they show of each. */
-        val LINEAR = setOf(
-            Cause.SECOND_ORDER_RESPONSE,
-            Cause.TWO_PATH_RESPONSE,
-            Cause.DEAD_TIME,
-            Cause.FLOW_DEPENDENT_RESPONSE,
-            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
-            Cause.POSITION_OFFSET,
-        )
     }
 }

@@ -128,13 +128,16 @@ internal class CauseSearch(
      */
     private fun jumps(base: ModelFit): ModelFit {
         val found = ArrayList<ModelFit>()
-        val noises = listOf(base.noise, CorrelatedNoise.white(scales, used)).distinctBy { it.share }
-        noises.forEach { found += jumps(base, it) }
+        noises(base).forEach { found += jumps(base, it) }
         found.maxByOrNull { it.score }?.let { found += jumps(base, it.noise) }
         val shown = found.filter { jumpsPValue(base, it, it.score - base.score) < SHOWN * settings.level }
         val best = shown.ifEmpty { found }.maxByOrNull { it.score - JUMP_WORTH * jumpsBeyond(base, it) } ?: return base
         return withMoreJumps(best)
     }
+
+    /** Under which places of jumps are looked for. */
+    private fun noises(base: ModelFit) =
+        listOf(base.noise, CorrelatedNoise.white(scales, used)).distinctBy { it.share }
 
     /** [base] with the best jump, and with the best two, by [noise]. */
     private fun jumps(base: ModelFit, noise: CorrelatedNoise): List<ModelFit> {
@@ -147,10 +150,11 @@ internal class CauseSearch(
     private fun jumpsBeyond(base: ModelFit, fit: ModelFit) =
         fit.model.terms.sumOf { it.times.size } - base.model.terms.sumOf { it.times.size }
 
-    /** Of a [gain] of [fit], which has more jumps than [base]. */
+    /** Of a [gain] of [fit], which has more jumps than [base]: as often as under one noise, times their number. */
     private fun jumpsPValue(base: ModelFit, fit: ModelFit, gain: Double): Double {
         val before = Fitting.at(base.model, base.numbers, base.free, fit.noise)
-        return JumpScan.of(before, JumpPlaces.edge(series.size)).pValue(gain, jumpsBeyond(base, fit))
+        val one = JumpScan.of(before, JumpPlaces.edge(series.size)).pValue(gain, jumpsBeyond(base, fit))
+        return minOf(1.0, one * noises(base).size)
     }
 
     private fun withMoreJumps(first: ModelFit): ModelFit {

@@ -82,7 +82,7 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
             loops: Loops,
             progress: (Double) -> Unit = {},
         ): ChannelLag {
-            if (BlindDiagnosis.tooLittle(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
+            if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
             val search = BlindSearch(series, loops, progress)
             return BlindLag(search, search.best()).channel(name)
         }

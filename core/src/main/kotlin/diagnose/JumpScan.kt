@@ -35,8 +35,9 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
      * shared, each more jump has half as much as one less.
      */
     fun pValue(gain: Double, count: Int): Double {
-        val cells = maxOf(ceil(gain / CELL).toInt(), 0)
-        val one = DoubleArray(cells + 1) { single(it * gain / maxOf(cells, 1)) }
+        val counted = minOf(gain, MOST_GAIN)
+        val cells = maxOf(ceil(counted / CELL).toInt(), 0)
+        val one = DoubleArray(cells + 1) { single(it * counted / maxOf(cells, 1)) }
         var tail = one
         var shares = 2.0
         for (k in 2..count) {
@@ -55,6 +56,9 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
 
     companion object {
         private const val CELL = 0.25
+
+        /** What gains more counts as this: it is no chance either way, and the sums take the square of it. */
+        private const val MOST_GAIN = 300.0
         private const val MOST_STEPS = 100
 
         /** The scan of the rows from [edge] to as far from the end, on top of [fit], under its noise. */

@@ -43,8 +43,8 @@ internal class SmallShifts(private val last: ModelFit) {
     fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
         named.filter { (trial, set) -> shift(trial.term, set)?.let { abs(it) < LEAST_ROWS * period } == true }
             .map { (trial, _) ->
-                "The ${trial.term.cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way a log " +
-                    "is sampled do as much."
+                "The ${trial.term.cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way " +
+                    "a log is sampled do as much."
             }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */

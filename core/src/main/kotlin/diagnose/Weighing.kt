@@ -73,7 +73,7 @@ internal class Weighing(
             left,
             spikes,
             warnings(left.first(), named) + shifts.words(small.map { it.first }) + shifts.cautions(clear) +
-                report.warnings +
+                report.warnings + listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),
@@ -222,6 +222,10 @@ internal class Weighing(
 
     private companion object {
         const val FEWEST_ROWS = 60
+
+        /** Of what was too small to be named. */
+        const val BESIDE =
+            "The errors of the extended model are those with what was fitted beside; the sensor file is without it."
 
         /** Sudden changes that last: fewer are jumps. */
         const val FEWEST_CHANGES = 5

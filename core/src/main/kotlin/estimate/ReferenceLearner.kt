@@ -72,21 +72,21 @@ public class ReferenceLearner(
      */
     public fun roughness(): Double {
         var bend = 0.0
-        var count = 0
+        var bends = 0
         for (i in 1 until series.size - 1) {
             val span = series.times[i + 1] - series.times[i - 1]
             if (span > 2 * series.gapLimit) continue
             val share = (series.times[i] - series.times[i - 1]) / span
             val line = reference[i - 1] + share * (reference[i + 1] - reference[i - 1])
             bend += (reference[i] - line) * (reference[i] - line)
-            count++
+            bends++
         }
         val delays = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
         val best = delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
         val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(best))
         leave(gain, offset)
         val left = sqrt(residuals.sumOf { it * it } / maxOf(1, count))
-        val bent = kotlin.math.abs(gain) * sqrt(bend / maxOf(1, count)) / FROM_DOUBLE
+        val bent = kotlin.math.abs(gain) * sqrt(bend / maxOf(1, bends)) / FROM_DOUBLE
         return if (left > 0) bent / left else Double.POSITIVE_INFINITY
     }
 

@@ -31,7 +31,7 @@ import kotlin.math.sqrt
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
  * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates
- * once the cells' memory has grown. New parameters change all cells: the map follows [REFRESHED] cell a reading, and
+ * once the cells' memory has grown. New parameters change all cells: the map follows a cell a reading, [REFRESHED], and
  * the boat's own and the one before when it is asked for. Confined to one thread.
  *
  * @param grid the cells.

@@ -144,12 +144,12 @@ public class BoardPort(
      */
     private fun copies(now: BoatTime) = if (motorSilence(now) > ECHO) LAST_COPIES else REST_COPIES
 
-    /** Says rest at once, as often as a first rest, whatever was said before. */
+    /** Says rest at once, as often as a first rest (more often to a board that is silent), whatever was said before. */
     public fun rest(now: BoatTime) {
         sent = mixing.mix(Drive.NONE)
         restedFrom = minOf(restedFrom, now.seconds)
         toldAt = now.seconds
-        repeat(REST_COPIES) { send(Command.Move(sent)) }
+        repeat(copies(now)) { send(Command.Move(sent)) }
     }
 
     /** Whether rest was said for long enough, and the board says that its motors rest. */

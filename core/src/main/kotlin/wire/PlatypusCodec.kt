@@ -12,9 +12,10 @@ public interface LineCodec : LineSink {
  * An object is taken whole or not at all, so that a line that was cut says nothing. Where a line's beginning is broken,
  * reading starts again at its next brace: a line whose terminator was lost costs neither itself nor its neighbour. What
  * the board echoes inside an error is not read: it is this side's own words. A drive in it has the form of what the
- * board says of its motors, so motors are believed only at the beginning of a line or behind a whole object: the
- * beginning of the error may have been spoilt. Every line that holds something unreadable is counted once, under the
- * kind met first. A number is never guessed: what is not finite or not all digits is counted.
+ * board says of its motors, so motors are believed only at the beginning of a line or behind a whole object, for the
+ * beginning of the error may have been spoilt, and only where nothing is left of the error behind them, for it may be
+ * missing, as where a link was lost. Every line that holds something unreadable is counted once, under the kind met
+ * first. A number is never guessed: what is not finite or not all digits is counted.
  *
  * The lines carry no checksum: a digit that was changed on the way reads as another number. The mission's plausibility
  * test is there for that.
@@ -55,9 +56,9 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
             cursor.open(bytes, at, end)
             if (topObject()) {
                 said = said || waiting > 0
-                handOn(isEcho)
                 val from = cursor.at
                 at = nextBrace(bytes, from, end)
+                handOn(isEcho || isBeforeText(bytes, from, at, end))
                 isEcho = isBehindText(bytes, from, at)
                 if (!blank(bytes, from, if (at < 0) end else at)) note(Malformed.SYNTAX)
             } else {
@@ -72,6 +73,16 @@ public class PlatypusCodec(private val sink: MessageSink) : LineCodec {
 
     /** Whether more stands between [from] and [at] than what is left of a line's end. */
     private fun isBehindText(bytes: ByteArray, from: Int, at: Int) = at - from > TERMINATOR && !blank(bytes, from, at)
+
+    /**
+     * Whether text follows at [from], before the brace at [at] or before [end] where there is none. An echo is followed
+     * by a quote and a brace; two lines that have become one may have what is left of a line's end between them.
+     */
+    private fun isBeforeText(bytes: ByteArray, from: Int, at: Int, end: Int): Boolean {
+        if (at < 0) return !blank(bytes, from, end)
+        for (i in from until at) if (bytes[i] == ByteCursor.QUOTE || bytes[i] == ByteCursor.CLOSE) return true
+        return false
+    }
 
     private fun handOn(isEcho: Boolean) {
         for (i in 0 until waiting) {

@@ -52,6 +52,17 @@ class JumpScanTest {
         assertTrue(often in 0.005..0.05, "$often")
     }
 
+    /** What is gained far beyond chance costs no more to weigh than what is gained a little beyond it. */
+    @Test
+    fun anEnormousGainIsNoChance() {
+        val scan = JumpScan(steps(), 1.0)
+        for (count in 1..3) {
+            val p = scan.pValue(1e5, count)
+            assertEquals(scan.pValue(300.0, count), p)
+            assertTrue(p < 1e-40, "$p")
+        }
+    }
+
     @Test
     fun nothingIsGainedForNothing() {
         val scan = JumpScan(steps(), 1.0)

@@ -57,9 +57,27 @@ class UnusableReadingsTest {
     /** Rounding makes runs of equal readings as well, the longest of them where the water turns; so does a stuck sensor. */
     @Test
     fun readingsThatAreRoundedCoarselyEndNowhere() {
-        val smooth = DoubleArray(ROWS) { rounded(8 + sin(it / 40.0), 0.1) }
         val noisy = wavy(Random(7)).also { for (i in it.indices) it[i] = rounded(it[i], 0.5) }
-        for (values in listOf(smooth, noisy, DoubleArray(ROWS) { 8.0 })) assertTrue(found(values, 0.1).isNone)
+        for (values in listOf(noisy, DoubleArray(ROWS) { 8.0 })) assertTrue(found(values, 0.1).isNone)
+    }
+
+    /** A wave that comes again and again, whose crest falls anywhere within the last digit. */
+    @Test
+    fun smoothWaterThatIsRoundedEndsNowhere() {
+        for (step in listOf(0.02, 0.05, 0.1)) {
+            for (amplitude in 0 until 40) {
+                val height = 1 + amplitude / 40.0
+                val wave = DoubleArray(2 * ROWS) { rounded(8 + height * sin(2 * Math.PI * it / 300), step) }
+                assertTrue(found(wave, step).isNone, "amplitude $height, step $step")
+            }
+        }
+    }
+
+    @Test
+    fun aReadingADigitBelowAKnownEndIsUsable() {
+        val values = DoubleArray(45) { if (it % 9 == 0) 5.0 else 4 + 0.99 * (it % 9) / 8 }
+        val unusable = UnusableReadings.of(series(values), DIGIT, Double.NEGATIVE_INFINITY..5.0)
+        assertEquals(values.indices.filter { values[it] == 5.0 }, values.indices.filter { unusable.ends[it] > 0 })
     }
 
     @Test

@@ -113,6 +113,27 @@ class PlatypusCodecTest {
         assertEquals(emptyList(), read("x\"args\": \"{\"m0\":{\"v\":0.3},\"m1\":{\"v\":0.5}}\"}"))
     }
 
+    /** An error that begins anywhere, as behind a byte that became a line's end or where a link comes back. */
+    @Test
+    fun aDriveInTheRestOfAnErrorIsNoMotorLine() {
+        val oxygen = "{\"s1\":{\"type\":\"atlas_do\",\"data\":\"10.15\"}}"
+        for (last in listOf("m1", "m\u00d6")) {
+            val echoed = "{\"m0\":{\"v\":0.3},\"$last\":{\"v\":0.5}}"
+            val line = "{\"error\": \"Unknown command target.\",\"args\": \"$echoed\"}"
+            messages.clear()
+            val framer = LineFramer(codec)
+            for (at in line.indices) {
+                val spoilt = line.toByteArray(Charsets.ISO_8859_1).also { it[at] = '\n'.code.toByte() }
+                framer.accept(spoilt + "\r\n".toByteArray())
+                framer.accept((line.substring(at) + "\r\n").toByteArray(Charsets.ISO_8859_1))
+                framer.accept((line.substring(at) + oxygen + "\r\n").toByteArray(Charsets.ISO_8859_1))
+            }
+            assertEquals(emptyList(), messages.filterIsInstance<Message.Motor>())
+            framer.accept("{\"m0\":{\"v\":0.3}}  \r\n".toByteArray())
+            assertEquals(Message.Motor(0, 0.3, Double.NaN), messages.last())
+        }
+    }
+
     @Test
     fun motorsAreReadBehindALineThatLostItsEnd() {
         val motors = "{\"m0\":{\"v\":0.3},\"m1\":{\"v\":0.5}}"

@@ -26,9 +26,17 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
         val rows = ends.indices.filter { ends[it].toInt() == side }
         if (rows.isEmpty()) return null
         val at = digits(result.series.values[rows.first()])
-        return "${rows.size} of ${ends.size} readings are at the $end end of the sensor's range ($at$unitAfter): " +
+        val what = if (isEndGiven(side)) "are at the $end end" else "look like the $end end"
+        return "${rows.size} of ${ends.size} readings $what of the sensor's range ($at$unitAfter): " +
             "they were not learned from, and of the water there they say one side only, so that the intervals are " +
             "wide $open there and as long after as the sensor remembers"
+    }
+
+    /** Whether the sensor was given with an end of its range on [side]; else it was looked for in the readings. */
+    private fun isEndGiven(side: Int): Boolean {
+        if (result.origin != SensorOrigin.GIVEN) return false
+        val range = UndoableSensor.of(result.spec).range
+        return (if (side > 0) range.endInclusive else range.start).isFinite()
     }
 
     private fun play(): String? {

@@ -131,7 +131,7 @@ class CorrectFiles(
             putJsonObject("reference") {
                 put("rows", it.rows)
                 put("covered", finite(it.covered))
-                put("factor", it.factor)
+                put("factor", finite(it.factor))
                 put("held_out_covered", finite(it.heldOut))
                 put("widened", it.isMisfit)
             }

@@ -44,15 +44,12 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     /** The reference knows better than the intervals. */
     private fun misfit(): String? {
         val margin = result.margin?.takeIf { it.isMisfit } ?: return null
-        return "the reference lies outside the intervals in ${percent(
-            1 - margin.covered,
-        )} of ${margin.rows} rows: the " +
+        val outside = percent(1 - margin.covered)
+        return "the reference lies outside the intervals in $outside of ${margin.rows} rows: the " +
             "sensor does something that none of the responses tried has, such as to follow the flow or the " +
             "temperature. Intervals were made ${digits(margin.factor, 2)} times as wide, which holds " +
-            "${percent(
-                margin.heldOut,
-            )} of rows in tenths of the log that had no say in it; diagnose --reference looks " +
-            "for the cause"
+            "${percent(margin.heldOut)} of rows in tenths of the log that had no say in the factor, though in the " +
+            "sensor they had; diagnose --reference looks for the cause"
     }
 
     private fun contradicted(): String? {

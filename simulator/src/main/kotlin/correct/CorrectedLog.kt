@@ -45,8 +45,8 @@ enum class SensorOrigin(val label: String) {
  * @property hinted the same with intervals that do; null where it hints at nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
- * for it. @property margin how far the reference lies outside the intervals before they were widened for that; null
- * where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of the sensor's state.
+ * for it. @property margin how far the reference lies outside [track]'s intervals before they were widened for
+ * that; null where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
  */
 class CorrectedLog internal constructor(
@@ -180,7 +180,7 @@ class CorrectedLog internal constructor(
             val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
             fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())
                 .takeIf { learned.origin == SensorOrigin.REFERENCE }
-            val margin = margin(agreed)
+            val (margin, hintMargin) = listOf(agreed, hint).map { it?.let(::margin) }
             val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,
@@ -189,12 +189,12 @@ class CorrectedLog internal constructor(
                 learned,
                 spec,
                 unhinted,
-                hint?.let { margin(it)?.widened(it) ?: it },
+                hint?.let { unhinted.holding(hintMargin?.widened(it) ?: it) },
                 statistics,
                 legs(series, series.values),
                 legs(series, unhinted.values),
                 agreement,
-                margin,
+                hintMargin?.takeIf { learned.choice?.hinted?.isBounded == true } ?: margin,
                 unusable,
                 others,
             )

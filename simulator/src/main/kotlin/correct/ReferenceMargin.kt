@@ -11,12 +11,15 @@ import kotlin.math.sqrt
  * response tried has, such as one of flow or of temperature, shows there and nowhere else.
  *
  * Intervals are wide enough at a row by the factor ((d² − (1.96 σ)²)₊)^½ / h, with d the reference's distance from the
- * value, h the interval's half on that side, and σ the reference's own white noise, from what d changes by from row to
- * row. The factor that is enough at 95 % of the rows is taken for all rows, as a split conformal prediction does; it is
- * never below 1. It holds where the boat does what it did where there was a reference.
+ * value, h the interval's half on that side, and σ the reference's own white noise, from what d changes by between rows
+ * next to each other; 0 where a gap lies between all. The factor that is enough at 95 % of the rows is taken for all
+ * rows; it is never below 1. The sensor was learned on the same rows, so that nothing guarantees as much on others: it is
+ * for a boat that does what it did there, in such water. An interval without any width is outside, and no factor helps
+ * it.
  *
  * @property rows rows with a reference. @property covered share of them within their intervals as they were, and the
- * reference's noise. @property heldOut the same for rows of each tenth of the log, widened by what the others ask for.
+ * reference's noise. @property heldOut the same for rows of each tenth of the log, widened by what the others ask for;
+ * the sensor was learned on all.
  * @property factor by which intervals have to be wider, at least 1.
  */
 internal class ReferenceMargin private constructor(
@@ -50,19 +53,22 @@ internal class ReferenceMargin private constructor(
             }
             if (rows.size < BLOCKS) return ReferenceMargin(rows.size, Double.NaN, Double.NaN, 1.0)
             val off = DoubleArray(rows.size) { references[rows[it]] - track.values[rows[it]] }
-            val changes = DoubleArray(rows.size - 1) { abs(off[it + 1] - off[it]) }.apply { sort() }
-            val noise = NORMAL / sqrt(2.0) * changes[changes.size / 2]
+            // Across a gap the correction's own error changes as well.
+            val near = (1 until rows.size).filter {
+                series.times[rows[it]] - series.times[rows[it - 1]] <= series.gapLimit
+            }
+            val changes = near.map { abs(off[it] - off[it - 1]) }.sorted()
+            val noise = if (changes.isEmpty()) 0.0 else NORMAL / sqrt(2.0) * changes[changes.size / 2]
             val needed = DoubleArray(rows.size) { i ->
                 val row = rows[i]
-                val half = if (off[i] >
-                    0
-                ) {
-                    track.upper[row] - track.values[row]
-                } else {
-                    track.values[row] - track.lower[row]
-                }
+                val edge = if (off[i] > 0) track.upper[row] else track.lower[row]
+                val half = abs(edge - track.values[row])
                 val beyond = sqrt(maxOf(0.0, off[i] * off[i] - TWO_SIDED * TWO_SIDED * noise * noise))
-                if (beyond == 0.0) 0.0 else beyond / half
+                when {
+                    beyond == 0.0 -> 0.0
+                    half > 0 -> beyond / half
+                    else -> Double.POSITIVE_INFINITY
+                }
             }
             fun block(i: Int) = (i.toLong() * BLOCKS / rows.size).toInt()
             var inside = 0
@@ -76,7 +82,8 @@ internal class ReferenceMargin private constructor(
 
         private fun enough(needed: List<Double>): Double {
             val at = ceil(NOMINAL * (needed.size + 1)).toInt().coerceAtMost(needed.size)
-            return maxOf(1.0, needed.sorted()[at - 1])
+            val enough = needed.sorted().take(at).lastOrNull { it.isFinite() } ?: 1.0
+            return maxOf(1.0, enough)
         }
     }
 }

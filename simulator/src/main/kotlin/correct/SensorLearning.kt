@@ -113,18 +113,20 @@ internal object SensorLearning {
         unusable: UnusableReadings,
     ): Learned {
         val known = (0 until series.size).filter { references[it].isFinite() }
-        if (known.size < FEWEST) {
-            val expected = "at least $FEWEST readings with a reference"
-            throw LogProblem(log.file, null, null, expected, "${known.size}")
+        val rows = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
+        val telling = rows.filter(unusable::isUsable)
+        if (telling.size < FEWEST) {
+            val but = if (telling.size < rows.size) " that are neither wild nor at an end of the range" else ""
+            val expected = "at least $FEWEST readings with a reference$but"
+            throw LogProblem(log.file, null, null, expected, "${telling.size}")
         }
-        if (known.all { references[it] == references[known[0]] }) {
-            val found = "${references[known[0]]} in every row"
+        if (telling.all { references[it] == references[telling[0]] }) {
+            val found = "${references[telling[0]]} in every row"
             throw LogProblem(log.file, null, null, "a reference that changes", found)
         }
-        val usable = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
-        val part = series.at(usable)
-        val reference = DoubleArray(usable.size) { references[usable[it]] }
-        val out = unusable.at(usable)
+        val part = series.at(rows)
+        val reference = DoubleArray(rows.size) { references[rows[it]] }
+        val out = unusable.at(rows)
         val held = ReferenceLearner.isHeld(part, reference, out)
         fun another() = ReferenceLearner(part, reference, held, out)
         val learner = another()

@@ -99,13 +99,7 @@ internal class CsvSurvey internal constructor(
             texts.any { "fields" in it } ->
                 problem(line, null, "${columns.names.size} fields as in the header", "far more", null)
             else ->
-                problem(
-                    line,
-                    null,
-                    "fields of at most $LONGEST_FIELD characters",
-                    "a longer one, or an open quote",
-                    null,
-                )
+                problem(line, null, "fields of at most $LONGEST_FIELD characters", "longer, or an open quote", null)
         }
     }
 
@@ -336,14 +330,11 @@ internal class CsvSurvey internal constructor(
             var x = if (eastColumn == CsvColumns.NONE) 0.0 else numbers[EAST]
             var y = if (northColumn == CsvColumns.NONE) 0.0 else numbers[NORTH]
             if (inDegrees) {
-                if (x == 0.0 && y == 0.0) {
-                    x = Double.NaN
-                } else {
-                    // With a frame, the look at the reach has put the place into local.
-                    if (frame == null) frame = LocalFrame(LatLon(y, x)).also { it.toLocal(y, x, local) }
-                    x = local[0]
-                    y = local[1]
-                }
+                // With a frame, the look at the reach has put the place into local.
+                val isFix = x != 0.0 || y != 0.0
+                if (isFix && frame == null) frame = LocalFrame(LatLon(y, x)).also { it.toLocal(y, x, local) }
+                x = if (isFix) local[0] else Double.NaN
+                y = if (isFix) local[1] else y
             }
             return TimedRow(row.line, numbers[TIME], x, y, numbers[VALUE], conditions(row))
         }

@@ -132,7 +132,7 @@ internal class PlatypusLog private constructor(
                 !value.isFinite() -> refuse("a finite number", "none", "readings that are no number")
                 abs(value) > SquareReach.LARGEST ->
                     refuse(
-                        "a number within -$SquareReach.LARGEST..$SquareReach.LARGEST",
+                        "a number within -${SquareReach.LARGEST}..${SquareReach.LARGEST}",
                         "$value",
                         "readings out of all bounds",
                     )

@@ -272,6 +272,7 @@ class MapBadInputTest {
             ),
         )
 
+        private const val WITHIN = "a number within -1.0E60..1.0E60"
         private const val FAR = "expected a fix within 1000 km of the first"
         private const val FAR_REASON = "fixes more than 1000 km from the first"
         private const val OUT = "rows with a number out of all bounds"
@@ -305,7 +306,7 @@ class MapBadInputTest {
                 "poses in no UTM zone",
             ),
             platypus("another zone", pose(2000, "56North"), "log.txt:20: $FAR", FAR_REASON),
-            platypus("endless value", reading(2000, "1e301"), "a number within", "readings out of all bounds"),
+            platypus("endless value", reading(2000, "1e301"), WITHIN, "readings out of all bounds"),
             platypus(
                 "endless start",
                 "2000\tI\t{\"date\":\"x\",\"time\":1e999}\n",

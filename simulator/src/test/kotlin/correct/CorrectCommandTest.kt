@@ -136,7 +136,6 @@ class CorrectCommandTest {
                 file("huge.csv", survey().replace("\n7,7,0,", "\n7,7,0,1e90,1,\n8,8,0,")),
                 "--value",
                 "slow",
-                "--skip-bad-rows",
             ) to
                 "1.0E90",
             listOf(directory.resolve("short.csv").also { it.writeText(survey(5)) }.toString(), "--value", "slow") to

@@ -64,6 +64,18 @@ class CorrectHonestyTest {
         assertContains(result.stdout, "not checked, for the boat's track nowhere crosses itself")
     }
 
+    /** Of 33 rows with a reference five are at an end of the range, and say nothing of the response. */
+    @Test
+    fun readingsAtAnEndOfTheRangeAreNotCounted() {
+        val rows = (0 until 33).joinToString("") {
+            "$it,$it,0,${if (it in 20..24) 9.5 else 8 + 0.02 * it + 0.004 * (it * 7 % 5)},${8 + 0.02 * it}\n"
+        }
+        val result = correct("time_s,x_m,y_m,slow,fast\n$rows", "--reference", "fast")
+        assertEquals(2, result.statusCode, result.output)
+        assertContains(result.stderr, "at least 30 readings with a reference that are neither wild nor at an end")
+        assertContains(result.stderr, "found 28")
+    }
+
     @Test
     fun timesShorterThanRowsCanShowAreNone() {
         val result = correct(pond(500, referenceEvery = 1), "--reference", "fast")

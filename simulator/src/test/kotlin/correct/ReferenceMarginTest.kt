@@ -44,6 +44,27 @@ class ReferenceMarginTest {
         for (noise in listOf(0.01, 0.25)) assertFalse(margin(noise) { 0.0 }.first.isMisfit, "$noise")
     }
 
+    /** What the correction does between rows far apart is no noise of the reference's. */
+    @Test
+    fun rowsAcrossGapsSayNothingOfTheReferencesNoise() {
+        val readings = DoubleArray(ROWS) { water[it] + (if (it / 10 % 2 == 0) 0.2 else -0.2) + normal(0.01) }
+        val series = TrackSeries(times, times, DoubleArray(ROWS), readings)
+        val track = TrackCorrector(series).correct(listOf(LikelyResponse(listOf(Response()), 1.0)))
+        val references = DoubleArray(ROWS) { if (it % 10 == 5) water[it] else Double.NaN }
+        val margin = ReferenceMargin.of(series, track, references)
+        assertTrue(margin.isMisfit && margin.covered < 0.5, "${margin.covered}, ${margin.factor}")
+    }
+
+    @Test
+    fun noFactorIsAskedOfIntervalsWithoutWidth() {
+        val series = TrackSeries(times, times, DoubleArray(ROWS), DoubleArray(ROWS) { water[it] + normal(0.01) })
+        val track = TrackCorrector(series).correct(listOf(LikelyResponse(listOf(Response()), 1.0))).scaledBy(0.0)
+        val margin = ReferenceMargin.of(series, track, DoubleArray(ROWS) { water[it] + 1 })
+        assertEquals(1.0, margin.factor)
+        assertEquals(0.0, margin.covered)
+        assertTrue(margin.widened(track).lower.all { it.isFinite() })
+    }
+
     private companion object {
         const val ROWS = 1500
     }

@@ -1,0 +1,362 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/** Weighs causes and looks on top of [state]; the water takes whatever it can imitate. */
+internal class BlindTrials(private val search: BlindSearch, private val state: BlindState) {
+    private val series = state.model.series
+    private val scales = search.scales
+    private val n = series.size
+    private val descent = BlindDescent(state)
+    private val base = descent.from(state.model, state.numbers, search.free(state.model), BASE_STEPS)
+    private val z = state.fit.residual(base.residuals)
+
+    /** What the base's own numbers change, whitened and off the water. */
+    private val ownColumns = search.free(state.model).indices.filter { search.free(state.model)[it] }
+        .map { BlindDescent.derivative(state.model, base.numbers, it) }
+    private val ownBasis = Evidence.orthonormal(ownColumns.map { state.fit.unlike(it) })
+    private val asFit = ModelFit(
+        state.model,
+        base.numbers,
+        search.free(state.model),
+        state.fit.design.noise.noise,
+        base.residuals,
+        z,
+        state.fit.score(base.left),
+    )
+
+    /** [term] as it serves best. */
+    fun attempt(term: Term): BlindTrial = if (term.cause == Cause.OFFSET_STEPS) jumps() else fitted(term, 0.0)
+
+    private fun fitted(term: Term, searched: Double): BlindTrial {
+        val kept = state.model.terms.filter { it.key != term.key }
+        val model = ResponseModel(series, kept + term, search.held, scales)
+        val free = search.free(model)
+        val starts = Starts(asFit, model, term, small = true).all()
+        val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
+        val looked = places.map { descent.from(model, it, free, LOOKS) }.minBy { it.left }
+        // What gains next to nothing at the first steps is no cause, however well it is fitted.
+        val isWorthIt = Evidence.ratio(base.left, looked.left, state.fit.rows) > LEAST_GAIN
+        val best = if (isWorthIt) descent.from(model, looked.numbers, free, STEPS) else looked
+        val slot = model.slot(term)
+        val columns = (slot until slot + model.width(term)).map {
+            state.fit.unlike(BlindDescent.derivative(model, best.numbers, it))
+        }
+        val change = DoubleArray(n) { base.residuals[it] - best.residuals[it] }
+        return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
+    }
+
+    /** Places, far from each other, where a fit of [model] may begin, of which [term] is new. */
+    fun starts(model: ResponseModel, term: Term): List<DoubleArray> = Starts(asFit, model, term).all()
+
+    /** Places where the range may end: beyond ever fewer of the readings. */
+    private fun ends(model: ResponseModel, term: Term, start: DoubleArray): List<DoubleArray> {
+        val sorted = series.values.sortedArray()
+        val slot = model.slot(term)
+        return BEYOND.flatMap { share ->
+            val out = (share * (n - 1)).toInt()
+            listOf(-FAR to sorted[n - 1 - out], sorted[out] to FAR).map { (lower, upper) ->
+                start.copyOf().also {
+                    it[slot] = lower
+                    it[slot + 1] = upper
+                }
+            }
+        }
+    }
+
+    /**
+     * The likeliest of what begins on top of [without] from the ends of [trial] and from ends closer by some of the
+     * noise: rows at an end say nothing of the water, which is to find its own way there.
+     */
+    fun ended(term: Term, trial: BlindTrial, without: BlindState): BlindState {
+        val model = checkNotNull(trial.model)
+        val numbers = checkNotNull(trial.point).numbers
+        val spread = sqrt(without.variance)
+        val at = model.slot(term)
+        return CLOSER.map { by ->
+            val closer = numbers.copyOf().also {
+                it[at] += by * spread
+                it[at + 1] -= by * spread
+            }
+            val noise = without.fit.design.noise
+            val begun = search.settled(model.terms, closer, noise, without.variances, before = without)
+            search.improved(search.improved(begun))
+        }.maxBy { it.score }
+    }
+
+    /**
+     * [trial] with water and noise of its own, as [found] has them: what a cause does would otherwise be taken for
+     * noise that wanders. The base's twice log-likelihood is then [score].
+     */
+    fun settled(trial: BlindTrial, found: BlindState, score: Double, searched: Double): BlindTrial {
+        val term = checkNotNull(trial.term)
+        val slot = found.model.slot(term)
+        val free = search.free(found.model).let { f -> f.indices.filter { f[it] } }
+        val (own, others) = free.partition { it in slot until slot + found.model.width(term) }
+        val basis = Evidence.orthonormal(others.map { found.fit.unlike(found.derivative(it)) })
+        val extra = Evidence.orthonormal(own.map { found.fit.unlike(found.derivative(it)) }, basis)
+        val z = found.whitened
+        val inflation = BlindEvidence.inflation(extra, z)
+        val ratio = maxOf((found.score - score) / inflation - searched, 0.0)
+        val change = added(term, found)
+        val unlike = Evidence.without(found.fit.unlike(change), basis)
+        val without = DoubleArray(n) { z[it] + unlike[it] }
+        val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), searched, unlike)
+        val point = BlindPoint(found.numbers, found.residuals, found.left)
+        val halves = contradiction(unlike, without, found.variance)
+        val degrees = trial.degrees
+        val settled =
+            BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
+        val isReal = own.any { isShown(found, free, it, inflation) } && !(term.cause == Cause.SATURATION && goOn(found))
+        return if (isReal) settled else settled.atMost(0.0)
+    }
+
+    /**
+     * Whether the log bounds number [i] of [found], away from where it does nothing: what is likelier with a number that may
+     * as well be nothing, or anything, is no cause that could be named. [free] are the numbers that are fitted.
+     */
+    private fun isShown(found: BlindState, free: List<Int>, i: Int, inflation: Double): Boolean {
+        val parameter = found.model.parameters[i]
+        if (found.model.terms.any { it.cause == Cause.SATURATION && i in range(found.model, it) }) return true
+        val columns = free.map { found.fit.unlike(found.derivative(it)) }.toTypedArray()
+        val system = SymmetricSystem.of(columns, found.whitened)
+        val variance = system.inverseDiagonal(free.indexOf(i)) * found.variance * inflation
+        val reach = BlindAnswer.REACH * sqrt(maxOf(variance, 0.0))
+        if (parameter.logarithmic) return reach < MOST_REACH
+        return !parameter.neutral.isFinite() || abs(found.numbers[i] - parameter.neutral) > reach
+    }
+
+    private fun range(model: ResponseModel, term: Term) = model.slot(term) until model.slot(term) + model.width(term)
+
+    /** Whether readings go on beyond the ends of the range that [found] has, more than noise takes them. */
+    private fun goOn(found: BlindState): Boolean {
+        val term = found.model.terms.first { it.cause == Cause.SATURATION }
+        val (lower, upper) = range(found.model, term).map { found.numbers[it] }
+        val far = BEYOND_NOISE * sqrt(found.variance) + scales.resolution
+        val beyond = series.values.indices.count {
+            search.used[it] && (series.values[it] < lower - far || series.values[it] > upper + far)
+        }
+        return beyond > maxOf(FEW_BEYOND, FEW_SHARE * n)
+    }
+
+    /**
+     * By how many standard errors the halves of the log differ about the size of the change [unlike] in [z]. What
+     * correlation inflates is told by what either half leaves with its own size: the other's would count as correlation.
+     */
+    private fun contradiction(unlike: DoubleArray, z: DoubleArray, variance: Double): Double {
+        val scores = DoubleArray(2)
+        val weights = DoubleArray(2)
+        for (i in 0 until n) {
+            val half = if (2 * i < n) 0 else 1
+            scores[half] += unlike[i] * z[i]
+            weights[half] += unlike[i] * unlike[i]
+        }
+        val sizes = DoubleArray(2) { scores[it] / maxOf(weights[it], TINY) }
+        val rest = DoubleArray(n) { i -> z[i] - sizes[if (2 * i < n) 0 else 1] * unlike[i] }
+        val inflated = variance * BlindEvidence.inflation(listOf(unlike), rest)
+        val error = sqrt(inflated * (1 / maxOf(weights[0], TINY) + 1 / maxOf(weights[1], TINY)))
+        return (sizes[0] - sizes[1]) / error
+    }
+
+    /** What [term] adds to what [found] shows, all else the same. */
+    private fun added(term: Term, found: BlindState): DoubleArray {
+        val kept = found.model.terms.filter { it.key != term.key }
+        val model = ResponseModel(found.model.series, kept, search.held, scales)
+        val numbers = DoubleArray(model.parameters.size)
+        for (k in 0 until ResponseModel.BASE) numbers[k] = found.numbers[k]
+        for (other in kept) {
+            val from = found.model.slot(other)
+            for (k in 0 until model.width(other)) numbers[model.slot(other) + k] = found.numbers[from + k]
+        }
+        val out = DoubleArray(n)
+        model.predict(numbers, out)
+        // What the model with it shows = reading − residual.
+        for (i in 0 until n) out[i] = series.values[i] - found.residuals[i] - out[i]
+        return out
+    }
+
+    private class Weighed(val term: Term?, val name: String, val model: ResponseModel?, val point: BlindPoint?)
+
+    private fun weighed(
+        what: Weighed,
+        columns: List<DoubleArray>,
+        left: Double,
+        change: DoubleArray,
+        searched: Double,
+        floor: Double = 1.0,
+        rest: DoubleArray? = null,
+    ): BlindTrial {
+        val extra = Evidence.orthonormal(columns, ownBasis)
+        val gain = Evidence.ratio(base.left, left, state.fit.rows)
+        val after = rest ?: what.point?.let { state.fit.residual(it.residuals) } ?: z
+        val inflation = maxOf(BlindEvidence.inflation(extra, after), floor)
+        val ratio = maxOf(gain / inflation - searched, 0.0)
+        val degrees = maxOf(columns.size, 1)
+        val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
+        val p = pValue(what.term, ratio, degrees, between(what.term, unlike, z), searched, unlike)
+        return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
+    }
+
+    /**
+     * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
+     * Student's t, whatever the noise.
+     */
+    private fun between(term: Term?, unlike: DoubleArray, z: DoubleArray): Double {
+        val scores = DoubleArray(STRETCHES)
+        val weights = DoubleArray(STRETCHES)
+        val stretches = stretches(term, unlike)
+        for (i in 0 until n) {
+            scores[stretches[i]] += unlike[i] * z[i]
+            weights[stretches[i]] += unlike[i] * unlike[i]
+        }
+        val size = scores.sum() / maxOf(weights.sum(), 1e-300)
+        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
+        return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
+    }
+
+    /**
+     * To which stretch each row belongs: of as many rows each, or where [term] is an end of the range, which may be
+     * reached once in a log, of as much of the change [unlike] each.
+     */
+    private fun stretches(term: Term?, unlike: DoubleArray): IntArray {
+        if (term?.cause != Cause.SATURATION) return IntArray(n) { (it.toLong() * STRETCHES / n).toInt() }
+        val whole = maxOf(squares(unlike), 1e-300)
+        var before = 0.0
+        return IntArray(n) { i ->
+            val stretch = (STRETCHES * before / whole).toInt().coerceAtMost(STRETCHES - 1)
+            before += unlike[i] * unlike[i]
+            stretch
+        }
+    }
+
+    /** Over how many stretches [unlike] is spread, where a single wrong reading could be taken for [term]. */
+    private fun agreeing(term: Term?, unlike: DoubleArray): Int {
+        if (term?.cause != Cause.SATURATION) return STRETCHES
+        val weights = DoubleArray(STRETCHES)
+        val stretches = stretches(term, unlike)
+        for (i in 0 until n) weights[stretches[i]] += unlike[i] * unlike[i]
+        return (weights.sum() * weights.sum() / maxOf(squares(weights), 1e-300)).toInt().coerceIn(2, STRETCHES)
+    }
+
+    /** The jumps that serve best, one after the other while each is worth it. */
+    private fun jumps(): BlindTrial {
+        val times = ArrayList<Double>()
+        var best: BlindTrial? = null
+        var rest = z
+        while (times.size < MOST_JUMPS) {
+            val (time, column) = place(rest, times) ?: break
+            times += time
+            val places = searched(times.size)
+            val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), places)
+            if (best != null && next.ratio - best.ratio < JUMP_WORTH) break
+            best = next
+            rest = Evidence.without(rest, Evidence.orthonormal(listOf(column)))
+        }
+        return best ?: fitted(Term(Cause.OFFSET_STEPS, times = listOf(series.duration / 2)), 0.0)
+    }
+
+    /** The jumps of [term], which this model has, and the one that serves best beside them; null where none is worth it. */
+    fun oneMoreJump(term: Term): BlindTrial? {
+        if (term.times.size >= MOST_JUMPS) return null
+        val (time, _) = place(z, term.times) ?: return null
+        val more = fitted(Term(Cause.OFFSET_STEPS, times = (term.times + time).sorted()), 0.0)
+        return more.takeIf { it.ratio * it.inflation > JUMP_WORTH }
+    }
+
+    /** What the best of many places gains by chance, for [count] jumps. */
+    fun searched(count: Int): Double = count * 2 * ln(minOf(PLACES, n / 10).toDouble())
+
+    private fun place(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
+        fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })
+        fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), 1e-9) }
+        val stride = maxOf(n / PLACES, 1)
+        val edge = maxOf(n / 50, 3)
+        val rows = (edge until n - edge step stride).filter { row ->
+            taken.all { abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
+        }
+        val coarse = rows.maxByOrNull(::gain) ?: return null
+        val fine = (maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)) step maxOf(stride / 8, 1)
+        val row = fine.maxBy(::gain)
+        return (series.times[row] + series.times[row - 1]) / 2 - series.times[0] to column(row)
+    }
+
+    /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
+     * [floor] what the ratio is divided by at least. */
+    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial =
+        look(name, columns, searched, floor) { it.white }
+
+    /**
+     * A look at whether the water is shown as [columns] show it.
+     *
+     * The water found is smaller than the true water where noise hides it, so that columns which show more of it serve
+     * even where there is nothing. Residuals are therefore held against what of them is unlike any water alone.
+     */
+    fun lookAtWater(name: String, columns: List<DoubleArray>): BlindTrial = look(name, columns, 0.0, 1.0) { it.unlike }
+
+    private fun look(
+        name: String,
+        columns: List<DoubleArray>,
+        searched: Double,
+        floor: Double,
+        scored: (Looked.Direction) -> DoubleArray,
+    ): BlindTrial {
+        val looked = Looked(state.fit, n)
+        ownColumns.forEach { looked.add(it) }
+        val known = looked.directions.size
+        columns.forEach { looked.add(it) }
+        val found = looked.directions.drop(known)
+        if (found.isEmpty()) return BlindTrial(null, name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
+        val heights = found.map { dot(scored(it), z) }
+        val change = DoubleArray(n) { i -> found.indices.sumOf { heights[it] * found[it].column[i] } }
+        val after = DoubleArray(n) { i -> z[i] - found.indices.sumOf { heights[it] * found[it].unlike[i] } }
+        val gained = heights.sumOf { it * it }
+        val what = Weighed(null, name, null, null)
+        return weighed(what, found.map { it.unlike }, base.left - gained, change, searched, floor, after)
+    }
+
+    /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], by [t], the larger. */
+    private fun pValue(
+        term: Term?,
+        ratio: Double,
+        degrees: Int,
+        t: Double,
+        searched: Double,
+        unlike: DoubleArray,
+    ): Double {
+        // Several numbers give the sum of what they change a good look of chance: the t is held against that.
+        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
+        val agreed = if (t > 0) Evidence.student(fewer, agreeing(term, unlike) - 1) else 1.0
+        return maxOf(Evidence.pValue(ratio, degrees), agreed)
+    }
+
+    /** The whitened residuals of the base. */
+    val residual: DoubleArray get() = z
+
+    private companion object {
+        /** Logarithm of how far the ends of an interval may be from the number: a factor of ten. */
+        const val MOST_REACH = 2.3
+
+        /** Deviations of the noise that no reading at an end of the range is beyond it; and so many rows are none. */
+        const val BEYOND_NOISE = 4.0
+        const val FEW_BEYOND = 2.0
+        const val FEW_SHARE = 0.001
+        const val TINY = 1e-290
+        const val BASE_STEPS = 4
+        const val LOOKS = 2
+        const val STEPS = 6
+        const val STRETCHES = BlindEvidence.STRETCHES
+        const val FAR = 1e12
+
+        /** Twice the gain in log-likelihood below which a cause is not fitted to the end: far below any level. */
+        const val LEAST_GAIN = 2.0
+        val BEYOND = doubleArrayOf(0.003, 0.01, 0.03).toList()
+
+        /** Standard deviations of the noise. */
+        val CLOSER = doubleArrayOf(0.0, 2.0).toList()
+        const val PLACES = 48
+        const val MOST_JUMPS = 3
+        const val JUMP_WORTH = 20.0
+    }
+}
