@@ -109,7 +109,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val degrees = trial.degrees
         val settled =
             BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
-        val isReal = own.any { isShown(found, free, it, inflation) } && !(term.cause == Cause.SATURATION && goOn(found))
+        val isNone = (term.cause == Cause.SATURATION && goOn(found)) || isLittle(term, found.numbers[slot])
+        val isReal = !isNone && own.any { isShown(found, free, it, inflation) }
         return if (isReal) settled else settled.atMost(0.0)
     }
 
@@ -126,6 +127,13 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val reach = BlindAnswer.REACH * sqrt(maxOf(variance, 0.0))
         if (parameter.logarithmic) return reach < MOST_REACH
         return !parameter.neutral.isFinite() || abs(found.numbers[i] - parameter.neutral) > reach
+    }
+
+    /** Whether [term] of [number] makes readings late by next to nothing: the smoothed way itself is off by as much. */
+    private fun isLittle(term: Term, number: Double): Boolean = when (term.cause) {
+        Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < LEAST_ROWS * series.period
+        Cause.POSITION_OFFSET -> abs(number) < LEAST_ROWS * series.period * scales.ordinarySpeed
+        else -> false
     }
 
     private fun range(model: ResponseModel, term: Term) = model.slot(term) until model.slot(term) + model.width(term)
@@ -335,6 +343,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     val residual: DoubleArray get() = z
 
     private companion object {
+        /** Rows by which readings must be late to be called so. */
+        const val LEAST_ROWS = 0.1
+
         /** Logarithm of how far the ends of an interval may be from the number: a factor of ten. */
         const val MOST_REACH = 2.3
 
