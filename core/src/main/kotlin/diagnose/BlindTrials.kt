@@ -115,8 +115,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     }
 
     /**
-     * Whether the log bounds number [i] of [found], away from where it does nothing: what is likelier with a number that may
-     * as well be nothing, or anything, is no cause that could be named. [free] are the numbers that are fitted.
+     * Whether the log bounds number [i] of [found], away from where it does nothing: what is likelier with a number
+     * that may as well be nothing, or anything, is no cause that could be named. [free] are the numbers that are
+     * fitted.
      */
     private fun isShown(found: BlindState, free: List<Int>, i: Int, inflation: Double): Boolean {
         val parameter = found.model.parameters[i]
@@ -151,7 +152,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     /**
      * By how many standard errors the halves of the log differ about the size of the change [unlike] in [z]. What
-     * correlation inflates is told by what either half leaves with its own size: the other's would count as correlation.
+     * correlation inflates is told by what either half leaves with its own size: the other's would count as
+     * correlation.
      */
     private fun contradiction(unlike: DoubleArray, z: DoubleArray, variance: Double): Double {
         val scores = DoubleArray(2)

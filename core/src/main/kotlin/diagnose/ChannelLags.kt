@@ -58,7 +58,8 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
         /**
          * Learns the lags of the channel in [series], called [name], and of [others], columns of the same rows by name,
          * NaN where a row has none. What [diagnosed], the diagnosis of [series], has found is not searched again;
-         * [loops] says how what can be done at once is, and [progress] is told how much is done, a share within 0..1 that grows.
+         * [loops] says how what can be done at once is, and [progress] is told how much is done, a share within 0..1
+         * that grows.
          */
         public fun of(
             series: MeasuredSeries,

@@ -7,8 +7,8 @@ import kotlin.math.sin
 /**
  * The way reckoned from a log's speed and heading, up to what is smooth in time.
  *
- * By which custom headings count, how speed is scaled and what current there is is told by the fixes: their way over some
- * rows is a linear function of the reckoned way and of the time that it took.
+ * By which custom headings count, how speed is scaled and what current there is is told by the fixes: their way over
+ * some rows is a linear function of the reckoned way and of the time that it took.
  *
  * @property x metres east, length n. @property y metres north, length n.
  */

@@ -4,12 +4,12 @@ import java.util.Locale
 import kotlin.math.abs
 
 /**
- * Effects of the model [last] that the way the log is sampled may make as well, however surely they show: they are kept in
- * the model, so that nothing else is taken for them, and are not named.
+ * Effects of the model [last] that the way the log is sampled may make as well, however surely they show: they are kept
+ * in the model, so that nothing else is taken for them, and are not named.
  *
- * Where the truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less than a
- * shift of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a delay of half
- * a step then puts it back where it was.
+ * Where the truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less
+ * than a shift of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a
+ * delay of half a step then puts it back where it was.
  */
 internal class SmallShifts(private val last: ModelFit) {
     private val model = last.model

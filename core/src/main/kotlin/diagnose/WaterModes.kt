@@ -9,19 +9,19 @@ import kotlin.math.sqrt
  * The water where nobody knows it: waves of many lengths, the shorter ones as short as the log can tell, and some
  * processes that also change in time.
  *
- * What stays are rings of plane waves ([WaterRings]), each of a variance of its own, which the log tells: so no smoothness
- * is assumed, and a lag that weakens short waves is not told by that. Where the track is a line, they are Gaussian
- * processes of several lengths. Those that change have the covariance exp(-d²/2ℓ² - Δt²/2T²). Rows of one process are
- * F β with β of one variance and F a pivoted Cholesky factor, which has as many columns as the track needs, wherever it
- * goes.
+ * What stays are rings of plane waves ([WaterRings]), each of a variance of its own, which the log tells: so no
+ * smoothness is assumed, and a lag that weakens short waves is not told by that. Where the track is a line, they are
+ * Gaussian processes of several lengths. Those that change have the covariance exp(-d²/2ℓ² - Δt²/2T²). Rows of one
+ * process are F β with β of one variance and F a pivoted Cholesky factor, which has as many columns as the track needs,
+ * wherever it goes.
  *
  * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
  * doi:10.1016/j.apnum.2011.10.001.
  *
  * @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
  *   ring over the noise's, or over each other's where nothing is known. @param left variance, in the same measure, that
- *   may be left anywhere. @param known variances of the level and of what changes over the noise's; null where nothing is
- *   known.
+ *   may be left anywhere. @param known variances of the level and of what changes over the noise's; null where nothing
+ *   is known.
  */
 internal class WaterModes private constructor(
     private val series: MeasuredSeries,
@@ -209,8 +209,8 @@ internal class WaterModes private constructor(
 
     companion object {
         /**
-         * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to waves
-         * of [shortest] m.
+         * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to
+         * waves of [shortest] m.
          */
         fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, shortest: Double = 0.0): WaterModes {
             // A line gone to and fro, as a float's casts: it comes back often, to changed water.

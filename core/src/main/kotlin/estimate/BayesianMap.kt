@@ -10,25 +10,25 @@ import kotlin.math.abs
 import kotlin.math.sqrt
 
 /**
- * Maps the field through a slow sensor, cells unseen included: a Gaussian process over the cells, on top of an estimator
- * that reads every cell by itself and says how sure it is.
+ * Maps the field through a slow sensor, cells unseen included: a Gaussian process over the cells, on top of an
+ * estimator that reads every cell by itself and says how sure it is.
  *
- * Model: ψ = level + smooth part + part of each cell alone, Gaussian; the smooth part of one of
- * three families. Family, correlation length, amplitude and the share of the part alone are learned by marginal likelihood and
- * averaged over; a field without any correlation is one of the candidates. What [cells] says of a visited cell counts as
- * a measurement of it, with a quarter of its bounds' width, about, as standard deviation and independent of the others;
- * so whatever [cells] learns of the sensor (time constant, noise, kind) holds here. A cell's value is its posterior's
- * median, its bounds are credible at 95 %, both cut to the prior. Where [cells] finds that its own
- * model of the sensor does not explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure
- * it is: then its values are taken as they are and all bounds here are the prior's, see [isExplained].
+ * Model: ψ = level + smooth part + part of each cell alone, Gaussian; the smooth part of one of three families. Family,
+ * correlation length, amplitude and the share of the part alone are learned by marginal likelihood and averaged over; a
+ * field without any correlation is one of the candidates. What [cells] says of a visited cell counts as a measurement
+ * of it, with a quarter of its bounds' width, about, as standard deviation and independent of the others; so whatever
+ * [cells] learns of the sensor (time constant, noise, kind) holds here. A cell's value is its posterior's median, its
+ * bounds are credible at 95 %, both cut to the prior. Where [cells] finds that its own model of the sensor does not
+ * explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure it is: then its values
+ * are taken as they are and all bounds here are the prior's, see [isExplained].
  *
- * The posterior is worked on when [map] is asked for, not at a reading: ask for it after updates rather than keeping it.
- * When it was asked for before matters a little. A look at every visited cell apart, it does [work] for each reading since
- * the last time and leaves the rest for later times: first the learning of the covariance, which begins anew each time a
- * quarter more cells are visited and takes half of the work at most, then predictions. Grids of more than 144 cells are
- * predicted in blocks of 8 x 8, each from the 96 visited cells nearest, the boat's own block first among others; a block's
- * cells change together, when its prediction is complete. Memory: O(cells), whatever the readings. No call allocates once
- * tables of correlations are there. Confined to one thread.
+ * The posterior is worked on when [map] is asked for, not at a reading: ask for it after updates rather than keeping
+ * it. When it was asked for before matters a little. A look at every visited cell apart, it does [work] for each
+ * reading since the last time and leaves the rest for later times: first the learning of the covariance, which begins
+ * anew each time a quarter more cells are visited and takes half of the work at most, then predictions. Grids of more
+ * than 144 cells are predicted in blocks of 8 x 8, each from the 96 visited cells nearest, the boat's own block first
+ * among others; a block's cells change together, when its prediction is complete. Memory: O(cells), whatever the
+ * readings. No call allocates once tables of correlations are there. Confined to one thread.
  *
  * Source: own composition, core/docs/BayesianMap.md; Rasmussen and Williams 2006, Gaussian Processes for Machine
  * Learning.
@@ -36,8 +36,8 @@ import kotlin.math.sqrt
  * @param grid the cells.
  * @param prior the range of the field, sensor units.
  * @property cells reads the visited cells; over the same grid and prior, used by nobody else. Retained.
- * @property work most to be done for a reading, multiplications and additions, above 0; but one covariance's look at one
- *   block, up to a million, is not cut. By default [AT_ONCE] for grids of up to 144 cells, else [ASHORE].
+ * @property work most to be done for a reading, multiplications and additions, above 0; but one covariance's look at
+ *   one block, up to a million, is not cut. By default [AT_ONCE] for grids of up to 144 cells, else [ASHORE].
  * @throws IllegalArgumentException if [cells] has another grid or prior, or [work] is not above 0.
  */
 public class BayesianMap(

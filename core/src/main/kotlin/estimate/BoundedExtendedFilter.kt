@@ -31,8 +31,9 @@ public data class BoundedExtendedSettings(
 }
 
 /**
- * The bounded filter with what the report leaves to future work: slopes of zero count, a value better than the midpoint,
- * evidence that noise and bad readings cannot turn into wrong bounds. No sensor model and no ε is given to it.
+ * The bounded filter with what the report leaves to future work: slopes of zero count, a value better than the
+ * midpoint, evidence that noise and bad readings cannot turn into wrong bounds. No sensor model and no ε is given to
+ * it.
  *
  * Two kinds of evidence, both from slopes over running medians within one stay:
  *
@@ -43,13 +44,14 @@ public data class BoundedExtendedSettings(
  *   ψ = v + k g, give or take a learned width; a slope of zero says ψ = v. This is a learned response rate.
  *
  * A cell's bounds are the intersection of both; its value is the weighted mean of what its stays say of the distance,
- * within the bounds; before the ratios are known it is L + (U − L) g_L / (g_L + g_U), or the one bound that was touched.
+ * within the bounds; before the ratios are known it is L + (U − L) g_L / (g_L + g_U), or the one bound that was
+ * touched.
  *
  * Direction alone is guaranteed for a sensor that moves towards the truth without passing it and has no noise, whatever
  * one reading in any four in a row says; with Gaussian noise it is credible at 95 %. Distance is credible at 95 % where
- * the end of a stay is proportional to its slope up to the learned spread. The field must be constant within a cell. Dead
- * time or a second-order response that lasts for a good part of a stay makes bounds wrong. Evidence that contradicts a
- * bound drops both and counts as a conflict.
+ * the end of a stay is proportional to its slope up to the learned spread. The field must be constant within a cell.
+ * Dead time or a second-order response that lasts for a good part of a stay makes bounds wrong. Evidence that
+ * contradicts a bound drops both and counts as a conflict.
  *
  * Source: own result, core/docs/BoundedExtendedFilter.md, from the report's sections 5 and 8. Windows are emptied on
  * entering a cell. O(windows), no allocation. Confined to one thread.

@@ -8,12 +8,12 @@ import stillwater.model.Interval
 import kotlin.math.sqrt
 
 /**
- * What a [SelfCalibratingEstimator] falls back on where no sensor model explains the readings: a [BoundedExtendedFilter]
- * of the same readings, which needs none.
+ * What a [SelfCalibratingEstimator] falls back on where no sensor model explains the readings: a
+ * [BoundedExtendedFilter] of the same readings, which needs none.
  *
  * Its bounds always count then. Its values count where the nearest model's have run away: its time constant is longer
- * than [LONGEST] stays, so that a stay looks the same as one in water that changes evenly, and its values differ from this
- * filter's by more than [FARTHEST] times what this filter itself adds to the mean of a cell's readings. Source:
+ * than [LONGEST] stays, so that a stay looks the same as one in water that changes evenly, and its values differ from
+ * this filter's by more than [FARTHEST] times what this filter itself adds to the mean of a cell's readings. Source:
  * core/docs/SelfCalibratingEstimator.md, section "Whether the model holds".
  */
 internal class Fallback(private val grid: Grid, prior: Interval) {

@@ -11,22 +11,22 @@ import kotlin.math.sqrt
 /**
  * Maps the field through a slow sensor and learns on the way what kind of sensor it is, and how slow.
  *
- * Model: one of [SensorKind], z = s + e with s the sensor's state, which goes on over cell borders, and e independent with
- * variance σ². Which one, its parameters, σ and every cell's ψ are unknown; a time constant is believed beforehand as
- * [SelfCalibratingSettings] say. The first-order lag τ ṡ = ψ − s is kept as long as the readings do not speak against it;
- * [sensor] says which models are still possible. A cell's value is its truth at the most likely parameters of the chosen
- * model; its bounds are credible at 95 %, the uncertainty of parameters and σ included, and cut to the prior; where
- * another model is possible too they hold what either says. What a visit says of its cell rests on the readings there, on
- * the sensor's state on entering and on the readings in the cell after; visits of one cell are pooled. A cell never visited
- * keeps the prior.
+ * Model: one of [SensorKind], z = s + e with s the sensor's state, which goes on over cell borders, and e independent
+ * with variance σ². Which one, its parameters, σ and every cell's ψ are unknown; a time constant is believed beforehand
+ * as [SelfCalibratingSettings] say. The first-order lag τ ṡ = ψ − s is kept as long as the readings do not speak
+ * against it; [sensor] says which models are still possible. A cell's value is its truth at the most likely parameters
+ * of the chosen model; its bounds are credible at 95 %, the uncertainty of parameters and σ included, and cut to the
+ * prior; where another model is possible too they hold what either says. What a visit says of its cell rests on the
+ * readings there, on the sensor's state on entering and on the readings in the cell after; visits of one cell are
+ * pooled. A cell never visited keeps the prior.
  *
- * Assumes the field constant within a cell and in time, and that the interval between two readings in different cells is
- * spent in the second: sample often on a border. Where readings say how well their places are known, in
- * [Conditions.POSITION_DEVIATION], that is not assumed: those nearer to a border than it count for no cell. Between cells
- * that do not touch, or after leaving the grid or a reading without a value in another cell, the sensor's state is taken as
- * unknown. A reading farther than [FARTHEST] widths of the prior from its middle is not used and counts as a conflict.
- * Where no model explains the readings [isExplained] says so: bounds are then those of a [BoundedExtendedFilter], which
- * needs no model, and so are values if the nearest model's have run away from it.
+ * Assumes the field constant within a cell and in time, and that the interval between two readings in different cells
+ * is spent in the second: sample often on a border. Where readings say how well their places are known, in
+ * [Conditions.POSITION_DEVIATION], that is not assumed: those nearer to a border than it count for no cell. Between
+ * cells that do not touch, or after leaving the grid or a reading without a value in another cell, the sensor's state
+ * is taken as unknown. A reading farther than [FARTHEST] widths of the prior from its middle is not used and counts as
+ * a conflict. Where no model explains the readings [isExplained] says so: bounds are then those of a
+ * [BoundedExtendedFilter], which needs no model, and so are values if the nearest model's have run away from it.
  *
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
@@ -35,8 +35,8 @@ import kotlin.math.sqrt
  * the boat's own and the one before when it is asked for. Confined to one thread.
  *
  * @param grid the cells.
- * @param prior the range of the field: a cell's value before it is measured has its midpoint, and, for what is computed,
- *   its width as standard deviation; sensor units.
+ * @param prior the range of the field: a cell's value before it is measured has its midpoint, and, for what is
+ *   computed, its width as standard deviation; sensor units.
  * @property settings what is believed of the sensor beforehand.
  * @property work most to be done for a reading in going through the kept readings again, steps of a filter, above 0:
  *   [AT_ONCE] or [AFLOAT].
@@ -75,9 +75,9 @@ public class SelfCalibratingEstimator(
     public val timeConstant: Double get() = choice.timeConstant
 
     /**
-     * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike. Where it does
-     * not, the map's bounds need no sensor model, and its values are the nearest model's or need none either. True until
-     * there is evidence against it; then false until innovations are clearly unlike.
+     * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike. Where it
+     * does not, the map's bounds need no sensor model, and its values are the nearest model's or need none either. True
+     * until there is evidence against it; then false until innovations are clearly unlike.
      */
     public val isExplained: Boolean get() = choice.isExplained
 

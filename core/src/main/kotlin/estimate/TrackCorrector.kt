@@ -71,7 +71,8 @@ public class CorrectedTrack internal constructor(
  *
  * @param series the readings. Retained.
  * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
- * @param unusable readings that are known to say nothing, or one side only, of what the sensor is at; more wild ones may
+ * @param unusable readings that are known to say nothing, or one side only, of what the sensor is at; more wild ones
+ *   may
  * be found.
  */
 public class TrackCorrector(

@@ -66,10 +66,10 @@ public data class StepRecord(
  * Besides `pose` and `sensor` as the boats' tools know them a line may have `mission` (a step, and in it the cells that
  * the boat did not get into, by number, and off the map by their middles in m, where they have changed, and of one held
  * up on its ways home how often it has rested and what is left of the rest, s), `in` (all that came in since the step
- * before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the
- * place's standard deviation) or `pass` (a cell left without a reading); the first line has the whole mission, and,
- * where that is known, which `boat` it is of and whether that is a `virtual` one. Numbers are written so that they are
- * read back to the last bit; what is not finite is `null`. [MissionRecovery] reads it back.
+ * before, for a replay), `reading` (what the map took, exactly: time, x, y, value and the place's standard deviation)
+ * or `pass` (a cell left without a reading); the first line has the whole mission, and, where that is known, which
+ * `boat` it is of and whether that is a `virtual` one. Numbers are written so that they are read back to the last bit;
+ * what is not finite is `null`. [MissionRecovery] reads it back.
  *
  * A mission that goes on after a restart appends to the same log; the new first line then says so to any reader.
  *

@@ -13,8 +13,8 @@ import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
 /**
- * Readings handed over together leave the map that they leave one by one, bit for bit, whether it was asked for meanwhile
- * or not.
+ * Readings handed over together leave the map that they leave one by one, bit for bit, whether it was asked for
+ * meanwhile or not.
  */
 class UpdateAllTest {
     private val grid = Grid.unit(3, 2)

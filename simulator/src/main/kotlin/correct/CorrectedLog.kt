@@ -45,8 +45,9 @@ enum class SensorOrigin(val label: String) {
  * @property hinted the same with intervals that do; null where it hints at nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
- * for it. @property margin how far the reference lies outside [track]'s intervals before they were widened for
- * that; null where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of the sensor's state.
+ * for it. @property margin how far the reference lies outside [track]'s intervals before they were widened for that;
+ * null where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of
+ * the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
  */
 class CorrectedLog internal constructor(

@@ -13,9 +13,9 @@ import kotlin.math.sqrt
  * Intervals are wide enough at a row by the factor ((d² − (1.96 σ)²)₊)^½ / h, with d the reference's distance from the
  * value, h the interval's half on that side, and σ the reference's own white noise, from what d changes by between rows
  * next to each other; 0 where a gap lies between all. The factor that is enough at 95 % of the rows is taken for all
- * rows; it is never below 1. The sensor was learned on the same rows, so that nothing guarantees as much on others: it is
- * for a boat that does what it did there, in such water. An interval without any width is outside, and no factor helps
- * it.
+ * rows; it is never below 1. The sensor was learned on the same rows, so that nothing guarantees as much on others: it
+ * is for a boat that does what it did there, in such water. An interval without any width is outside, and no factor
+ * helps it.
  *
  * @property rows rows with a reference. @property covered share of them within their intervals as they were, and the
  * reference's noise. @property heldOut the same for rows of each tenth of the log, widened by what the others ask for;

@@ -92,8 +92,8 @@ internal object FaultCampaign {
 }
 
 /**
- * `FIRST COUNT [EVERY [all]]`: prints the table of COUNT seeds, each EVERY-th (1) from FIRST on; on the other stream each run
- * in which something is wrong, or all.
+ * `FIRST COUNT [EVERY [all]]`: prints the table of COUNT seeds, each EVERY-th (1) from FIRST on; on the other stream
+ * each run in which something is wrong, or all.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
