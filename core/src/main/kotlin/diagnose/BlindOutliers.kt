@@ -63,16 +63,35 @@ internal class BlindOutliers(state: BlindState) {
         }
     }
 
+    /** Rows about a jump: there neither the rows beside nor the model foretell a single reading. */
+    private val isAboutJump = BooleanArray(series.size).also { out ->
+        for (i in inside) {
+            val isFarthest = abs(off[i]) >= maxOf(abs(off[i - 1]), abs(off[i + 1]))
+            if (isFarthest && abs(off[i]) > TAIL && isJump(i)) out.fill(true, i - REACH, i + REACH + 1)
+        }
+    }
+
+    private val columns = inside.filterNot { isAboutJump[it] }.let { rows ->
+        listOf(off, evened(z)).map { column -> DoubleArray(rows.size) { column[rows[it]] } }
+    }
+
+    /** Noise with single wrong readings against noise without, of the readings about the rows beside them and of what
+     * the model leaves. */
+    private val both = columns.map(Spikes::ratio)
+
+    /** Whether noise with heavy tails is far likelier than either. */
+    private val isTailed = both.sumOf { it.ratio } < columns.sumOf(Spikes::tails) - TAILED
+
     /**
-     * Noise with single wrong readings against noise without, of the readings about the rows beside them and of what
-     * the model leaves, whichever shows less; null where noise with heavy tails is likelier than either, or where the
-     * far ones are gathered where the noise is larger.
+     * The two in one; null where the noise has heavy tails, or where the far ones are gathered where it is larger.
+     * The rows beside say less of each reading, what the model leaves holds what the model gets wrong: the ratio is the
+     * geometric mean of both, and twice the less of the two at most.
      */
-    private val mixture: Mixture? = listOf(off, evened(z)).map { column ->
-        val rows = DoubleArray(maxOf(inside.last - inside.first + 1, 1)) { column[inside.first + it] }
-        Spikes.ratio(rows).takeIf { it.ratio > Spikes.tails(rows) }
-    }.let { both ->
-        if (both.any { it == null } || isGathered(state)) null else both.filterNotNull().minBy { it.ratio }
+    private val mixture: Mixture? = if (isTailed || isGathered(state)) {
+        null
+    } else {
+        val (less, more) = both.sortedBy { it.ratio }
+        less.copy(ratio = minOf(sqrt(less.ratio * more.ratio), MOST_TIMES * less.ratio))
     }
 
     private fun isGathered(state: BlindState): Boolean {
@@ -86,7 +105,7 @@ internal class BlindOutliers(state: BlindState) {
      * row is told by few rows.
      */
     val pValue: Double = minOf(
-        Evidence.poissonTail(rows.size, series.size * BEYOND),
+        Evidence.poissonTail(rows.size, series.size * if (isTailed) BEYOND_TAILED else BEYOND),
         mixture?.let { minOf(1.0, DOUBT * Evidence.pValue(it.ratio, MIXED)) } ?: 1.0,
     )
 
@@ -103,6 +122,9 @@ internal class BlindOutliers(state: BlindState) {
 
         /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
         const val BEYOND = 1.5e-4
+
+        /** The same of noise with heavy tails: Student's t with five degrees of freedom, five robust deviations. */
+        const val BEYOND_TAILED = 3e-3
         const val WINDOW = 12
         const val REACH = Neighbours.REACH
         const val NEAR = 30
@@ -111,6 +133,10 @@ internal class BlindOutliers(state: BlindState) {
         const val ROUNDED = 12.0
         const val TINY = 1e-290
         const val DOUBT = 10.0
+
+        /** Twice the gain in log-likelihood, of both columns together, of tails against outliers that is no evidence. */
+        const val TAILED = 4.0
+        const val MOST_TIMES = 2.0
 
         /** Numbers of a mixture: share, size and spread. */
         const val MIXED = 3

@@ -62,8 +62,22 @@ internal class BlindSearch(
         val was = held
         state = stepped(state)
         if (held != was) state = improved(requieted(evened(state)))
+        state = restarted(state)
         lastVariance = state.variance
         return state
+    }
+
+    /**
+     * [state], or what is likelier and is found from noise that hardly wanders, and from longer lags: a lag that is too
+     * short and noise that wanders make up for each other.
+     */
+    private fun restarted(state: BlindState): BlindState {
+        val quiet = BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
+        val begun = LONGER.map { times ->
+            settled(state.model.terms, base(times * state.timeConstant), quiet, state.variances, before = state)
+        }
+        val other = climbed(requieted(climbed(begun.maxBy { it.score })))
+        return if (other.score > state.score) other else state
     }
 
     /** [state] with as many waves as it takes; where even those it has are too few, at the lag they tell. */
@@ -337,6 +351,8 @@ internal class BlindSearch(
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5
+        val LONGER = listOf(1.0, 2.0, 4.0)
+        const val QUIET = 0.2
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5

@@ -99,7 +99,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val basis = Evidence.orthonormal(others.map(columns::getValue))
         val extra = Evidence.orthonormal(own.map(columns::getValue), basis)
         val z = found.whitened
-        val inflation = BlindEvidence.inflation(extra, z)
+        val inflation = inflation(term, extra, z)
         val ratio = maxOf((found.score - score) / inflation - searched, 0.0)
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
@@ -180,6 +180,12 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return out
     }
 
+    /** What the gain of [term] with the columns [extra] is divided by, where [z] is left with it. */
+    private fun inflation(term: Term?, extra: List<DoubleArray>, z: DoubleArray): Double {
+        val correlated = BlindEvidence.inflation(extra, z)
+        return if (term?.cause == Cause.OFFSET_STEPS) maxOf(correlated, BlindJumps.tails(z)) else correlated
+    }
+
     private class Weighed(val term: Term?, val name: String, val model: ResponseModel?, val point: BlindPoint?)
 
     private fun weighed(
@@ -194,7 +200,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val extra = Evidence.orthonormal(columns, ownBasis)
         val gain = Evidence.ratio(base.left, left, state.fit.rows)
         val after = rest ?: what.point?.let { state.fit.residual(it.residuals) } ?: z
-        val inflation = maxOf(BlindEvidence.inflation(extra, after), floor)
+        val inflation = maxOf(inflation(what.term, extra, after), floor)
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
@@ -249,7 +255,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         var best: BlindTrial? = null
         var rest = z
         while (times.size < MOST_JUMPS) {
-            val (time, column) = place(rest, times) ?: break
+            val (time, column) = places.best(rest, times) ?: break
             times += time
             val places = searched(times.size)
             val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), places)
@@ -263,27 +269,15 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     /** The jumps of [term], which this model has, and the one that serves best beside them; null where none is worth it. */
     fun oneMoreJump(term: Term): BlindTrial? {
         if (term.times.size >= MOST_JUMPS) return null
-        val (time, _) = place(z, term.times) ?: return null
+        val (time, _) = places.best(z, term.times) ?: return null
         val more = fitted(Term(Cause.OFFSET_STEPS, times = (term.times + time).sorted()), 0.0)
         return more.takeIf { it.ratio * it.inflation > JUMP_WORTH }
     }
 
     /** What the best of many places gains by chance, for [count] jumps. */
-    fun searched(count: Int): Double = count * 2 * ln(minOf(PLACES, n / 10).toDouble())
+    fun searched(count: Int): Double = places.searched(count)
 
-    private fun place(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
-        fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })
-        fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), 1e-9) }
-        val stride = maxOf(n / PLACES, 1)
-        val edge = maxOf(n / 50, 3)
-        val rows = (edge until n - edge step stride).filter { row ->
-            taken.all { abs(it - (series.times[row] - series.times[0])) > series.duration / PLACES }
-        }
-        val coarse = rows.maxByOrNull(::gain) ?: return null
-        val fine = (maxOf(coarse - stride, edge)..minOf(coarse + stride, n - edge - 1)) step maxOf(stride / 8, 1)
-        val row = fine.maxBy(::gain)
-        return (series.times[row] + series.times[row - 1]) / 2 - series.times[0] to column(row)
-    }
+    private val places = BlindJumps(state, z)
 
     /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
      * [floor] what the ratio is divided by at least. */
@@ -328,6 +322,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         searched: Double,
         unlike: DoubleArray,
     ): Double {
+        // A jump shows at its own rows alone.
+        if (term?.cause == Cause.OFFSET_STEPS) return Evidence.pValue(ratio, degrees)
         // Several numbers give the sum of what they change a good look of chance: the t is held against that.
         val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
         val agreed = if (t > 0) Evidence.student(fewer, agreeing(term, unlike) - 1) else 1.0
@@ -361,7 +357,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
         /** Standard deviations of the noise. */
         val CLOSER = doubleArrayOf(0.0, 2.0).toList()
-        const val PLACES = 48
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 20.0
     }

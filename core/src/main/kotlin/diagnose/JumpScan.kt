@@ -75,7 +75,8 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
             return JumpScan(steps, all / looked.toDouble())
         }
 
-        private fun angle(a: DoubleArray, b: DoubleArray): Double {
+        /** The angle, radians, between [a] and [b], of which the shorter may be nothing. */
+        fun angle(a: DoubleArray, b: DoubleArray): Double {
             val lengths = sqrt(squares(a) * squares(b))
             return if (lengths > 0) sqrt(maxOf(0.0, 2 * (1 - dot(a, b) / lengths))) else 0.0
         }

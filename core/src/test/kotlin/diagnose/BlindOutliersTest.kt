@@ -4,6 +4,7 @@ import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.sin
+import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -20,21 +21,23 @@ class BlindOutliersTest {
     /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them [off], by up to 0.14. */
     private fun outliers(
         every: Int,
+        noise: Double = 0.02,
         off: (Random) -> Double = { it.nextDouble(-0.14, 0.14) },
+        added: (Int) -> Double = { 0.0 },
     ): BlindOutliers {
-        val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(0.02))
+        val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(noise))
         val sensor = SensorSpec("hidden", stages).build(truth[0], Random(7))
         val random = Random(8)
         val values = DoubleArray(n) { i ->
             val wrong = if (i % every == every / 2) off(random) else 0.0
-            sensor.step(truth[i], 1.0, Conditions.NONE) + wrong
+            sensor.step(truth[i], 1.0, Conditions.NONE) + wrong + added(i)
         }
         val series = MeasuredSeries(times, x, y, values, null)
         val modes = WaterModes.flat(series, SmoothTrack.of(series), MOST, SHORTEST)
         val white = CorrelatedNoise(times, 0.0, 10.0, BooleanArray(n) { true })
-        val noise = BlindNoise(white, DoubleArray(n) { 1.0 })
+        val even = BlindNoise(white, DoubleArray(n) { 1.0 })
         val numbers = doubleArrayOf(3.5, 1.0, 0.0, 0.0)
-        return BlindOutliers(BlindSearch(series).settled(emptyList(), numbers, noise, DoubleArray(0), ROUNDS, modes))
+        return BlindOutliers(BlindSearch(series).settled(emptyList(), numbers, even, DoubleArray(0), ROUNDS, modes))
     }
 
     @Test
@@ -46,7 +49,7 @@ class BlindOutliersTest {
     @Test
     fun aWildRowCountsOnce() {
         // Rows 75, 225 and so on, by half of what the water has.
-        assertEquals(List(6) { 75 + 150 * it }, outliers(every = 150) { 1.0 }.rows)
+        assertEquals(List(6) { 75 + 150 * it }, outliers(every = 150, off = { 1.0 }).rows)
     }
 
     @Test
@@ -55,7 +58,32 @@ class BlindOutliersTest {
         assertTrue(none.pValue > 0.01, "${none.pValue}")
     }
 
+    @Test
+    fun jumpsAreNone() {
+        // By twelve deviations of the noise, each way.
+        val jumps = outliers(every = 10 * n, added = { if (it in 300 until 640) 0.24 else 0.0 })
+        assertTrue(jumps.pValue > 0.01 && jumps.rows.isEmpty(), "${jumps.pValue} ${jumps.rows}")
+    }
+
+    @Test
+    fun noiseWithHeavyTailsHasNone() {
+        val named = (0 until LOGS).filter { log ->
+            val random = java.util.Random(SEED + log)
+            val heavy = DoubleArray(n) {
+                val squares = (1..FREEDOMS).sumOf { random.nextGaussian().let { g -> g * g } }
+                0.02 * random.nextGaussian() / sqrt(squares / FREEDOMS)
+            }
+            outliers(every = 10 * n, noise = 1e-4, added = { heavy[it] }).pValue < 1e-4
+        }
+        assertTrue(named.size <= 1, "$named of $LOGS logs, seeds from $SEED")
+    }
+
     private companion object {
+        const val SEED = 20261123L
+        const val LOGS = 6
+
+        /** Of Student's t. */
+        const val FREEDOMS = 5
         const val MOST = 150
         const val ROUNDS = 5
 

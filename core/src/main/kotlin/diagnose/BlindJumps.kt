@@ -1,0 +1,88 @@
+package stillwater.diagnose
+
+import org.hipparchus.special.Erf
+import kotlin.math.abs
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * Where jumps of the readings would explain most of what [state] leaves, [z] whitened.
+ *
+ * Looked at are even places and the rows that surprise most: under noise that wanders a jump shows at its own row alone.
+ */
+internal class BlindJumps(private val state: BlindState, private val z: DoubleArray) {
+    private val times = state.model.series.times
+    private val duration = state.model.series.duration
+    private val n = z.size
+    private val stride = maxOf(n / PLACES, 1)
+    private val edge = JumpPlaces.edge(n)
+    private val striking = (edge until n - edge).sortedByDescending { abs(z[it]) }.take(STRIKING)
+
+    /** How many independent places a jump may be at: of rows next to each other only as far as they can be told apart. */
+    private val count: Double by lazy {
+        val all = n - 2 * edge - 1
+        val looked = minOf(all, LOOKED)
+        if (looked < 1) return@lazy 1.0
+        val steps = DoubleArray(looked) { k ->
+            val row = edge + ((k + 0.5) * all / looked).toInt()
+            JumpScan.angle(column(row), column(row + 1))
+        }
+        val scan = JumpScan(steps, all / looked.toDouble())
+        (scan.single(CLEAR) / Evidence.pValue(CLEAR, 1)).coerceIn(1.0, n.toDouble())
+    }
+
+    /** What the best of all places gains by chance, for [jumps] jumps. */
+    fun searched(jumps: Int): Double = if (jumps == 0) 0.0 else jumps * 2 * ln(count)
+
+    /**
+     * The best place, s after the first row, and what is unlike water of a jump there, where [rest] is to be explained;
+     * not near those [taken]. Null where there is no room.
+     */
+    fun best(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
+        fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), LEAST) }
+        val rows = ((edge until n - edge step stride) + striking).distinct().filter { row ->
+            taken.all { abs(it - (times[row] - times[0])) > duration / PLACES }
+        }
+        var row = rows.maxByOrNull(::gain) ?: return null
+        var reach = stride
+        while (reach > 0) {
+            val step = maxOf(reach / FINER, 1)
+            row = ((maxOf(row - reach, edge)..minOf(row + reach, n - edge - 1)) step step).plus(row).maxBy(::gain)
+            reach = if (step > 1) step else 0
+        }
+        return (times[row] + times[row - 1]) / 2 - times[0] to column(row)
+    }
+
+    private fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })
+
+    companion object {
+        private const val PLACES = 48
+        private const val STRIKING = 40
+        private const val LOOKED = 24
+        private const val FINER = 6
+        private const val LEAST = 1e-9
+
+        /** Twice a gain in log-likelihood about where jumps are told from chance. */
+        private const val CLEAR = 20.0
+
+        /** Ranks of the rows that tell how heavy the tails are; a few of the farthest may be effects. */
+        private val RANKS = 4..20
+
+        /**
+         * By how much the squares of the rows that surprise most, of what [z] leaves, are larger than normal noise has
+         * them, at least 1: as much larger is the gain of a jump by chance.
+         */
+        fun tails(z: DoubleArray): Double {
+            val used = z.filter { it != 0.0 }
+            val variance = used.sumOf { it * it } / maxOf(used.size, 1)
+            if (used.size < FEWEST || !(variance > 0)) return 1.0
+            val sorted = used.map { it * it / variance }.sortedDescending()
+            return RANKS.maxOf { rank ->
+                val normal = sqrt(2.0) * Erf.erfcInv((rank - 0.5) / used.size)
+                sorted[rank - 1] / (normal * normal)
+            }.coerceAtLeast(1.0)
+        }
+
+        private const val FEWEST = 200
+    }
+}

@@ -1,0 +1,71 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+import kotlin.math.sin
+import kotlin.math.sqrt
+import kotlin.test.Test
+import kotlin.test.assertEquals
+import kotlin.test.assertTrue
+
+/** Jumps of the readings beside noise that wanders: they show at their own rows alone. */
+class BlindJumpsTest {
+    private val n = 900
+    private val times = DoubleArray(n) { it.toDouble() }
+    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
+    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
+
+    /** The best jumps on top of a lag of 4 s, of readings off by [offset] in the middle third of the log. */
+    private fun jumps(offset: Double): BlindTrial {
+        val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) }
+        val random = java.util.Random(SEED)
+        var state = truth[0]
+        var wandering = 0.0
+        val values = DoubleArray(n) { i ->
+            state += 0.22 * (truth[i] - state)
+            wandering = KEPT * wandering + 0.02 * sqrt(1 - KEPT * KEPT) * random.nextGaussian()
+            state + wandering + 0.005 * random.nextGaussian() + if (i in FIRST until SECOND) offset else 0.0
+        }
+        val series = MeasuredSeries(times, x, y, values, null)
+        val modes = WaterModes.flat(series, SmoothTrack.of(series), MOST, SHORTEST)
+        val noise = BlindNoise(CorrelatedNoise(times, 0.95, 30.0, BooleanArray(n) { true }), DoubleArray(n) { 1.0 })
+        val search = BlindSearch(series)
+        val found = search.settled(emptyList(), doubleArrayOf(4.0, 1.0, 0.0, 0.0), noise, DoubleArray(0), ROUNDS, modes)
+        return BlindTrials(search, found).attempt(Term(Cause.OFFSET_STEPS))
+    }
+
+    @Test
+    fun theyAreFoundToTheRow() {
+        val found = jumps(offset = 0.05)
+        assertEquals(listOf(FIRST - 0.5, SECOND - 0.5), checkNotNull(found.term).times, "seed $SEED")
+        assertTrue(found.pValue < 1e-6, "${found.pValue}, seed $SEED")
+        val numbers = checkNotNull(found.point).numbers.takeLast(2)
+        assertTrue(abs(numbers[0] - 0.05) < 0.01 && abs(numbers[1] + 0.05) < 0.01, "$numbers, seed $SEED")
+    }
+
+    @Test
+    fun whereThereIsNoneTheBestPlaceIsChance() {
+        val none = jumps(offset = 0.0)
+        assertTrue(none.pValue > 0.05, "${none.pValue}, seed $SEED")
+    }
+
+    @Test
+    fun heavyTailsOfWhatIsLeftCountAgainstThem() {
+        val random = java.util.Random(SEED)
+        val even = DoubleArray(1000) { random.nextGaussian() }
+        assertTrue(BlindJumps.tails(even) < 1.3, "${BlindJumps.tails(even)}, seed $SEED")
+        val uneven = DoubleArray(1000) { even[it] * if (it % 25 == 0) 4.0 else 1.0 }
+        assertTrue(BlindJumps.tails(uneven) > 2.0, "${BlindJumps.tails(uneven)}, seed $SEED")
+    }
+
+    private companion object {
+        const val SEED = 20261124L
+        const val KEPT = 0.97
+
+        /** Neither is a place that an even search of so many looks at. */
+        const val FIRST = 311
+        const val SECOND = 593
+        const val MOST = 150
+        const val ROUNDS = 5
+        const val SHORTEST = 15.0
+    }
+}
