@@ -57,6 +57,16 @@ class CorrectHonestyTest {
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
     }
 
+    @Test
+    fun optionsThatWouldChangeNothingAreRefused() {
+        val alone = correct(pond(60, referenceEvery = 1), "--condition", "temperature=fast")
+        assertEquals(2, alone.statusCode)
+        assertContains(alone.stderr, "--condition: expected --sensor beside it")
+        val known = correct(pond(60, referenceEvery = 1), "--reference", "fast", "--held-out")
+        assertEquals(2, known.statusCode)
+        assertContains(known.stderr, "--held-out: expected a sensor learned from passes through the same water, found")
+    }
+
     /** The fixes of a boat at anchor wander over water that changes with time: that is no lag. */
     @Test
     fun aBoatAtAnchorTeachesNothing() {
