@@ -21,7 +21,8 @@ internal object StillBoat {
     fun why(series: TrackSeries, hasFixes: Boolean): String? = when {
         isFlat(series.xs) && isFlat(series.ys) -> "the boat never moves"
         isFlat(series.ys) -> null
-        hasFixes && isWithin(series) -> "the boat hardly moves: 95 % of its fixes lie within 5 m, as far as fixes wander"
+        hasFixes && isWithin(series) ->
+            "the boat hardly moves: 95 % of its fixes lie within 5 m, as far as fixes wander"
         isJitter(series) -> "the boat hardly moves: it comes no farther in 50 rows than its positions scatter in one"
         else -> null
     }
