@@ -40,6 +40,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private const val TIMES_BELOW = 0.45
         private const val FEWER_SHARE = 0.2
         private const val FEWEST_ROWS = 200
+        private const val FEWEST_RUNS = 6
         private const val CLEAR = 0.02
         private const val NARROW = 0.043
 
@@ -81,10 +82,41 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
                 val noise = noise(series) * sqrt(12 / (rows * (rows * rows - 1))) / series.medianStep
                 if (noise >= CLEAR * top) continue
                 val rate = plateau(slopes, sizes, top)
-                if (rate.isFinite()) return rate
+                if (rate.isNaN()) continue
+                val isLimit = runs(slopes, rate) >= FEWEST_RUNS && !isWater(series, rate)
+                return if (isLimit) rate else Double.NaN
             }
             return Double.NaN
         }
+
+        /** How often [slopes], in the order of time, come to [rate] from below: few swings of smooth water do, too. */
+        private fun runs(slopes: List<Double>, rate: Double): Int {
+            fun isAt(slope: Double) = abs(slope) >= AT * rate
+            return slopes.indices.count { isAt(slopes[it]) && (it == 0 || !isAt(slopes[it - 1])) }
+        }
+
+        /**
+         * Whether the water itself has the slope [rate]: a sensor at its limit is behind the water, so that a pass on
+         * which it rises and one on which it falls differ where they meet. A row or less is no more than a boat's fixes
+         * and its clock may be off.
+         */
+        private fun isWater(series: TrackSeries, rate: Double): Boolean {
+            val found = TrackCrossings(series.withFreshPositions())
+            val slopes = slopes(series, 1)
+            val behind = (0 until found.size).mapNotNull { k ->
+                val one = slopes[found.one(k)]
+                val other = slopes[found.other(k)]
+                val isOpposed = one * other < 0 && minOf(abs(one), abs(other)) >= AT_LIMIT * rate
+                if (!isOpposed) return@mapNotNull null
+                val difference = valueAt(series, found.other(k), found.shareOther(k)) -
+                    valueAt(series, found.one(k), found.shareOne(k))
+                difference * (if (one > 0) 1 else -1) / (2 * rate)
+            }.sorted()
+            return behind.size >= TrackAgreement.FEWEST && behind[behind.size / 2] <= series.medianStep
+        }
+
+        private fun valueAt(series: TrackSeries, row: Int, share: Double) =
+            (1 - share) * series.values[row] + share * series.values[row + 1]
 
         /** Of a reading, with what rounding does to it: in rounded readings that hardly change nothing else shows. */
         private fun noise(series: TrackSeries): Double {
@@ -125,6 +157,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
 
 /**
  * The rate at which the sensor of these readings often runs and which it hardly ever exceeds, sensor units/s; NaN where
- * there is none. No lag and no water does that: slopes thin out towards their largest.
+ * there is none. No lag does that and hardly any water, whose slopes thin out towards their largest: to and fro over an
+ * even slope they do not, but then passes up and down agree.
  */
 public fun TrackSeries.rateLimit(): Double = SensorSides.rateLimit(this)

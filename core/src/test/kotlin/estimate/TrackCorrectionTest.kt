@@ -116,6 +116,23 @@ class TrackCorrectionTest {
     }
 
     @Test
+    fun anEvenSlopeOfTheWaterIsNoRateLimit() {
+        val random = Random(5)
+        val times = DoubleArray(1500) { it.toDouble() }
+        val xs = DoubleArray(1500) { abs(it % 240 - 120) + 0.2 * random.nextDouble() }
+        val ys = DoubleArray(1500) { 0.2 * random.nextDouble() }
+        val evenWater = DoubleArray(1500) { 0.01 * abs(it % 240 - 120) + 0.003 * random.nextDouble() }
+        assertTrue(TrackSeries(times, xs, ys, evenWater).rateLimit().isNaN())
+        // The same readings where no pass meets another leave the question open.
+        val apart = DoubleArray(1500) { 2.0 * it }
+        assertEquals(0.01, TrackSeries(times, apart, ys, evenWater).rateLimit(), 0.0005)
+        // One swing of a wave piles up its slopes as runs do.
+        val swing = DoubleArray(400) { Math.rint(1000 * sin(it / 60.0)) / 1000 }
+        val early = times.copyOf(400)
+        assertTrue(TrackSeries(early, early, early, swing).rateLimit().isNaN())
+    }
+
+    @Test
     fun slowRateLimitIsFoundByLongLines() {
         val found = (36..41).map { seed ->
             LawnmowerLog(seed, listOf(SensorStage.Slew(0.01)), noise = 0.02).series.rateLimit()

@@ -88,6 +88,7 @@ class CorrectCommand : WorkCommand("correct") {
         if (sensor != null && reference != null) {
             throw failure("--sensor: expected either --sensor or --reference, found both")
         }
+        requireUsed()
         val choices = logOptions.choices()
         requireFitting(choices.size)
         val spec = sensor?.let(SensorFile::read)
@@ -120,6 +121,15 @@ class CorrectCommand : WorkCommand("correct") {
                     echo(wrote(written, out, if (logs.size == 1) "report.html" else "corrected.csv"))
                 }
             }
+        }
+    }
+
+    /** Refuses what would change nothing. */
+    private fun requireUsed() {
+        if (sensor == null && conditions.isNotEmpty()) throw failure("--condition: expected --sensor beside it")
+        if (heldOut && (sensor != null || reference != null)) {
+            val other = if (sensor != null) "--sensor" else "--reference"
+            throw failure("--held-out: expected a sensor learned from passes through the same water, found $other")
         }
     }
 

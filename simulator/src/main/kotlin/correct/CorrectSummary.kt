@@ -163,12 +163,8 @@ internal class CorrectSummary(
     /** Why the log says nothing about its sensor. */
     private fun silence(): String {
         val series = result.series
-        fun isFlat(numbers: DoubleArray) = numbers.all { it == numbers[0] }
-        return when {
-            isFlat(series.values) -> "the readings never change"
-            isFlat(series.xs) && isFlat(series.ys) -> "the boat never moves"
-            else -> "no pass comes near another"
-        }
+        if (series.values.all { it == series.values[0] }) return "the readings never change"
+        return StillBoat.why(series, result.log.frame != null) ?: "no pass comes near another"
     }
 
     private fun legs(): String {

@@ -53,7 +53,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     }
 
     private fun contradicted(): String? {
-        if (!agreement.isContradicted) return null
+        if (!agreement.isContradicted || result.origin == SensorOrigin.NOTHING) return null
         // What differs by more counts as the largest, so that the mean says little near it.
         val least = if (agreement.ratio > TrackAgreement.LARGEST / 2) "at least " else ""
         val times = least + digits(sqrt(agreement.ratio), 2)

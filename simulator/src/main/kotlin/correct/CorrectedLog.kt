@@ -109,7 +109,7 @@ class CorrectedLog internal constructor(
             .takeIf { log.oneDimensional }
         val plain = smoothed?.let { CorrectedLegs(it, checkNotNull(smoothedValues)) }
         return HeldOutLegs(CorrectedLegs(before, series.values), passes, plain) { rows ->
-            val learned = SensorLearning.byRevisits(series.at(rows))
+            val learned = SensorLearning.byRevisits(series.at(rows), hasFixes = log.frame != null)
             if (learned.choice == null) return@HeldOutLegs null
             val values = corrected(series, learned.likely, learned.stages, resolution).values
             legs(series, values)?.let { CorrectedLegs(it, values) }
@@ -168,7 +168,7 @@ class CorrectedLog internal constructor(
                     given.stages,
                 )
                 hasReference -> SensorLearning.byReference(log, series, rows.references(), unusable)
-                else -> SensorLearning.byRevisits(series, unusable)
+                else -> SensorLearning.byRevisits(series, unusable, log.frame != null)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
             val others = withSpeed(series, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
@@ -176,8 +176,10 @@ class CorrectedLog internal constructor(
                 corrected(series, likely, spec.stages, resolution, others, unusable)
             val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
-            // What a given sensor's intervals are is the giver's: they are told of, not changed.
-            val agreed = if (learned.origin == SensorOrigin.GIVEN) narrow else agreement.widened(narrow)
+            // What a given sensor's intervals are is the giver's: they are told of, not changed. Where nothing could be
+            // learned from passes they have no say in the intervals either.
+            val isToldOnly = learned.origin == SensorOrigin.GIVEN || learned.origin == SensorOrigin.NOTHING
+            val agreed = if (isToldOnly) narrow else agreement.widened(narrow)
             val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
             fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())
                 .takeIf { learned.origin == SensorOrigin.REFERENCE }

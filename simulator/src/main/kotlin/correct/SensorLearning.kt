@@ -71,10 +71,19 @@ internal object SensorLearning {
     private const val MOST_ROUGHNESS = 0.5
     private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
-    /** What passes of [all] through the same water say, without those readings that are [unusable]. */
-    fun byRevisits(all: TrackSeries, unusable: UnusableReadings = UnusableReadings.none(all.size)): Learned {
+    /**
+     * What passes of [all] through the same water say, without those readings that are [unusable].
+     *
+     * @param hasFixes whether positions are fixes on the globe, which wander.
+     */
+    fun byRevisits(
+        all: TrackSeries,
+        unusable: UnusableReadings = UnusableReadings.none(all.size),
+        hasFixes: Boolean = false,
+    ): Learned {
         val series = if (unusable.isNone) all else all.at((0 until all.size).filter(unusable::isUsable))
-        if (series.size < FEWEST || series.values.all { it == series.values[0] }) return nothing(all.size)
+        val isStuck = series.size < FEWEST || series.values.all { it == series.values[0] }
+        if (isStuck || StillBoat.why(series, hasFixes) != null) return nothing(all.size)
         val rate = series.rateLimit()
         if (rate.isFinite()) {
             val response = ResponseKind.SLEW.response(rate)
@@ -130,7 +139,9 @@ internal object SensorLearning {
         val held = ReferenceLearner.isHeld(part, reference, out)
         fun another() = ReferenceLearner(part, reference, held, out)
         val learner = another()
-        fault(series, part, learner)?.let { return byRevisits(series, unusable).copy(fault = it) }
+        fault(series, part, learner)?.let {
+            return byRevisits(series, unusable, log.frame != null).copy(fault = it)
+        }
         val choice = requireNotNull(choice(learner, ResponseKind.entries, ::another))
 
         // What is undone is a response to water that changes all the time.

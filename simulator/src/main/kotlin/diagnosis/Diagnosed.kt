@@ -72,13 +72,20 @@ class Diagnosed(
                 open(set)
             }
         }
-        is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log."
+        is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log${besideLag()}."
         is Verdict.Unexplained ->
             (
                 listOf("Something is at work that no cause of the list explains: ${verdict.what}.") +
                     verdict.ambiguity.map { open(it) }
                 ).joinToString(" ")
         is Verdict.InsufficientData -> "This log cannot show it: ${verdict.why}."
+    }
+
+    /** A lag that was fitted is the simulation's, and no cause; who has a slow sensor wants to hear of it first. */
+    private fun besideLag(): String {
+        val tau = result.baseline.parameters.firstOrNull { it.name == "time_constant_s" }
+        val lowest = tau?.interval?.lower ?: 0.0
+        return if (isGiven || tau == null || lowest <= 0) "" else ", beside the lag of ${number(tau)} itself"
     }
 
     private fun open(set: List<Cause>) =

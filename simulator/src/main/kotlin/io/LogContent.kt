@@ -68,12 +68,16 @@ internal class LogContent private constructor(
         private val WINDOWS_1252 = Charset.forName("windows-1252")
         private val SEA_BIRD = "* Sea-Bird".toByteArray()
         private val GZIP = byteArrayOf(0x1f, 0x8b.toByte())
+        private val ZIP = byteArrayOf(0x50, 0x4b, 3, 4)
+        private val PDF = "%PDF-".toByteArray()
 
         fun of(file: Path): LogContent {
             val bytes = firstBytes(file)
             fun problem(expected: String, found: String) = LogProblem(file, null, null, expected, found)
             if (bytes.isEmpty()) throw problem("a log", "an empty file")
             if (bytes.startsWith(GZIP)) throw problem("a text log", "a gzip archive: unpack it first")
+            if (bytes.startsWith(ZIP)) throw problem("a text log", "a zip archive or a workbook: save its sheet as CSV")
+            if (bytes.startsWith(PDF)) throw problem("a text log", "a PDF document")
             val (charset, mark) = when {
                 bytes.startsWith(byteArrayOf(0xEF.toByte(), 0xBB.toByte(), 0xBF.toByte())) -> Charsets.UTF_8 to 3
                 bytes.startsWith(byteArrayOf(0xFF.toByte(), 0xFE.toByte())) -> Charsets.UTF_16LE to 2

@@ -79,7 +79,13 @@ public class LinePlot(
     private fun guide(names: List<String>): Any? = if (names.all(String::isEmpty)) "none" else null
 
     private fun bands(strokes: List<Stroke>) =
-        geomRibbon(StrokeTable(strokes).columns, alpha = 0.18, size = 0, showLegend = false, sampling = samplingNone) {
+        geomRibbon(
+            StrokeTable(strokes, isBand = true).columns,
+            alpha = 0.18,
+            size = 0,
+            showLegend = false,
+            sampling = samplingNone,
+        ) {
             x = StrokeTable.X
             ymin = StrokeTable.LOWER
             ymax = StrokeTable.UPPER

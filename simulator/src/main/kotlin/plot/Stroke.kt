@@ -41,8 +41,8 @@ internal class Stroke(
             val step = if (first < 0) Double.NaN else axes.placeX(x[i]) - axes.placeX(x[first])
             // A gap is never thinned away: it ends a step and begins one.
             if (step >= 0 && step < Axes.SMALLEST_STEP && axes.showsY(y[i]) == axes.showsY(y[first])) {
-                if (y[i] < y[lowest]) lowest = i
-                if (y[i] > y[highest]) highest = i
+                if (foot(i) < foot(lowest)) lowest = i
+                if (top(i) > top(highest)) highest = i
             } else {
                 keep()
                 first = i
@@ -55,6 +55,11 @@ internal class Stroke(
         if (last >= 0 && kept.last() < last) kept += last
         return kept
     }
+
+    /** What a band without a line reaches down to, and any other its line. */
+    private fun foot(i: Int) = if (y[i].isNaN()) lower[i] else y[i]
+
+    private fun top(i: Int) = if (y[i].isNaN()) upper[i] else y[i]
 
     /** The points of this stroke that can be drawn on [axes], all of them. */
     fun visible(axes: Axes): Stroke {

@@ -1,7 +1,11 @@
 package stillwater.plot
 
-/** Strokes as the columns that the plot library reads; a gap (NaN) in a stroke starts a new part of it. */
-internal class StrokeTable(strokes: List<Stroke>) {
+/**
+ * Strokes as the columns that the plot library reads; a gap (NaN) in a stroke starts a new part of it.
+ *
+ * @param isBand whether the bands are drawn and not the lines: each has gaps of its own.
+ */
+internal class StrokeTable(strokes: List<Stroke>, isBand: Boolean = false) {
     val columns: Map<String, List<Any?>>
 
     init {
@@ -16,12 +20,13 @@ internal class StrokeTable(strokes: List<Stroke>) {
         for (stroke in strokes) {
             parts++
             for (i in stroke.x.indices) {
-                if (stroke.y[i].isNaN()) {
+                val isGap = if (isBand) stroke.lower[i].isNaN() || stroke.upper[i].isNaN() else stroke.y[i].isNaN()
+                if (isGap) {
                     parts++
                     continue
                 }
                 x += stroke.x[i]
-                y += stroke.y[i]
+                y += stroke.y[i].takeUnless(Double::isNaN)
                 lower += stroke.lower[i].takeUnless(Double::isNaN)
                 upper += stroke.upper[i].takeUnless(Double::isNaN)
                 colour += stroke.colour

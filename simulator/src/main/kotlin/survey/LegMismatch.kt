@@ -1,5 +1,7 @@
 package stillwater.survey
 
+import kotlin.math.abs
+
 /**
  * A mean with its standard error.
  *
@@ -49,6 +51,9 @@ class LagShift(
             val inside = (low > 0 || high < 0) && low > -limit + step && high < limit - step
             return legs >= FEWEST_LEGS && inside && gain.mean > 2 * gain.standardError
         }
+
+    /** Whether the best of the shifts tried is the first or the last: a better one may lie beyond. */
+    val isAtEnd: Boolean get() = abs(seconds) > limit - (shifts[1] - shifts[0])
 
     companion object {
         /** Legs below which a bootstrap over legs says nothing. */

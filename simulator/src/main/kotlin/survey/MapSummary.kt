@@ -130,8 +130,11 @@ class MapSummary(private val map: SurveyMap) {
     }
 
     /** The best shift and its interval, no more. */
-    private fun shortShift(shift: LagShift) =
+    private fun shortShift(shift: LagShift) = if (shift.isAtEnd) {
+        "${moved(shift)}, the most that was tried"
+    } else {
         "${moved(shift)} (95 %: ${digits(shift.low, 3)} to ${digits(shift.high, 3)} s)"
+    }
 
     private fun moved(shift: LagShift): String {
         val way = if (shift.seconds > 0) "earlier" else "later"

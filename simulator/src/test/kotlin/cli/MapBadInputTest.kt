@@ -230,6 +230,8 @@ class MapBadInputTest {
             csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
             Case("gzip", byteArrayOf(0x1f, 0x8b.toByte(), 8, 0, 0), "found a gzip archive: unpack it first"),
+            Case("workbook", byteArrayOf(0x50, 0x4b, 3, 4, 20, 0), "or a workbook: save its sheet as CSV"),
+            Case("PDF", "%PDF-1.4\n".toByteArray(), "expected a text log, found a PDF document"),
             Case(
                 "neither UTF-8 nor Windows-1252",
                 "time_s,x_m,y_m,t_\u0081\n0,0,0,1\n1,1,1,1\n".toByteArray(Charset.forName("ISO-8859-1")),

@@ -8,12 +8,15 @@ import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.CorrectCommand
 import stillwater.cli.Stillwater
 import java.nio.file.Path
+import java.util.Locale
 import kotlin.io.path.writeText
 import kotlin.math.exp
 import kotlin.math.sin
+import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
+import kotlin.test.assertTrue
 
 /** What `correct` does not know, it says. */
 class CorrectHonestyTest {
@@ -38,8 +41,8 @@ class CorrectHonestyTest {
             val across = (i / 60 * 6 % 66).toDouble()
             val (x, y) = along to across
             shown += (1 - exp(-1.0 / 6)) * (water(x, y) - shown)
-            val fast = if (i % referenceEvery == 0) "%.4f".format(java.util.Locale.ROOT, water(x, y)) else ""
-            appendLine("$i,$x,$y,${"%.4f".format(java.util.Locale.ROOT, shown)},$fast")
+            val fast = if (i % referenceEvery == 0) "%.4f".format(Locale.ROOT, water(x, y)) else ""
+            appendLine("$i,$x,$y,${"%.4f".format(Locale.ROOT, shown)},$fast")
         }
     }
 
@@ -52,6 +55,37 @@ class CorrectHonestyTest {
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stdout, "sensor: not learned")
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
+    }
+
+    @Test
+    fun optionsThatWouldChangeNothingAreRefused() {
+        val alone = correct(pond(60, referenceEvery = 1), "--condition", "temperature=fast")
+        assertEquals(2, alone.statusCode)
+        assertContains(alone.stderr, "--condition: expected --sensor beside it")
+        val known = correct(pond(60, referenceEvery = 1), "--reference", "fast", "--held-out")
+        assertEquals(2, known.statusCode)
+        assertContains(known.stderr, "--held-out: expected a sensor learned from passes through the same water, found")
+    }
+
+    /** The fixes of a boat at anchor wander over water that changes with time: that is no lag. */
+    @Test
+    fun aBoatAtAnchorTeachesNothing() {
+        val random = Random(7)
+        var north = 0.0
+        var east = 0.0
+        val rows = (0 until 1000).joinToString("") {
+            north += -0.01 * north + 0.1 * (random.nextDouble() - 0.5)
+            east += -0.01 * east + 0.1 * (random.nextDouble() - 0.5)
+            val value = "%.3f".format(Locale.ROOT, 12 + 0.5 * sin(it / 100.0) + 0.01 * random.nextDouble())
+            "$it,${45 + north / 111_195},${-73 + east / 78_627},$value\n"
+        }
+        val result = correct("time_s,lat_deg,lon_deg,slow\n$rows")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "sensor: not learned")
+        assertContains(result.stderr, "the boat hardly moves: 95 % of its fixes lie within 5 m")
+        assertFalse("passes through the same" in result.stderr, result.stderr)
+        val half = Regex("interval: 95 %, ([0-9.]+) either way").find(result.stdout)!!.groupValues[1].toDouble()
+        assertTrue(half < 0.05, "$half")
     }
 
     @Test

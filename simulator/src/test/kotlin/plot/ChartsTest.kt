@@ -27,6 +27,17 @@ class ChartsTest {
     }
 
     @Test
+    fun aBandWithoutALineIsDrawnInPartsWhereItHasAGap() {
+        val none = DoubleArray(100) { Double.NaN }
+        val low = DoubleArray(100) { if (it == 50) Double.NaN else 1.0 }
+        val band = Series("bounds", time, none, low, DoubleArray(100) { 7.0 })
+        val parts = SvgParts(LinePlot("Probe", "", listOf(band, Series("truth", time, time)), "s", "mg/L").draw())
+        assertEquals(0, parts.strokes(SvgParts.BLUE).size, "no line")
+        val bands = parts.fills(SvgParts.BLUE)
+        assertEquals(2, bands.size, "either side of the gap")
+    }
+
+    @Test
     fun pointsAreAllDrawnAndASeriesWithoutNameHasNoLegend() {
         val y = DoubleArray(100) { if (it % 10 == 0) Double.NaN else it - 50.0 }
         val plot =
