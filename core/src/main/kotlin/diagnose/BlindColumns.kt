@@ -13,13 +13,14 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
     fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes, held: Boolean): Array<DoubleArray> {
         val last = shownLast
-        val isSame = shownAs != null && shownAs == listOf(terms, numbers.toList(), modes, held)
+        val linear = linear(terms, numbers)
+        val isSame = shownAs != null && shownAs == listOf(linear, modes, held)
         if (last != null && isSame) return last
         val fading =
             DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / numbers[ResponseModel.TIME_CONSTANT]) }
         return (seen(terms, numbers, modes.columns, held) + fading).also {
             shownLast = it
-            shownAs = listOf(terms, numbers.toList(), modes, held)
+            shownAs = listOf(linear, modes, held)
         }
     }
 
@@ -49,27 +50,18 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
 
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, held: Boolean): Array<DoubleArray> {
-        val whole = ResponseModel(series.withReference(waters[0]), terms, held, scales)
-        val linear = terms.filter { it.cause in BlindSearch.LINEAR }
-        val own = doubleArrayOf(numbers[ResponseModel.TIME_CONSTANT], 1.0, 0.0, 0.0) + linear.flatMap { term ->
-            List(whole.width(term)) { numbers[whole.slot(term) + it] }
-        }
-        val columns = arrayOfNulls<DoubleArray>(waters.size)
-        // A model has working space of its own, which tasks cannot share.
-        loops.each(PARTS) { part ->
-            val truth = DoubleArray(n)
-            val model = ResponseModel(series.withReference(truth), linear, held, scales)
-            for (k in part until waters.size step PARTS) {
-                waters[k].copyInto(truth)
-                model.truthChanged()
-                columns[k] = DoubleArray(n).also { model.predict(own, it) }
-            }
-        }
-        return columns.requireNoNulls()
+        val (linear, own) = linear(terms, numbers)
+        val model = ResponseModel(series.withReference(waters[0]), linear, held, scales)
+        return model.linear(own.toDoubleArray()).of(waters, loops)
     }
 
-    private companion object {
-        /** Parts of the work that may be done at the same time. */
-        const val PARTS = 4
+    /** Those of [terms] that are linear in the water, and what of [numbers] tells what the sensor shows of it. */
+    private fun linear(terms: List<Term>, numbers: DoubleArray): Pair<List<Term>, List<Double>> {
+        val whole = ParameterLayout(series, terms, scales)
+        val linear = terms.filter { it.cause in BlindSearch.LINEAR }
+        val own = linear.flatMap { term ->
+            List(whole.widths.getValue(term.key)) { numbers[whole.slots.getValue(term.key) + it] }
+        }
+        return linear to listOf(numbers[ResponseModel.TIME_CONSTANT], 1.0, 0.0, 0.0) + own
     }
 }

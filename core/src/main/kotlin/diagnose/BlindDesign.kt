@@ -8,17 +8,21 @@ package stillwater.diagnose
  * @param loops how the columns and the halves of the sums are gone through.
  * @property noise what whitens. @property size number of columns.
  */
-internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loops: Loops) {
+internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, private val loops: Loops) {
     val size: Int = shown.size
     private val n = shown[0].size
-    private val columns = arrayOfNulls<DoubleArray>(size).also { out ->
-        loops.each(size) { k -> out[k] = DoubleArray(n).also { noise.whiten(shown[k], it) } }
-    }.requireNoNulls()
+    private val columns = Array(size) { DoubleArray(n) }.asList()
 
     /** The lower half of RᵀR, row by row. */
     val gram: Array<DoubleArray> = Array(size) { DoubleArray(it + 1) }
 
     init {
+        loops.each((size + 1) / 2) { pair ->
+            val k = 2 * pair
+            val other = minOf(k + 1, size - 1)
+            if (k == other) noise.whiten(shown[k], columns[k])
+            if (k != other) noise.whiten(shown[k], columns[k], shown[other], columns[other])
+        }
         val count = (n + STRETCH - 1) / STRETCH
         val halves = arrayOf(0 until count / 2, count / 2 until count)
         val parts = arrayOf(gram, Array(size) { DoubleArray(it + 1) })
@@ -42,27 +46,12 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loo
             val second = rows[i + 1]
             val third = rows[i + 2]
             val fourth = rows[i + 3]
-            for (a in 0 until size) products(sums[a], a, first, second, third, fourth)
+            for (a in 0 until size) {
+                Combination.four(
+                    sums[a], 0, a + 1, first[a], first, second[a], second, third[a], third, fourth[a], fourth,
+                )
+            }
         }
-    }
-
-    /**
-     * Adds what column [a] of four rows is with the columns up to it. The compiler does several of them in one step
-     * where each row is a parameter of its own.
-     */
-    private fun products(
-        sum: DoubleArray,
-        a: Int,
-        first: DoubleArray,
-        second: DoubleArray,
-        third: DoubleArray,
-        fourth: DoubleArray,
-    ) {
-        val w = first[a]
-        val x = second[a]
-        val y = third[a]
-        val z = fourth[a]
-        for (b in 0 until a + 1) sum[b] += w * first[b] + x * second[b] + y * third[b] + z * fourth[b]
     }
 
     /** Row [i] of R, length [size]; new. */
@@ -71,44 +60,61 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loo
     /** Rᵀ [z], length [size]. */
     fun transposed(z: DoubleArray): DoubleArray {
         val out = DoubleArray(size)
-        for (k in 0 until size step 4) {
-            val a = columns[k]
-            val b = columns[minOf(k + 1, size - 1)]
-            val c = columns[minOf(k + 2, size - 1)]
-            val d = columns[minOf(k + 3, size - 1)]
-            var p = 0.0
-            var q = 0.0
-            var r = 0.0
-            var s = 0.0
-            for (i in 0 until n) {
-                val w = z[i]
-                p += a[i] * w
-                q += b[i] * w
-                r += c[i] * w
-                s += d[i] * w
-            }
-            out[k] = p
-            if (k + 1 < size) out[k + 1] = q
-            if (k + 2 < size) out[k + 2] = r
-            if (k + 3 < size) out[k + 3] = s
+        val groups = (size + TOGETHER - 1) / TOGETHER
+        loops.each(HALVES) { half ->
+            for (group in half * groups / HALVES until (half + 1) * groups / HALVES) dots(group * TOGETHER, z, out)
         }
         return out
+    }
+
+    /** What [z] is with eight columns from [k] on: each sum waits for its own row before alone. */
+    private fun dots(k: Int, z: DoubleArray, out: DoubleArray) {
+        if (k + TOGETHER > size) {
+            for (j in k until size) out[j] = dot(columns[j], z)
+            return
+        }
+        val a = columns[k]
+        val b = columns[k + 1]
+        val c = columns[k + 2]
+        val d = columns[k + 3]
+        val e = columns[k + 4]
+        val f = columns[k + 5]
+        val g = columns[k + 6]
+        val h = columns[k + 7]
+        var p = 0.0
+        var q = 0.0
+        var r = 0.0
+        var s = 0.0
+        var t = 0.0
+        var u = 0.0
+        var v = 0.0
+        var w = 0.0
+        for (i in 0 until n) {
+            val height = z[i]
+            p += a[i] * height
+            q += b[i] * height
+            r += c[i] * height
+            s += d[i] * height
+            t += e[i] * height
+            u += f[i] * height
+            v += g[i] * height
+            w += h[i] * height
+        }
+        out[k] = p
+        out[k + 1] = q
+        out[k + 2] = r
+        out[k + 3] = s
+        out[k + 4] = t
+        out[k + 5] = u
+        out[k + 6] = v
+        out[k + 7] = w
     }
 
     /** R [beta], length n. */
     fun times(beta: DoubleArray): DoubleArray {
         val out = DoubleArray(n)
-        for (k in 0 until size step 4) {
-            val last = size - 1
-            val a = columns[k]
-            val b = columns[minOf(k + 1, last)]
-            val c = columns[minOf(k + 2, last)]
-            val d = columns[minOf(k + 3, last)]
-            val p = beta[k]
-            val q = if (k + 1 <= last) beta[k + 1] else 0.0
-            val r = if (k + 2 <= last) beta[k + 2] else 0.0
-            val s = if (k + 3 <= last) beta[k + 3] else 0.0
-            for (i in 0 until n) out[i] += p * a[i] + q * b[i] + r * c[i] + s * d[i]
+        loops.each(HALVES) { half ->
+            Combination.add(columns, beta, out, size, half * n / HALVES, (half + 1) * n / HALVES)
         }
         return out
     }
@@ -116,5 +122,9 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loo
     private companion object {
         const val STRETCH = 64
         const val AT_ONCE = 4
+
+        /** Parts of the work that may be done at the same time. */
+        const val HALVES = 2
+        const val TOGETHER = 8
     }
 }

@@ -14,6 +14,15 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
         noise.whiten(out, out)
     }
 
+    /** Whitens [one] into [out] and [two] into [outTwo], together: each waits for its own row before. */
+    fun whiten(one: DoubleArray, out: DoubleArray, two: DoubleArray, outTwo: DoubleArray) {
+        for (i in one.indices) {
+            out[i] = one[i] / spread[i]
+            outTwo[i] = two[i] / spread[i]
+        }
+        noise.whitenBoth(out, outTwo)
+    }
+
     /** Sum of ln of the variances that whitening divides by. */
     val logDeterminant: Double = noise.logDeterminant + 2 * spread.sumOf { ln(it) }
 }

@@ -16,31 +16,76 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
 
     init {
         var sum = 0.0
-        val column = DoubleArray(n)
-        for (j in 0 until n) {
-            val pivot = sqrt(maxOf(lower[j][j], TINY))
-            sum += 2 * ln(pivot)
-            lower[j][j] = pivot
-            for (i in j + 1 until n) {
-                column[i] = lower[i][j] / pivot
-                lower[i][j] = column[i]
+        val columns = Array(AT_ONCE) { DoubleArray(n) }
+        for (j in 0 until n step AT_ONCE) {
+            val count = minOf(AT_ONCE, n - j)
+            for (c in 0 until count) sum += 2 * ln(column(j + c, columns, c))
+            for (c in count until AT_ONCE) columns[c].fill(0.0)
+            val (p, q, r, s) = columns
+            for (i in j + AT_ONCE until n) {
+                Combination.four(lower[i], j + AT_ONCE, i + 1, -p[i], p, -q[i], q, -r[i], r, -s[i], s)
             }
-            for (i in j + 1 until n) subtract(lower[i], column[i], column, j + 1, i + 1)
         }
         logDeterminant = sum
     }
 
-    /** Lᵀ, row by row, each as long as the matrix is wide. */
-    private val upper by lazy { Array(n) { k -> DoubleArray(n) { if (it >= k) lower[it][k] else 0.0 } } }
+    /** Finds column [k] of L, from which all but the last [c] columns have been taken off, and returns its pivot. */
+    private fun column(k: Int, columns: Array<DoubleArray>, c: Int): Double {
+        val own = columns[c]
+        var pivot = 1.0
+        for (i in k until n) {
+            var sum = lower[i][k]
+            for (b in 0 until c) sum -= columns[b][i] * columns[b][k]
+            if (i == k) pivot = sqrt(maxOf(sum, TINY))
+            own[i] = if (i == k) pivot else sum / pivot
+            lower[i][k] = own[i]
+        }
+        return pivot
+    }
 
     /** L⁻¹ [right]; new. */
     fun half(right: DoubleArray): DoubleArray {
         val out = right.copyOf()
-        for (k in 0 until n) {
-            out[k] /= lower[k][k]
-            subtract(out, out[k], upper[k], k + 1, n)
+        var i = 0
+        while (i + AT_ONCE <= n) {
+            dots(i, out)
+            for (a in i until i + AT_ONCE) {
+                val row = lower[a]
+                for (k in i until a) out[a] -= row[k] * out[k]
+                out[a] /= row[a]
+            }
+            i += AT_ONCE
+        }
+        while (i < n) {
+            val row = lower[i]
+            for (k in 0 until i) out[i] -= row[k] * out[k]
+            out[i] /= row[i]
+            i++
         }
         return out
+    }
+
+    /** Takes what is known of [out], the elements before [i], off the next four: each sum waits for its own alone. */
+    private fun dots(i: Int, out: DoubleArray) {
+        val a = lower[i]
+        val b = lower[i + 1]
+        val c = lower[i + 2]
+        val d = lower[i + 3]
+        var p = out[i]
+        var q = out[i + 1]
+        var r = out[i + 2]
+        var s = out[i + 3]
+        for (k in 0 until i) {
+            val known = out[k]
+            p -= a[k] * known
+            q -= b[k] * known
+            r -= c[k] * known
+            s -= d[k] * known
+        }
+        out[i] = p
+        out[i + 1] = q
+        out[i + 2] = r
+        out[i + 3] = s
     }
 
     /** L⁻ᵀ [right]; new. */
@@ -55,12 +100,25 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
 
     /** The diagonal of the inverse of what was factorised. */
     fun inverseDiagonal(): DoubleArray {
-        val inverse = Array(n) { DoubleArray(it + 1) }
+        // Rows with zeros behind them, so that four can be added together.
+        val inverse = Array(n) { DoubleArray(it + AT_ONCE) }
         val out = DoubleArray(n)
         for (i in 0 until n) {
             val own = inverse[i]
-            for (k in 0 until i) subtract(own, lower[i][k], inverse[k], 0, k + 1)
-            val pivot = lower[i][i]
+            val row = lower[i]
+            var k = 0
+            while (k + AT_ONCE <= i) {
+                Combination.four(
+                    own, 0, k + AT_ONCE, -row[k], inverse[k], -row[k + 1], inverse[k + 1],
+                    -row[k + 2], inverse[k + 2], -row[k + 3], inverse[k + 3],
+                )
+                k += AT_ONCE
+            }
+            while (k < i) {
+                subtract(own, row[k], inverse[k], 0, k + 1)
+                k++
+            }
+            val pivot = row[i]
             for (j in 0 until i) own[j] /= pivot
             own[i] = 1 / pivot
             for (j in 0..i) out[j] += own[j] * own[j]
@@ -73,6 +131,7 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
     }
 
     private companion object {
+        const val AT_ONCE = 4
         const val TINY = 1e-12
     }
 }

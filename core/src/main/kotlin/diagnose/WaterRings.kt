@@ -69,7 +69,8 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         val r = places.size
         val lower = Array(r) { a -> DoubleArray(a + 1) { b -> factor.columns[b][places[a]] } }
         // In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue.
-        val order = Array(r) { a -> DoubleArray(r) { b -> ordered(spectrum, distance(places[a], places[b])) } }
+        val orders = DistanceCurve(step) { ordered(spectrum, it) }
+        val order = Array(r) { a -> DoubleArray(r) { b -> orders.at(distance(places[a], places[b])) } }
         for (column in 0 until r) {
             val solved = solved(lower, DoubleArray(r) { order[it][column] })
             for (a in 0 until r) order[a][column] = solved[a]
@@ -81,11 +82,7 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
             val ring = turned.getEigenvalue(k).roundToInt().coerceIn(0, size - 1)
             val heights = turned.getEigenvector(k)
             val out = DoubleArray(n)
-            for (j in 0 until r) {
-                val height = heights.getEntry(j)
-                val column = factor.columns[j]
-                for (i in 0 until n) out[i] += height * column[i]
-            }
+            Combination.add(factor.columns, heights.toArray(), out)
             ring to out
         }.sortedBy { it.first }
     }
@@ -109,23 +106,24 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         return sum
     }
 
-    private fun distance(a: Int, b: Int) = hypot(x[a] - x[b], y[a] - y[b])
+    /** Between places of a curve: a hundredth of a radian of the shortest wave. */
+    private val step = FINE / edges.last()
+
+    private fun distance(a: Int, b: Int) = sqrt((x[a] - x[b]) * (x[a] - x[b]) + (y[a] - y[b]) * (y[a] - y[b]))
 
     private fun factor(spectrum: DoubleArray, left: Double, most: Int, thin: Int): Factor {
         val count = (n + thin - 1) / thin
         val columns = ArrayList<DoubleArray>()
         val pivots = ArrayList<Int>()
         val rest = DoubleArray(count) { spectrum.sum() }
+        val curve = DistanceCurve(step) { covariance(spectrum, it) }
         while (columns.size < most) {
             var pivot = 0
             for (i in 1 until count) if (rest[i] > rest[pivot]) pivot = i
             if (columns.isNotEmpty() && rest[pivot] < left) break
             val scale = 1 / sqrt(rest[pivot])
-            val column = DoubleArray(count) { covariance(spectrum, distance(it * thin, pivot * thin)) }
-            for (other in columns) {
-                val share = other[pivot]
-                for (i in 0 until count) column[i] -= share * other[i]
-            }
+            val column = DoubleArray(count) { curve.at(distance(it * thin, pivot * thin)) }
+            Combination.add(columns, DoubleArray(columns.size) { -columns[it][pivot] }, column)
             for (i in 0 until count) {
                 column[i] *= scale
                 rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)
@@ -150,6 +148,7 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
 
     private companion object {
         const val FACTOR = 1.3
+        const val FINE = 0.01
         const val THINNED = 1200
 
         /** Part of the variance that may be left anywhere: a thousandth of the water. */
