@@ -4,37 +4,61 @@ package stillwater.diagnose
  * The waves as the sensor shows them, whitened, and their normal equations: all that is needed to integrate the water
  * out.
  *
- * @param shown each wave as the sensor shows it, not whitened; flat-prior columns last. Retained.
- * @param loops how the columns and the halves of the sums are gone through.
- * @property noise what whitens. @property size number of columns.
+ * @property size number of columns. @property noise what whitens. @param loops how the columns and the halves of the
+ *   sums are gone through. @param used is told when the columns are needed. @param shown finds each wave as the sensor
+ *   shows it, not whitened, flat-prior columns last; the same each time.
  */
-internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, private val loops: Loops) {
-    val size: Int = shown.size
-    private val n = shown[0].size
-    private val columns = Array(size) { DoubleArray(n) }.asList()
+internal class BlindDesign(
+    val size: Int,
+    val noise: BlindNoise,
+    private val loops: Loops,
+    private val used: (BlindDesign) -> Unit,
+    private val shown: () -> Array<DoubleArray>,
+) {
+    private val n = noise.spread.size
+    private var known: List<DoubleArray>? = null
+
+    /** The columns of R. */
+    private val columns: List<DoubleArray>
+        get() {
+            used(this)
+            return known ?: whitened().also { known = it }
+        }
+
+    /** Takes the columns out of memory: they are found again when they are needed. */
+    fun forget() {
+        known = null
+    }
+
+    private fun whitened(): List<DoubleArray> {
+        val given = shown()
+        val out = List(size) { DoubleArray(n) }
+        loops.each((size + 1) / 2) { pair ->
+            val k = 2 * pair
+            val other = minOf(k + 1, size - 1)
+            if (k == other) noise.whiten(given[k], out[k])
+            if (k != other) noise.whiten(given[k], out[k], given[other], out[other])
+        }
+        return out
+    }
 
     /** The lower half of RᵀR, row by row. */
     val gram: Array<DoubleArray> = Array(size) { DoubleArray(it + 1) }
 
     init {
-        loops.each((size + 1) / 2) { pair ->
-            val k = 2 * pair
-            val other = minOf(k + 1, size - 1)
-            if (k == other) noise.whiten(shown[k], columns[k])
-            if (k != other) noise.whiten(shown[k], columns[k], shown[other], columns[other])
-        }
+        val columns = columns
         val count = (n + STRETCH - 1) / STRETCH
         val halves = arrayOf(0 until count / 2, count / 2 until count)
         val parts = arrayOf(gram, Array(size) { DoubleArray(it + 1) })
         loops.each(halves.size) { half ->
             val rows = Array(STRETCH) { DoubleArray(size) }
-            for (stretch in halves[half]) add(rows, stretch * STRETCH, parts[half])
+            for (stretch in halves[half]) add(columns, rows, stretch * STRETCH, parts[half])
         }
         for (a in 0 until size) for (b in 0..a) gram[a][b] += parts[1][a][b]
     }
 
     /** Adds the products of the rows that begin at [from], which are put into [rows] first, to [sums]. */
-    private fun add(rows: Array<DoubleArray>, from: Int, sums: Array<DoubleArray>) {
+    private fun add(columns: List<DoubleArray>, rows: Array<DoubleArray>, from: Int, sums: Array<DoubleArray>) {
         val count = minOf(STRETCH, n - from)
         for (k in 0 until size) {
             val column = columns[k]
@@ -55,20 +79,22 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, pri
     }
 
     /** Row [i] of R, length [size]; new. */
-    fun row(i: Int): DoubleArray = DoubleArray(size) { columns[it][i] }
+    fun row(i: Int): DoubleArray = columns.let { all -> DoubleArray(size) { all[it][i] } }
 
     /** Rᵀ [z], length [size]. */
     fun transposed(z: DoubleArray): DoubleArray {
+        val columns = columns
         val out = DoubleArray(size)
         val groups = (size + TOGETHER - 1) / TOGETHER
         loops.each(HALVES) { half ->
-            for (group in half * groups / HALVES until (half + 1) * groups / HALVES) dots(group * TOGETHER, z, out)
+            val own = half * groups / HALVES until (half + 1) * groups / HALVES
+            for (group in own) dots(columns, group * TOGETHER, z, out)
         }
         return out
     }
 
     /** What [z] is with eight columns from [k] on: each sum waits for its own row before alone. */
-    private fun dots(k: Int, z: DoubleArray, out: DoubleArray) {
+    private fun dots(columns: List<DoubleArray>, k: Int, z: DoubleArray, out: DoubleArray) {
         if (k + TOGETHER > size) {
             for (j in k until size) out[j] = dot(columns[j], z)
             return
@@ -112,6 +138,7 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, pri
 
     /** R [beta], length n. */
     fun times(beta: DoubleArray): DoubleArray {
+        val columns = columns
         val out = DoubleArray(n)
         loops.each(HALVES) { half ->
             Combination.add(columns, beta, out, size, half * n / HALVES, (half + 1) * n / HALVES)

@@ -32,13 +32,11 @@ internal class BlindDiagnosis(
         var base = search.best()
         val wave = base.modes.shortest
         if (Passes.share(search.track.x, search.track.y, wave) < LEAST_PASSES) {
+            val near = "%.2g".format(Locale.ROOT, wave / Passes.NEAR)
             return BlindAnswer.none(
                 series,
-                "no pass comes within ${"%.2g".format(
-                    Locale.ROOT,
-                    wave / Passes.NEAR,
-                )} m of another, so that nothing tells " +
-                    "the water's own changes from what the sensor makes of them",
+                "no pass comes within $near m of another, so that nothing tells the water's own changes from what " +
+                    "the sensor makes of them",
             )
         }
         val loose = BlindOutliers(base)
@@ -310,18 +308,11 @@ internal class BlindDiagnosis(
         val rivals = round.causes.filter { it.name !in taken && it.pValue < settings.level }
         // Others have water that changes beside them, where there is such water, and so are no answer in place of it.
         val isBesideChange = own.term?.cause in SLOW && round.changing > settings.separation
-        val others = BlindRivals.alike(
-            own,
-            settings.setProbability,
-            rivals.filter {
-                !isBesideChange ||
-                    it.term?.cause in SLOW
-            },
-        )
-        val cause = checkNotNull(step.trial.term).cause
-        val twin =
-            listOfNotNull(Cause.TIME_VARYING_FIELD.takeIf { BlindRivals.mayBeWaters(checkNotNull(step.trial.term)) })
-        (listOf(cause) + twin + others).distinct()
+        val possible = rivals.filter { !isBesideChange || it.term?.cause in SLOW }
+        val others = BlindRivals.alike(own, settings.setProbability, possible)
+        val term = checkNotNull(step.trial.term)
+        val twin = listOfNotNull(Cause.TIME_VARYING_FIELD.takeIf { BlindRivals.mayBeWaters(term) })
+        (listOf(term.cause) + twin + others).distinct()
     }
 
     /** The model with all that was chosen but the [left]-th. */
@@ -330,14 +321,8 @@ internal class BlindDiagnosis(
         val dropped = chosen[left].trial.name
         val terms = full.model.terms.filter { it.key != dropped }
         val model = ResponseModel(series.withReference(full.water), terms, search.held, search.scales)
-        val numbers = DoubleArray(model.parameters.size)
-        for (k in 0 until ResponseModel.BASE) numbers[k] = full.numbers[k]
-        for (term in terms) {
-            for (k in 0 until model.width(term)) numbers[model.slot(term) + k] = full.numbers[full.model.slot(term) + k]
-        }
-        return search.improved(
-            search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full),
-        )
+        val numbers = model.carried(full.model, full.numbers)
+        return search.improved(search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full))
     }
 
     companion object {

@@ -25,7 +25,7 @@ internal class BlindSearch(
 
     /** Quantities of the log. */
     val scales = Scales(series)
-    private val columns = BlindColumns(series, scales, loops)
+    private val designs = BlindColumns(series, scales, loops)
 
     private val most = (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES)
 
@@ -272,24 +272,24 @@ internal class BlindSearch(
         before: BlindFit?,
     ): BlindState {
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
-        val columns = this.columns.shown(terms, own, modes, held)
+        val columns = designs.shown(terms, own, modes, held)
         var heights = before?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
             variances.takeIf { it.size == modes.bands } ?: modes.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-        var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
+        var model = ResponseModel(series.withReference(designs.along(modes, heights)), terms, held, scales)
         var hidden = RangeEnd.beyond(model, at)
-        var fit = BlindFit(this.columns.designed(columns, hidden, noise), precisions(bands, modes), heights)
+        var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, modes), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
-            model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
+            model = ResponseModel(series.withReference(designs.along(modes, heights)), terms, held, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             if (round < rounds) {
                 bands = WaterVariances.next(fit, residuals(model, at), modes)
                 hidden = RangeEnd.beyond(model, at)
-                fit = BlindFit(this.columns.designed(columns, hidden, noise), precisions(bands, modes), heights)
+                fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, modes), heights)
             }
         }
         val residuals = residuals(model, at)
@@ -305,7 +305,7 @@ internal class BlindSearch(
 
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> =
-        columns.seen(terms, numbers, waters, held)
+        designs.seen(terms, numbers, waters, held)
 
     /** The phase along the track of a wave with [east] and [north] radians per metre, length n. */
     fun phases(east: Double, north: Double) = DoubleArray(n) { east * track.x[it] + north * track.y[it] }

@@ -94,9 +94,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val term = checkNotNull(trial.term)
         val slot = found.model.slot(term)
         val free = search.free(found.model).let { f -> f.indices.filter { f[it] } }
+        val columns = free.associateWith { found.fit.unlike(found.derivative(it)) }
         val (own, others) = free.partition { it in slot until slot + found.model.width(term) }
-        val basis = Evidence.orthonormal(others.map { found.fit.unlike(found.derivative(it)) })
-        val extra = Evidence.orthonormal(own.map { found.fit.unlike(found.derivative(it)) }, basis)
+        val basis = Evidence.orthonormal(others.map(columns::getValue))
+        val extra = Evidence.orthonormal(own.map(columns::getValue), basis)
         val z = found.whitened
         val inflation = BlindEvidence.inflation(extra, z)
         val ratio = maxOf((found.score - score) / inflation - searched, 0.0)
@@ -110,21 +111,19 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val settled =
             BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
         val isNone = (term.cause == Cause.SATURATION && goOn(found)) || isLittle(term, found.numbers[slot])
-        val isReal = !isNone && own.any { isShown(found, free, it, inflation) }
+        val isReal = !isNone && (term.cause == Cause.SATURATION || own.any { isShown(found, columns, it, inflation) })
         return if (isReal) settled else settled.atMost(0.0)
     }
 
     /**
      * Whether the log bounds number [i] of [found], away from where it does nothing: what is likelier with a number
-     * that may as well be nothing, or anything, is no cause that could be named. [free] are the numbers that are
-     * fitted.
+     * that may as well be nothing, or anything, is no cause that could be named. [columns] are what is unlike water of
+     * each number that is fitted.
      */
-    private fun isShown(found: BlindState, free: List<Int>, i: Int, inflation: Double): Boolean {
+    private fun isShown(found: BlindState, columns: Map<Int, DoubleArray>, i: Int, inflation: Double): Boolean {
         val parameter = found.model.parameters[i]
-        if (found.model.terms.any { it.cause == Cause.SATURATION && i in range(found.model, it) }) return true
-        val columns = free.map { found.fit.unlike(found.derivative(it)) }.toTypedArray()
-        val system = SymmetricSystem.of(columns, found.whitened)
-        val variance = system.inverseDiagonal(free.indexOf(i)) * found.variance * inflation
+        val system = SymmetricSystem.of(columns.values.toTypedArray(), found.whitened)
+        val variance = system.inverseDiagonal(columns.keys.indexOf(i)) * found.variance * inflation
         val reach = BlindAnswer.REACH * sqrt(maxOf(variance, 0.0))
         if (parameter.logarithmic) return reach < MOST_REACH
         return !parameter.neutral.isFinite() || abs(found.numbers[i] - parameter.neutral) > reach
@@ -137,12 +136,12 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         else -> false
     }
 
-    private fun range(model: ResponseModel, term: Term) = model.slot(term) until model.slot(term) + model.width(term)
-
     /** Whether readings go on beyond the ends of the range that [found] has, more than noise takes them. */
     private fun goOn(found: BlindState): Boolean {
         val term = found.model.terms.first { it.cause == Cause.SATURATION }
-        val (lower, upper) = range(found.model, term).map { found.numbers[it] }
+        val slot = found.model.slot(term)
+        val lower = found.numbers[slot]
+        val upper = found.numbers[slot + 1]
         val far = BEYOND_NOISE * sqrt(found.variance) + scales.resolution
         val beyond = series.values.indices.count {
             search.used[it] && (series.values[it] < lower - far || series.values[it] > upper + far)
@@ -174,14 +173,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private fun added(term: Term, found: BlindState): DoubleArray {
         val kept = found.model.terms.filter { it.key != term.key }
         val model = ResponseModel(found.model.series, kept, search.held, scales)
-        val numbers = DoubleArray(model.parameters.size)
-        for (k in 0 until ResponseModel.BASE) numbers[k] = found.numbers[k]
-        for (other in kept) {
-            val from = found.model.slot(other)
-            for (k in 0 until model.width(other)) numbers[model.slot(other) + k] = found.numbers[from + k]
-        }
         val out = DoubleArray(n)
-        model.predict(numbers, out)
+        model.predict(model.carried(found.model, found.numbers), out)
         // What the model with it shows = reading − residual.
         for (i in 0 until n) out[i] = series.values[i] - found.residuals[i] - out[i]
         return out

@@ -139,6 +139,10 @@ internal class CorrelatedNoise(
         }
     }
 
+    /** Whether [other], of the same log, whitens in the same way. */
+    fun isSame(other: CorrelatedNoise): Boolean =
+        share == other.share && time == other.time && shocks === other.shocks && used.contentEquals(other.used)
+
     /** The same noise where [rows] alone are in use. */
     fun over(times: DoubleArray, rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks)
 

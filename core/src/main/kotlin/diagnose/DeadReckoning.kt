@@ -15,27 +15,28 @@ import kotlin.math.sin
 internal class DeadReckoning private constructor(val x: DoubleArray, val y: DoubleArray) {
     companion object {
         private const val ROWS = 10
-        private const val FEWEST = 60
+        private const val FEWEST = 50
 
         /** The way of [series], whose fixes are [x] and [y]; null where it has no speed and heading for all rows. */
         fun of(series: MeasuredSeries, x: DoubleArray, y: DoubleArray): DeadReckoning? {
             val speed = series.conditions[Conditions.SPEED] ?: return null
             val heading = series.conditions[Conditions.HEADING] ?: return null
             val n = series.size
-            if (n < FEWEST || !speed.all { it.isFinite() } || !heading.all { it.isFinite() }) return null
+            if (!speed.all { it.isFinite() } || !heading.all { it.isFinite() }) return null
             val ways = arrayOf(
                 summed(series) { speed[it] * cos(heading[it]) },
                 summed(series) { speed[it] * sin(heading[it]) },
                 DoubleArray(n) { series.times[it] - series.times[0] },
             )
-            val steps = Array(ways.size) { k -> DoubleArray(n - ROWS) { ways[k][it + ROWS] - ways[k][it] } }
+            // What the boat did over a gap is in no column.
+            val from = (0 until n - ROWS).filter { i ->
+                (i until i + ROWS).none { series.times[it + 1] - series.times[it] > series.gap }
+            }
+            if (from.size < FEWEST) return null
+            fun steps(column: DoubleArray) = DoubleArray(from.size) { column[from[it] + ROWS] - column[from[it]] }
+            val steps = Array(ways.size) { steps(ways[it]) }
             fun along(fixes: DoubleArray): DoubleArray {
-                val shares = SymmetricSystem.of(
-                    steps,
-                    DoubleArray(n - ROWS) {
-                        fixes[it + ROWS] - fixes[it]
-                    },
-                ).solve(0.0)
+                val shares = SymmetricSystem.of(steps, steps(fixes)).solve(0.0)
                 return DoubleArray(n) { i -> ways.indices.sumOf { shares[it] * ways[it][i] } }
             }
             return DeadReckoning(along(x), along(y)).takeIf { way -> (way.x + way.y).all { it.isFinite() } }

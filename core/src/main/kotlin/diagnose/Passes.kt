@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.floor
 import kotlin.math.hypot
 
@@ -22,7 +23,7 @@ internal object Passes {
         for (i in x.indices) cells.getOrPut(cell(x[i]) to cell(y[i])) { ArrayList() } += i
 
         fun isNear(i: Int, k: Int) =
-            kotlin.math.abs(way[i] - way[k]) > APART * wave && hypot(x[i] - x[k], y[i] - y[k]) < reach
+            abs(way[i] - way[k]) > APART * wave && hypot(x[i] - x[k], y[i] - y[k]) < reach
         val near = x.indices.count { i ->
             val column = cell(x[i])
             val row = cell(y[i])

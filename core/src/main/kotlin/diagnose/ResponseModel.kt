@@ -46,6 +46,18 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
 
     private fun slot(cause: Cause) = layout.slots.getValue(cause.label)
 
+    /** Numbers for this model: those that [other] has, with the values [from]; the rest as they do nothing. */
+    fun carried(other: ResponseModel, from: DoubleArray): DoubleArray {
+        val numbers = DoubleArray(parameters.size) { i -> parameters[i].neutral.takeIf { it.isFinite() } ?: 0.0 }
+        for (i in 0 until BASE) numbers[i] = from[i]
+        for (term in other.terms) {
+            val to = slotOrNull(term) ?: continue
+            val start = other.slotOrNull(term) ?: continue
+            for (k in 0 until minOf(other.width(term), width(term))) numbers[to + k] = from[start + k]
+        }
+        return numbers
+    }
+
     /** The truth between the rows. */
     private fun truthCurve(): Spline {
         if (!isFitted) truthSpline.fit(truth)

@@ -87,21 +87,7 @@ internal class Starts(
     }
 
     /** The numbers fitted so far, in the places they have in [model]; new ones neutral. */
-    private fun extended(): DoubleArray {
-        val numbers = DoubleArray(model.parameters.size) { i ->
-            model.parameters[i].neutral.takeIf { it.isFinite() } ?: 0.0
-        }
-        for (i in 0 until ResponseModel.BASE) numbers[i] = fit.numbers[i]
-        for (old in fit.model.terms) {
-            val from = fit.model.slotOrNull(old) ?: continue
-            val to = model.slotOrNull(old) ?: continue
-            for (k in 0 until fit.model.width(old).coerceAtMost(model.width(old))) {
-                numbers[to + k] =
-                    fit.numbers[from + k]
-            }
-        }
-        return numbers
-    }
+    private fun extended(): DoubleArray = model.carried(fit.model, fit.numbers)
 
     private fun with(vararg values: Double): DoubleArray = extended().also { numbers ->
         val at = model.slot(term)

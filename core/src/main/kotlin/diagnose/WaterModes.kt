@@ -12,11 +12,8 @@ import kotlin.math.sqrt
  * What stays are rings of plane waves ([WaterRings]), each of a variance of its own, which the log tells: so no
  * smoothness is assumed, and a lag that weakens short waves is not told by that. Where the track is a line, they are
  * Gaussian processes of several lengths. Those that change have the covariance exp(-d²/2ℓ² - Δt²/2T²). Rows of one
- * process are F β with β of one variance and F a pivoted Cholesky factor, which has as many columns as the track needs,
+ * process are F β with β of one variance and F a [PivotedCholesky] factor, which has as many columns as the track needs,
  * wherever it goes.
- *
- * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
- * doi:10.1016/j.apnum.2011.10.001.
  *
  * @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
  *   ring over the noise's, or over each other's where nothing is known. @param left variance, in the same measure, that
@@ -121,7 +118,7 @@ internal class WaterModes private constructor(
     private fun shortest(columns: Int): Double {
         var low = SHORTEST * maxOf(step, 1e-9 * extent)
         var high = maxOf(extent / 2, 2 * low)
-        val thin = maxOf(1, n / THINNED)
+        val thin = maxOf(1, n / PivotedCholesky.THINNED)
         if (factor(low, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns) return low
         repeat(HALVINGS) {
             val middle = sqrt(low * high)
@@ -156,28 +153,9 @@ internal class WaterModes private constructor(
     val columns: Array<DoubleArray> = found.toTypedArray()
 
     /** The first columns of the pivoted Cholesky factor of the process with [length], m, and [time], s. */
-    private fun factor(length: Double, time: Double, most: Int, thin: Int = 1): List<DoubleArray> {
-        val count = (n + thin - 1) / thin
-        val columns = ArrayList<DoubleArray>()
-        val left = DoubleArray(count) { 1.0 }
-        while (columns.size < most) {
-            val pivot = left.indices.maxBy { left[it] }
-            if (left[pivot] < ENOUGH) break
-            val scale = 1 / sqrt(left[pivot])
-            val column = DoubleArray(count) { alike(it * thin, pivot * thin, length, time) }
-            for (other in columns) {
-                val share = other[pivot]
-                if (share != 0.0) for (i in 0 until count) column[i] -= share * other[i]
-            }
-            for (i in 0 until count) {
-                column[i] *= scale
-                left[i] = maxOf(left[i] - column[i] * column[i], 0.0)
-            }
-            left[pivot] = 0.0
-            columns += column
-        }
-        return columns
-    }
+    private fun factor(length: Double, time: Double, most: Int, thin: Int = 1): List<DoubleArray> =
+        PivotedCholesky.of((n + thin - 1) / thin, 1.0, ENOUGH, most) { a, b -> alike(a * thin, b * thin, length, time) }
+            .columns
 
     private fun alike(a: Int, b: Int, length: Double, time: Double): Double {
         val dx = (track.x[a] - track.x[b]) / length
@@ -241,13 +219,12 @@ internal class WaterModes private constructor(
             val room = most - 1 - TIMES.size * SHARES.size * (MOVING * most / (TIMES.size * SHARES.size)).toInt()
             val coarsest = rings.coarsest(room)
             val spectrum = DoubleArray(rings.size) { if (it < coarsest) 1.0 else 0.0 }
-            return WaterModes(series, track, most, rings, spectrum, LEFT * coarsest, null)
+            return WaterModes(series, track, most, rings, spectrum, PivotedCholesky.LEFT * coarsest, null)
         }
 
         private const val FIRST_RATIO = 1e4
 
-        /** Part of the water's variance that may be left anywhere, and of the noise's where that is known. */
-        private const val LEFT = 1e-6
+        /** Part of the noise's variance that may be left anywhere, where that is known. */
         private const val UNSEEN = 1e-3
         private const val LEAST_SHARE = 1e-8
         private const val FINEST = 0.75
@@ -266,7 +243,6 @@ internal class WaterModes private constructor(
         private const val MOVING = 0.15
         private const val LINE = 1e-3
         private const val LINE_MOVING = 0.6
-        private const val THINNED = 1200
         private const val HALVINGS = 6
         private val TIMES = doubleArrayOf(2.0, 8.0).toList()
         private val SHARES = doubleArrayOf(1.5, 5.0).toList()

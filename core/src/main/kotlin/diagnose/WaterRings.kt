@@ -12,14 +12,13 @@ import kotlin.math.sqrt
  * its own.
  *
  * Waves whose numbers fill a disc of radius k have the covariance 2 J₁(kd)/(kd) between places d apart; a ring is the
- * difference of two discs. Of the sum of all rings a pivoted Cholesky factor along the track has as many columns as can
+ * difference of two discs. Of the sum of all rings a [PivotedCholesky] factor along the track has as many columns as can
  * be told apart, whatever way the track goes: about A k²/4π where it fills an area A, L k/π where it is a line of the
  * length L. The factor is turned so that its columns are in the order of the lengths of their waves; the prior stays of
  * unit variance and uncorrelated.
  *
- * Sources: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
- * doi:10.1016/j.apnum.2011.10.001; Slepian 1983, Some comments on Fourier analysis, uncertainty and modeling,
- * doi:10.1137/1025078, for how many columns that takes.
+ * Source: Slepian 1983, Some comments on Fourier analysis, uncertainty and modeling, doi:10.1137/1025078, for how many
+ * columns that takes.
  *
  * @param x metres east. @param y metres north. @param least the shortest length allowed, m.
  */
@@ -45,17 +44,15 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
     fun coarsest(most: Int): Int {
         var low = 1
         var high = size
-        val thin = maxOf(1, n / THINNED)
+        val thin = maxOf(1, n / PivotedCholesky.THINNED)
         while (low < high) {
             val middle = (low + high + 1) / 2
             val flat = DoubleArray(size) { if (it < middle) 1.0 else 0.0 }
-            if (factor(flat, LEFT * middle, most + 1, thin).columns.size > most) high = middle - 1 else low = middle
+            val factor = factor(flat, PivotedCholesky.LEFT * middle, most + 1, thin)
+            if (factor.columns.size > most) high = middle - 1 else low = middle
         }
         return low
     }
-
-    /** A factor's columns, each along the track, and the rows at which each was the one that told most. */
-    private class Factor(val columns: List<DoubleArray>, val pivots: List<Int>)
 
     /**
      * Columns along the track and the ring of each, the longest waves first.
@@ -78,13 +75,14 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         for (a in 0 until r) solved(lower, order[a]).copyInto(order[a])
         for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a]
         val turned = EigenDecompositionSymmetric(MatrixUtils.createRealMatrix(order), 1e-12, false)
-        return (0 until r).map { k ->
-            val ring = turned.getEigenvalue(k).roundToInt().coerceIn(0, size - 1)
-            val heights = turned.getEigenvector(k)
-            val out = DoubleArray(n)
-            Combination.add(factor.columns, heights.toArray(), out)
-            ring to out
-        }.sortedBy { it.first }
+        val rings = List(r) { turned.getEigenvalue(it).roundToInt().coerceIn(0, size - 1) }
+        val heights = List(r) { turned.getEigenvector(it).toArray() }
+        val out = List(r) { DoubleArray(n) }
+        // So many rows of all columns stay in the processor's cache.
+        for (from in 0 until n step AT_ONCE) {
+            for (k in 0 until r) Combination.add(factor.columns, heights[k], out[k], r, from, minOf(from + AT_ONCE, n))
+        }
+        return rings.zip(out).sortedBy { it.first }
     }
 
     private fun ring(ring: Int, d: Double, spectrum: DoubleArray): Double {
@@ -111,28 +109,13 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
 
     private fun distance(a: Int, b: Int) = sqrt((x[a] - x[b]) * (x[a] - x[b]) + (y[a] - y[b]) * (y[a] - y[b]))
 
-    private fun factor(spectrum: DoubleArray, left: Double, most: Int, thin: Int): Factor {
-        val count = (n + thin - 1) / thin
-        val columns = ArrayList<DoubleArray>()
-        val pivots = ArrayList<Int>()
-        val rest = DoubleArray(count) { spectrum.sum() }
+    private fun factor(spectrum: DoubleArray, left: Double, most: Int, thin: Int): PivotedCholesky {
+        val variance = spectrum.sum()
         val curve = DistanceCurve(step) { covariance(spectrum, it) }
-        while (columns.size < most) {
-            var pivot = 0
-            for (i in 1 until count) if (rest[i] > rest[pivot]) pivot = i
-            if (columns.isNotEmpty() && rest[pivot] < left) break
-            val scale = 1 / sqrt(rest[pivot])
-            val column = DoubleArray(count) { curve.at(distance(it * thin, pivot * thin)) }
-            Combination.add(columns, DoubleArray(columns.size) { -columns[it][pivot] }, column)
-            for (i in 0 until count) {
-                column[i] *= scale
-                rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)
-            }
-            rest[pivot] = 0.0
-            columns += column
-            pivots += pivot
+        // The first column is there however little may be left.
+        return PivotedCholesky.of((n + thin - 1) / thin, variance, minOf(left, variance), most) { a, b ->
+            curve.at(distance(a * thin, b * thin))
         }
-        return Factor(columns, pivots)
     }
 
     private fun solved(lower: Array<DoubleArray>, column: DoubleArray): DoubleArray {
@@ -149,9 +132,6 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
     private companion object {
         const val FACTOR = 1.3
         const val FINE = 0.01
-        const val THINNED = 1200
-
-        /** Part of the variance that may be left anywhere: a thousandth of the water. */
-        const val LEFT = 1e-6
+        const val AT_ONCE = 128
     }
 }

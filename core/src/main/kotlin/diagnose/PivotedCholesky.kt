@@ -1,0 +1,52 @@
+package stillwater.diagnose
+
+import kotlin.math.sqrt
+
+/**
+ * The first columns of the pivoted Cholesky factor of a covariance between rows.
+ *
+ * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
+ * doi:10.1016/j.apnum.2011.10.001.
+ *
+ * @property columns each along the rows. @property pivots the row that told most when each was added.
+ */
+internal class PivotedCholesky private constructor(val columns: List<DoubleArray>, val pivots: List<Int>) {
+    /** What two rows have in common. */
+    fun interface Covariance {
+        /** Between rows [a] and [b]. */
+        fun of(a: Int, b: Int): Double
+    }
+
+    companion object {
+        /** Part of a variance that may be left anywhere. */
+        const val LEFT = 1e-6
+
+        /** So many rows tell how many columns all of them take. */
+        const val THINNED = 1200
+
+        /**
+         * As many columns as leave less than [left] of the [variance] of any of [count] rows; [most] at most.
+         */
+        fun of(count: Int, variance: Double, left: Double, most: Int, covariance: Covariance): PivotedCholesky {
+            val columns = ArrayList<DoubleArray>()
+            val pivots = ArrayList<Int>()
+            val rest = DoubleArray(count) { variance }
+            while (columns.size < most) {
+                var pivot = 0
+                for (i in 1 until count) if (rest[i] > rest[pivot]) pivot = i
+                if (rest[pivot] < left) break
+                val scale = 1 / sqrt(rest[pivot])
+                val column = DoubleArray(count) { covariance.of(it, pivot) }
+                Combination.add(columns, DoubleArray(columns.size) { -columns[it][pivot] }, column)
+                for (i in 0 until count) {
+                    column[i] *= scale
+                    rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)
+                }
+                rest[pivot] = 0.0
+                columns += column
+                pivots += pivot
+            }
+            return PivotedCholesky(columns, pivots)
+        }
+    }
+}
