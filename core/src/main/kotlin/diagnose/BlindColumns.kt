@@ -24,10 +24,13 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
         fun columns(): Array<DoubleArray> {
             shownLast?.let { (last, columns) -> if (last.isSame(this)) return columns }
-            shownLast = null
+            // Nobody keeps what is shown: its place is taken by the next.
+            val space = shownLast?.second?.takeIf { it.size == size } ?: Array(size) { DoubleArray(n) }
             val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
-            val fading = DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / timeConstant) }
-            return (shown(terms, numbers, modes.columns, held) + fading).also { shownLast = this to it }
+            response(terms, numbers, modes.columns, held).of(modes.columns, loops, space)
+            for (i in 0 until n) space[size - 1][i] = exp(-(series.times[i] - series.times[0]) / timeConstant)
+            shownLast = this to space
+            return space
         }
 
         fun isSame(other: Shown): Boolean =
@@ -70,11 +73,13 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     /** The designs whose columns are in memory, the newest last. */
     private val inMemory = ArrayList<BlindDesign>()
 
-    private fun use(design: BlindDesign) {
-        if (inMemory.lastOrNull() === design) return
+    /** Says that [design] is in use, and returns the space of one that is not any more. */
+    private fun use(design: BlindDesign): List<DoubleArray>? {
+        if (inMemory.lastOrNull() === design) return null
         inMemory -= design
         inMemory += design
-        if (inMemory.size > IN_MEMORY) inMemory.removeAt(0).forget()
+        if (inMemory.size <= IN_MEMORY) return null
+        return inMemory.removeAt(0).forget()?.takeIf { it.size == design.size }
     }
 
     /** The water of [modes] with [heights] along the track. */
@@ -90,12 +95,13 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, held: Boolean): Array<DoubleArray> {
         val (linear, own) = linear(terms, numbers)
-        return shown(linear, own, waters, held)
+        val out = Array(waters.size) { DoubleArray(n) }
+        response(linear, own, waters, held).of(waters, loops, out)
+        return out
     }
 
-    private fun shown(linear: List<Term>, numbers: List<Double>, waters: Array<DoubleArray>, held: Boolean) =
+    private fun response(linear: List<Term>, numbers: List<Double>, waters: Array<DoubleArray>, held: Boolean) =
         ResponseModel(series.withReference(waters[0]), linear, held, scales).linear(numbers.toDoubleArray())
-            .of(waters, loops)
 
     /** Those of [terms] that are linear in the water, and what of [numbers] tells what the sensor shows of it. */
     private fun linear(terms: List<Term>, numbers: DoubleArray): Pair<List<Term>, List<Double>> {

@@ -5,14 +5,15 @@ package stillwater.diagnose
  * out.
  *
  * @property size number of columns. @property noise what whitens. @param loops how the columns and the halves of the
- *   sums are gone through. @param used is told when the columns are needed. @param shown finds each wave as the sensor
+ *   sums are gone through. @param used is told when the columns are needed, and returns space for them if there
+ *   is some. @param shown finds each wave as the sensor
  *   shows it, not whitened, flat-prior columns last; the same each time.
  */
 internal class BlindDesign(
     val size: Int,
     val noise: BlindNoise,
     private val loops: Loops,
-    private val used: (BlindDesign) -> Unit,
+    private val used: (BlindDesign) -> List<DoubleArray>?,
     private val shown: () -> Array<DoubleArray>,
 ) {
     private val n = noise.spread.size
@@ -21,18 +22,15 @@ internal class BlindDesign(
     /** The columns of R. */
     private val columns: List<DoubleArray>
         get() {
-            used(this)
-            return known ?: whitened().also { known = it }
+            val space = used(this)
+            return known ?: whitened(space ?: List(size) { DoubleArray(n) }).also { known = it }
         }
 
-    /** Takes the columns out of memory: they are found again when they are needed. */
-    fun forget() {
-        known = null
-    }
+    /** Takes the columns out of memory, which is returned: they are found again when they are needed. */
+    fun forget(): List<DoubleArray>? = known.also { known = null }
 
-    private fun whitened(): List<DoubleArray> {
+    private fun whitened(out: List<DoubleArray>): List<DoubleArray> {
         val given = shown()
-        val out = List(size) { DoubleArray(n) }
         loops.each((size + 1) / 2) { pair ->
             val k = 2 * pair
             val other = minOf(k + 1, size - 1)

@@ -25,11 +25,11 @@ internal class LinearResponse(
         val bends = Array(AT_ONCE) { DoubleArray(spline.size) }
         val late = Array(AT_ONCE) { DoubleArray(spline.size) }
         val other = Array(AT_ONCE) { DoubleArray(spline.size) }
+        val spare = DoubleArray(spline.size)
     }
 
-    /** What is shown of each of [truths], length n; not modified. New. */
-    fun of(truths: Array<DoubleArray>, loops: Loops): Array<DoubleArray> {
-        val shown = Array(truths.size) { DoubleArray(spline.size) }
+    /** Writes what is shown of each of [truths], length n, into the first of [shown]. */
+    fun of(truths: Array<DoubleArray>, loops: Loops, shown: Array<DoubleArray>) {
         val groups = (truths.size + AT_ONCE - 1) / AT_ONCE
         loops.each(PARTS) { part ->
             val work = Work()
@@ -37,10 +37,9 @@ internal class LinearResponse(
                 val from = group * AT_ONCE
                 // Where columns are no multiple of four the last is done more than once, for nobody.
                 val own = Array(AT_ONCE) { truths[minOf(from + it, truths.size - 1)] }
-                show(own, Array(AT_ONCE) { shown.getOrNull(from + it) ?: DoubleArray(spline.size) }, work)
+                show(own, Array(AT_ONCE) { if (from + it < truths.size) shown[from + it] else work.spare }, work)
             }
         }
-        return shown
     }
 
     private fun show(truths: Array<DoubleArray>, out: Array<DoubleArray>, work: Work) {

@@ -39,7 +39,8 @@ class LinearResponseTest {
 
     private fun check(terms: List<Term>, p: DoubleArray, held: Boolean) {
         fun model(water: DoubleArray) = ResponseModel(series.withReference(water), terms, held, scales)
-        val shown = model(waters[0]).linear(p).of(waters, Loops.IN_TURN)
+        val shown = Array(waters.size) { DoubleArray(60) }
+        model(waters[0]).linear(p).of(waters, Loops.IN_TURN, shown)
         for ((k, water) in waters.withIndex()) {
             val one = DoubleArray(60).also { model(water).predict(p, it) }
             // A lag of twenty rows or some forty, where the boat is slow, cancels its cube, 1e5, in each step.
