@@ -4,7 +4,7 @@ package stillwater.diagnose
  * The waves as the sensor shows them, whitened, and their normal equations: all that is needed to integrate the water
  * out.
  *
- * @property size number of columns. @property noise what whitens. @param loops how the columns and the halves of the
+ * @property size number of columns. @property noise what whitens. @property loops how the columns and the halves of the
  *   sums are gone through. @param used is told when the columns are needed, and returns space for them if there
  *   is some. @param shown finds each wave as the sensor
  *   shows it, not whitened, flat-prior columns last; the same each time.
@@ -12,7 +12,7 @@ package stillwater.diagnose
 internal class BlindDesign(
     val size: Int,
     val noise: BlindNoise,
-    private val loops: Loops,
+    val loops: Loops,
     private val used: (BlindDesign) -> List<DoubleArray>?,
     private val shown: () -> Array<DoubleArray>,
 ) {
@@ -79,8 +79,19 @@ internal class BlindDesign(
     /** Row [i] of R, length [size]; new. */
     fun row(i: Int): DoubleArray = columns.let { all -> DoubleArray(size) { all[it][i] } }
 
-    /** Rᵀ [z], length [size]. */
+    private var lastRight = DoubleArray(0)
+    private var lastTransposed = DoubleArray(0)
+
+    /** Rᵀ [z], length [size]; new. Of what was asked for last it is known: often the same residuals come again. */
     fun transposed(z: DoubleArray): DoubleArray {
+        if (!z.contentEquals(lastRight)) {
+            lastTransposed = products(z)
+            lastRight = z.copyOf()
+        }
+        return lastTransposed.copyOf()
+    }
+
+    private fun products(z: DoubleArray): DoubleArray {
         val columns = columns
         val out = DoubleArray(size)
         val groups = (size + TOGETHER - 1) / TOGETHER

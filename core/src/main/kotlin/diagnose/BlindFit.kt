@@ -63,7 +63,7 @@ internal class BlindFit private constructor(
     fun at(heights: DoubleArray) = BlindFit(design, precisions, heights, factor)
 
     /** Diagonal of the posterior's covariance over the noise's variance. */
-    fun spreads(): DoubleArray = factor.inverseDiagonal()
+    fun spreads(): DoubleArray = factor.inverseDiagonal(design.loops)
 
     /** Rᵀ of the whitened residuals [z] less what the prior wants. */
     private fun pull(z: DoubleArray): DoubleArray {

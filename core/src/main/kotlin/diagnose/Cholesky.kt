@@ -98,32 +98,39 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
         return out
     }
 
-    /** The diagonal of the inverse of what was factorised. */
-    fun inverseDiagonal(): DoubleArray {
-        // Rows with zeros behind them, so that four can be added together.
+    /** The diagonal of the inverse of what was factorised, in parts that [loops] goes through. */
+    fun inverseDiagonal(loops: Loops = Loops.IN_TURN): DoubleArray {
+        // Rows of L⁻¹ with zeros behind them, so that four can be added together.
         val inverse = Array(n) { DoubleArray(it + AT_ONCE) }
         val out = DoubleArray(n)
-        for (i in 0 until n) {
+        // Columns depend on none but themselves; the first are the longest.
+        val split = n / 5
+        loops.each(2) { half -> if (half == 0) invert(inverse, 0, split, out) else invert(inverse, split, n, out) }
+        return out
+    }
+
+    /** Columns [first] until [end] of L⁻¹ into [inverse], row by row, and their square sums into [out]. */
+    private fun invert(inverse: Array<DoubleArray>, first: Int, end: Int, out: DoubleArray) {
+        for (i in first until n) {
             val own = inverse[i]
             val row = lower[i]
-            var k = 0
+            var k = first
             while (k + AT_ONCE <= i) {
                 Combination.four(
-                    own, 0, k + AT_ONCE, -row[k], inverse[k], -row[k + 1], inverse[k + 1],
+                    own, first, minOf(k + AT_ONCE, end), -row[k], inverse[k], -row[k + 1], inverse[k + 1],
                     -row[k + 2], inverse[k + 2], -row[k + 3], inverse[k + 3],
                 )
                 k += AT_ONCE
             }
             while (k < i) {
-                subtract(own, row[k], inverse[k], 0, k + 1)
+                subtract(own, row[k], inverse[k], first, minOf(k + 1, end))
                 k++
             }
-            val pivot = row[i]
-            for (j in 0 until i) own[j] /= pivot
-            own[i] = 1 / pivot
-            for (j in 0..i) out[j] += own[j] * own[j]
+            val last = minOf(i, end)
+            for (j in first until last) own[j] /= row[i]
+            if (i < end) own[i] = 1 / row[i]
+            for (j in first until minOf(i + 1, end)) out[j] += own[j] * own[j]
         }
-        return out
     }
 
     private fun subtract(from: DoubleArray, times: Double, what: DoubleArray, start: Int, end: Int) {

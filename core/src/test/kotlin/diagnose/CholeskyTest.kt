@@ -9,7 +9,7 @@ class CholeskyTest {
     fun aFactorTimesItselfIsWhatWasFactorised() {
         // Sizes that are and are not a multiple of the rows done at once.
         for (n in listOf(1, 3, 4, 9, 16)) {
-            val matrix = Array(n) { i -> DoubleArray(n) { j -> sin(i * j + 1.0) / 9 + if (i == j) n.toDouble() else 0.0 } }
+            val matrix = Array(n) { i -> DoubleArray(n) { sin(i * it + 1.0) / 9 + if (it == i) n.toDouble() else 0.0 } }
             for (i in 0 until n) for (j in 0 until i) matrix[j][i] = matrix[i][j]
             val factor = Cholesky(Array(n) { matrix[it].copyOf() })
             val right = DoubleArray(n) { it - 1.5 }
