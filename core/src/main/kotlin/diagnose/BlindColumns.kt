@@ -78,7 +78,8 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         if (inMemory.lastOrNull() === design) return null
         inMemory -= design
         inMemory += design
-        if (inMemory.size <= IN_MEMORY) return null
+        val most = (MOST_NUMBERS / (n.toLong() * design.size)).coerceIn(2, IN_MEMORY)
+        if (inMemory.size <= most) return null
         return inMemory.removeAt(0).forget()?.takeIf { it.size == design.size }
     }
 
@@ -118,7 +119,10 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         const val KEPT = 8
 
         /** Designs whose columns are in memory: two models that are compared, and what is tried on top of them. */
-        const val IN_MEMORY = 4
+        const val IN_MEMORY = 4L
+
+        /** Numbers in their columns, where more than two of them have so many: a hundred megabytes. */
+        const val MOST_NUMBERS = 13_000_000L
 
         /** Parts of the work that may be done at the same time. */
         const val HALVES = 2
