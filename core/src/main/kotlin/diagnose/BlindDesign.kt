@@ -5,9 +5,9 @@ package stillwater.diagnose
  * out.
  *
  * @property size number of columns. @property noise what whitens. @property loops how the columns and the halves of the
- *   sums are gone through. @param used is told when the columns are needed, and returns space for them if there
- *   is some. @param shown finds each wave as the sensor
- *   shows it, not whitened, flat-prior columns last; the same each time.
+ *   sums are gone through. @param used is told when the columns are needed, and returns space for them where there is
+ *   some. @param shown finds each wave as the sensor shows it, not whitened, flat-prior columns last; the same each
+ *   time.
  */
 internal class BlindDesign(
     val size: Int,
@@ -68,11 +68,8 @@ internal class BlindDesign(
             val second = rows[i + 1]
             val third = rows[i + 2]
             val fourth = rows[i + 3]
-            for (a in 0 until size) {
-                Combination.four(
-                    sums[a], 0, a + 1, first[a], first, second[a], second, third[a], third, fourth[a], fourth,
-                )
-            }
+            val four = FourColumns(first, second, third, fourth)
+            for (a in 0 until size) four.add(sums[a], 0, a + 1, first[a], second[a], third[a], fourth[a])
         }
     }
 

@@ -22,9 +22,8 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
             for (c in 0 until count) sum += 2 * ln(column(j + c, columns, c))
             for (c in count until AT_ONCE) columns[c].fill(0.0)
             val (p, q, r, s) = columns
-            for (i in j + AT_ONCE until n) {
-                Combination.four(lower[i], j + AT_ONCE, i + 1, -p[i], p, -q[i], q, -r[i], r, -s[i], s)
-            }
+            val four = FourColumns(p, q, r, s)
+            for (i in j + AT_ONCE until n) four.add(lower[i], j + AT_ONCE, i + 1, -p[i], -q[i], -r[i], -s[i])
         }
         logDeterminant = sum
     }
@@ -116,10 +115,8 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
             val row = lower[i]
             var k = first
             while (k + AT_ONCE <= i) {
-                Combination.four(
-                    own, first, minOf(k + AT_ONCE, end), -row[k], inverse[k], -row[k + 1], inverse[k + 1],
-                    -row[k + 2], inverse[k + 2], -row[k + 3], inverse[k + 3],
-                )
+                FourColumns(inverse[k], inverse[k + 1], inverse[k + 2], inverse[k + 3])
+                    .add(own, first, minOf(k + AT_ONCE, end), -row[k], -row[k + 1], -row[k + 2], -row[k + 3])
                 k += AT_ONCE
             }
             while (k < i) {

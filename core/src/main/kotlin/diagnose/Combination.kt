@@ -21,10 +21,8 @@ internal object Combination {
             val last = minOf(first + STRETCH, to)
             for (k in 0 until count step 4) {
                 if (k + 3 < count) {
-                    four(
-                        out, first, last, heights[k], columns[k], heights[k + 1], columns[k + 1],
-                        heights[k + 2], columns[k + 2], heights[k + 3], columns[k + 3],
-                    )
+                    val four = FourColumns(columns[k], columns[k + 1], columns[k + 2], columns[k + 3])
+                    four.add(out, first, last, heights[k], heights[k + 1], heights[k + 2], heights[k + 3])
                 } else {
                     for (j in k until count) one(out, first, last, heights[j], columns[j])
                 }
@@ -36,24 +34,21 @@ internal object Combination {
     private fun one(out: DoubleArray, from: Int, to: Int, height: Double, column: DoubleArray) {
         for (i in from until to) out[i] += height * column[i]
     }
+}
 
-    /**
-     * Adds [w] [a] + [x] [b] + [y] [c] + [z] [d] to the rows [from] until [to] of [out]. The compiler does several of
-     * them in one step where each column is a parameter of its own.
-     */
-    fun four(
-        out: DoubleArray,
-        from: Int,
-        to: Int,
-        w: Double,
-        a: DoubleArray,
-        x: Double,
-        b: DoubleArray,
-        y: Double,
-        c: DoubleArray,
-        z: Double,
-        d: DoubleArray,
-    ) {
+/** Four columns of which sums are made; each must be a name of its own for the compiler to do several rows in one step. */
+internal class FourColumns(
+    private val one: DoubleArray,
+    private val two: DoubleArray,
+    private val three: DoubleArray,
+    private val four: DoubleArray,
+) {
+    /** Adds the columns, times [w], [x], [y] and [z], to the rows [from] until [to] of [out]. */
+    fun add(out: DoubleArray, from: Int, to: Int, w: Double, x: Double, y: Double, z: Double) {
+        val a = one
+        val b = two
+        val c = three
+        val d = four
         for (i in from until to) out[i] += w * a[i] + x * b[i] + y * c[i] + z * d[i]
     }
 }
