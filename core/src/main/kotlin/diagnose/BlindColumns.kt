@@ -3,73 +3,128 @@ package stillwater.diagnose
 import kotlin.math.exp
 
 /**
- * Waters along the track as a sensor shows them, whitened; what was asked for last is kept.
+ * Waters along the track as a sensor shows them, whitened. The designs asked for last are kept, and the columns of
+ * the newest of them are in memory.
  *
  * @param loops how columns are gone through.
  */
 internal class BlindColumns(private val series: MeasuredSeries, private val scales: Scales, private val loops: Loops) {
     private val n = series.size
 
-    /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
-    fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes, held: Boolean): Array<DoubleArray> {
-        val last = shownLast
-        val isSame = shownAs != null && shownAs == listOf(terms, numbers.toList(), modes, held)
-        if (last != null && isSame) return last
-        val fading =
-            DoubleArray(n) { exp(-(series.times[it] - series.times[0]) / numbers[ResponseModel.TIME_CONSTANT]) }
-        return (seen(terms, numbers, modes.columns, held) + fading).also {
-            shownLast = it
-            shownAs = listOf(terms, numbers.toList(), modes, held)
+    /** Water as the linear parts of a sensor show it: equal where that is the same. */
+    inner class Shown(
+        private val terms: List<Term>,
+        private val numbers: List<Double>,
+        private val modes: WaterModes,
+        private val held: Boolean,
+    ) {
+        /** Number of columns. */
+        val size: Int get() = modes.size + 1
+
+        /** Waves as the linear parts of the sensor show them, then the fading of what was before the log. */
+        fun columns(): Array<DoubleArray> {
+            shownLast?.let { (last, columns) -> if (last.isSame(this)) return columns }
+            // Nobody keeps what is shown: its place is taken by the next.
+            val space = shownLast?.second?.takeIf { it.size == size } ?: Array(size) { DoubleArray(n) }
+            val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
+            response(terms, numbers, modes.columns, held).of(modes.columns, loops, space)
+            for (i in 0 until n) space[size - 1][i] = exp(-(series.times[i] - series.times[0]) / timeConstant)
+            shownLast = this to space
+            return space
         }
+
+        fun isSame(other: Shown): Boolean =
+            modes === other.modes && held == other.held && numbers == other.numbers && terms == other.terms
     }
 
-    private var shownLast: Array<DoubleArray>? = null
-    private var shownAs: List<Any>? = null
+    private var shownLast: Pair<Shown, Array<DoubleArray>>? = null
+
+    /** Water of [modes] as the linear parts of the sensor with [terms] and [numbers] show it. */
+    fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes, held: Boolean): Shown {
+        val (linear, own) = linear(terms, numbers)
+        return Shown(linear, own, modes, held)
+    }
+
+    private class Kept(val design: BlindDesign, val shown: Shown, val hidden: BooleanArray?) {
+        fun isOf(shown: Shown, hidden: BooleanArray?, noise: BlindNoise) =
+            this.shown.isSame(shown) && this.hidden.contentEquals(hidden) && design.noise.isSame(noise)
+    }
+
+    /** The newest last. */
+    private val kept = ArrayList<Kept>()
 
     /**
-     * The design of [columns], which is kept for the next that asks for the same; rows that are [hidden] say nothing of
+     * The design of [shown], which is kept for those who soon ask for the same; rows that are [hidden] say nothing of
      * the water.
      */
-    fun designed(columns: Array<DoubleArray>, hidden: BooleanArray?, noise: BlindNoise): BlindDesign {
-        val last = designLast
-        val isSame = designOf === columns && designHidden.contentEquals(hidden)
-        if (last != null && isSame && last.noise === noise) return last
+    fun designed(shown: Shown, hidden: BooleanArray?, noise: BlindNoise): BlindDesign {
+        val known = kept.indexOfLast { it.isOf(shown, hidden, noise) }
+        if (known >= 0) return kept.removeAt(known).also { kept += it }.design
         fun seen(column: DoubleArray) =
             if (hidden == null) column else DoubleArray(n) { if (hidden[it]) 0.0 else column[it] }
-        return BlindDesign(Array(columns.size) { seen(columns[it]) }, noise, loops).also {
-            designLast = it
-            designOf = columns
-            designHidden = hidden
+        val design = BlindDesign(shown.size, noise, loops, ::use) {
+            shown.columns().let { all -> Array(all.size) { seen(all[it]) } }
         }
+        kept += Kept(design, shown, hidden)
+        if (kept.size > KEPT) kept.removeAt(0)
+        return design
     }
 
-    private var designLast: BlindDesign? = null
-    private var designOf: Array<DoubleArray>? = null
-    private var designHidden: BooleanArray? = null
+    /** The designs whose columns are in memory, the newest last. */
+    private val inMemory = ArrayList<BlindDesign>()
+
+    /** Says that [design] is in use, and returns the space of one that is not any more. */
+    private fun use(design: BlindDesign): List<DoubleArray>? {
+        if (inMemory.lastOrNull() === design) return null
+        inMemory -= design
+        inMemory += design
+        val most = (MOST_NUMBERS / (n.toLong() * design.size)).coerceIn(2, IN_MEMORY)
+        if (inMemory.size <= most) return null
+        return inMemory.removeAt(0).forget()?.takeIf { it.size == design.size }
+    }
+
+    /** The water of [modes] with [heights] along the track. */
+    fun along(modes: WaterModes, heights: DoubleArray): DoubleArray {
+        val out = DoubleArray(n)
+        val columns = modes.columns.asList()
+        loops.each(HALVES) { half ->
+            Combination.add(columns, heights, out, columns.size, half * n / HALVES, (half + 1) * n / HALVES)
+        }
+        return out
+    }
 
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, held: Boolean): Array<DoubleArray> {
-        val whole = ResponseModel(series.withReference(waters[0]), terms, held, scales)
+        val (linear, own) = linear(terms, numbers)
+        val out = Array(waters.size) { DoubleArray(n) }
+        response(linear, own, waters, held).of(waters, loops, out)
+        return out
+    }
+
+    private fun response(linear: List<Term>, numbers: List<Double>, waters: Array<DoubleArray>, held: Boolean) =
+        ResponseModel(series.withReference(waters[0]), linear, held, scales).linear(numbers.toDoubleArray())
+
+    /** Those of [terms] that are linear in the water, and what of [numbers] tells what the sensor shows of it. */
+    private fun linear(terms: List<Term>, numbers: DoubleArray): Pair<List<Term>, List<Double>> {
+        val whole = ParameterLayout(series, terms, scales)
         val linear = terms.filter { it.cause in BlindSearch.LINEAR }
-        val own = doubleArrayOf(numbers[ResponseModel.TIME_CONSTANT], 1.0, 0.0, 0.0) + linear.flatMap { term ->
-            List(whole.width(term)) { numbers[whole.slot(term) + it] }
+        val own = linear.flatMap { term ->
+            List(whole.widths.getValue(term.key)) { numbers[whole.slots.getValue(term.key) + it] }
         }
-        val columns = arrayOfNulls<DoubleArray>(waters.size)
-        // A model has working space of its own, which tasks cannot share.
-        loops.each(PARTS) { part ->
-            val truth = DoubleArray(n)
-            val model = ResponseModel(series.withReference(truth), linear, held, scales)
-            for (k in part until waters.size step PARTS) {
-                waters[k].copyInto(truth)
-                model.truthChanged()
-                columns[k] = DoubleArray(n).also { model.predict(own, it) }
-            }
-        }
-        return columns.requireNoNulls()
+        return linear to listOf(numbers[ResponseModel.TIME_CONSTANT], 1.0, 0.0, 0.0) + own
     }
 
     private companion object {
+        /** Designs that may be asked for again. */
+        const val KEPT = 8
+
+        /** Designs whose columns are in memory: two models that are compared, and what is tried on top of them. */
+        const val IN_MEMORY = 4L
+
+        /** Numbers in their columns, where more than two of them have so many: a hundred megabytes. */
+        const val MOST_NUMBERS = 13_000_000L
+
         /** Parts of the work that may be done at the same time. */
-        const val PARTS = 4
+        const val HALVES = 2
     }
 }

@@ -17,12 +17,17 @@ internal class BlindDescent(private val state: BlindState) {
     private val values = state.model.series.values
 
     /** What [model] at [numbers] leaves. */
-    fun at(model: ResponseModel, numbers: DoubleArray): BlindPoint {
+    private fun at(model: ResponseModel, numbers: DoubleArray): Tried {
         val r = DoubleArray(n)
         model.predict(numbers, r)
         for (i in 0 until n) r[i] = values[i] - r[i]
-        return BlindPoint(numbers, r, state.fit.left(r))
+        val white = state.fit.whitened(r)
+        val taken = state.fit.taken(white)
+        return Tried(BlindPoint(numbers, r, state.fit.left(white, taken)), white, taken)
     }
+
+    /** A point, its residuals whitened, and what the water takes of them. */
+    private class Tried(val point: BlindPoint, val white: DoubleArray, val taken: DoubleArray)
 
     /** The best numbers of [model], whose truth is the state's water, near [start] in at most [steps] steps. */
     fun from(model: ResponseModel, start: DoubleArray, free: BooleanArray, steps: Int): BlindPoint {
@@ -31,29 +36,27 @@ internal class BlindDescent(private val state: BlindState) {
         val indices = free.indices.filter { free[it] }
         repeat(steps) {
             // With H = L Lᵀ what is unlike the water of a and b is Wa·Wb − L⁻¹RᵀWa · L⁻¹RᵀWb.
-            val white = indices.map { state.fit.whitened(derivative(model, best.numbers, it)) }
+            val white = indices.map { state.fit.whitened(derivative(model, best.point.numbers, it)) }
             val halves = white.map { state.fit.imitated(it) }
-            val own = state.fit.whitened(best.residuals)
-            val taken = state.fit.taken(best.residuals)
             val matrix = Array(white.size) { i ->
                 DoubleArray(white.size) { j -> dot(white[i], white[j]) - dot(halves[i], halves[j]) }
             }
-            val pull = DoubleArray(white.size) { dot(white[it], own) - dot(halves[it], taken) }
+            val pull = DoubleArray(white.size) { dot(white[it], best.white) - dot(halves[it], best.taken) }
             val system = SymmetricSystem(matrix, pull)
-            val before = best.left
+            val before = best.point.left
             var tries = 0
             while (tries++ < TRIES) {
-                val next = at(model, moved(model, best.numbers, indices, system.solve(damping)))
-                if (next.left < best.left) {
+                val next = at(model, moved(model, best.point.numbers, indices, system.solve(damping)))
+                if (next.point.left < best.point.left) {
                     best = next
                     damping = maxOf(damping / 10, 1e-9)
                     break
                 }
                 damping = if (damping < 1e-3) 1e-2 else damping * 10
             }
-            if (!(before - best.left > ENOUGH * before / n)) return best
+            if (!(before - best.point.left > ENOUGH * before / n)) return best.point
         }
-        return best
+        return best.point
     }
 
     private fun moved(model: ResponseModel, at: DoubleArray, free: List<Int>, step: DoubleArray): DoubleArray {

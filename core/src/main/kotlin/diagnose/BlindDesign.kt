@@ -4,33 +4,59 @@ package stillwater.diagnose
  * The waves as the sensor shows them, whitened, and their normal equations: all that is needed to integrate the water
  * out.
  *
- * @param shown each wave as the sensor shows it, not whitened; flat-prior columns last. Retained.
- * @param loops how the columns and the halves of the sums are gone through.
- * @property noise what whitens. @property size number of columns.
+ * @property size number of columns. @property noise what whitens. @property loops how the columns and the halves of the
+ *   sums are gone through. @param used is told when the columns are needed, and returns space for them where there is
+ *   some. @param shown finds each wave as the sensor shows it, not whitened, flat-prior columns last; the same each
+ *   time.
  */
-internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loops: Loops) {
-    val size: Int = shown.size
-    private val n = shown[0].size
-    private val columns = arrayOfNulls<DoubleArray>(size).also { out ->
-        loops.each(size) { k -> out[k] = DoubleArray(n).also { noise.whiten(shown[k], it) } }
-    }.requireNoNulls()
+internal class BlindDesign(
+    val size: Int,
+    val noise: BlindNoise,
+    val loops: Loops,
+    private val used: (BlindDesign) -> List<DoubleArray>?,
+    private val shown: () -> Array<DoubleArray>,
+) {
+    private val n = noise.spread.size
+    private var known: List<DoubleArray>? = null
+
+    /** The columns of R. */
+    private val columns: List<DoubleArray>
+        get() {
+            val space = used(this)
+            return known ?: whitened(space ?: List(size) { DoubleArray(n) }).also { known = it }
+        }
+
+    /** Takes the columns out of memory, which is returned: they are found again when they are needed. */
+    fun forget(): List<DoubleArray>? = known.also { known = null }
+
+    private fun whitened(out: List<DoubleArray>): List<DoubleArray> {
+        val given = shown()
+        loops.each((size + 1) / 2) { pair ->
+            val k = 2 * pair
+            val other = minOf(k + 1, size - 1)
+            if (k == other) noise.whiten(given[k], out[k])
+            if (k != other) noise.whiten(given[k], out[k], given[other], out[other])
+        }
+        return out
+    }
 
     /** The lower half of RᵀR, row by row. */
     val gram: Array<DoubleArray> = Array(size) { DoubleArray(it + 1) }
 
     init {
+        val columns = columns
         val count = (n + STRETCH - 1) / STRETCH
         val halves = arrayOf(0 until count / 2, count / 2 until count)
         val parts = arrayOf(gram, Array(size) { DoubleArray(it + 1) })
         loops.each(halves.size) { half ->
             val rows = Array(STRETCH) { DoubleArray(size) }
-            for (stretch in halves[half]) add(rows, stretch * STRETCH, parts[half])
+            for (stretch in halves[half]) add(columns, rows, stretch * STRETCH, parts[half])
         }
         for (a in 0 until size) for (b in 0..a) gram[a][b] += parts[1][a][b]
     }
 
     /** Adds the products of the rows that begin at [from], which are put into [rows] first, to [sums]. */
-    private fun add(rows: Array<DoubleArray>, from: Int, sums: Array<DoubleArray>) {
+    private fun add(columns: List<DoubleArray>, rows: Array<DoubleArray>, from: Int, sums: Array<DoubleArray>) {
         val count = minOf(STRETCH, n - from)
         for (k in 0 until size) {
             val column = columns[k]
@@ -42,73 +68,86 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loo
             val second = rows[i + 1]
             val third = rows[i + 2]
             val fourth = rows[i + 3]
-            for (a in 0 until size) products(sums[a], a, first, second, third, fourth)
+            val four = FourColumns(first, second, third, fourth)
+            for (a in 0 until size) four.add(sums[a], 0, a + 1, first[a], second[a], third[a], fourth[a])
         }
     }
 
-    /**
-     * Adds what column [a] of four rows is with the columns up to it. The compiler does several of them in one step
-     * where each row is a parameter of its own.
-     */
-    private fun products(
-        sum: DoubleArray,
-        a: Int,
-        first: DoubleArray,
-        second: DoubleArray,
-        third: DoubleArray,
-        fourth: DoubleArray,
-    ) {
-        val w = first[a]
-        val x = second[a]
-        val y = third[a]
-        val z = fourth[a]
-        for (b in 0 until a + 1) sum[b] += w * first[b] + x * second[b] + y * third[b] + z * fourth[b]
+    /** Row [i] of R, length [size]; new. */
+    fun row(i: Int): DoubleArray = columns.let { all -> DoubleArray(size) { all[it][i] } }
+
+    private var lastRight = DoubleArray(0)
+    private var lastTransposed = DoubleArray(0)
+
+    /** Rᵀ [z], length [size]; new. Of what was asked for last it is known: often the same residuals come again. */
+    fun transposed(z: DoubleArray): DoubleArray {
+        if (!z.contentEquals(lastRight)) {
+            lastTransposed = products(z)
+            lastRight = z.copyOf()
+        }
+        return lastTransposed.copyOf()
     }
 
-    /** Row [i] of R, length [size]; new. */
-    fun row(i: Int): DoubleArray = DoubleArray(size) { columns[it][i] }
-
-    /** Rᵀ [z], length [size]. */
-    fun transposed(z: DoubleArray): DoubleArray {
+    private fun products(z: DoubleArray): DoubleArray {
+        val columns = columns
         val out = DoubleArray(size)
-        for (k in 0 until size step 4) {
-            val a = columns[k]
-            val b = columns[minOf(k + 1, size - 1)]
-            val c = columns[minOf(k + 2, size - 1)]
-            val d = columns[minOf(k + 3, size - 1)]
-            var p = 0.0
-            var q = 0.0
-            var r = 0.0
-            var s = 0.0
-            for (i in 0 until n) {
-                val w = z[i]
-                p += a[i] * w
-                q += b[i] * w
-                r += c[i] * w
-                s += d[i] * w
-            }
-            out[k] = p
-            if (k + 1 < size) out[k + 1] = q
-            if (k + 2 < size) out[k + 2] = r
-            if (k + 3 < size) out[k + 3] = s
+        val groups = (size + TOGETHER - 1) / TOGETHER
+        loops.each(HALVES) { half ->
+            val own = half * groups / HALVES until (half + 1) * groups / HALVES
+            for (group in own) dots(columns, group * TOGETHER, z, out)
         }
         return out
     }
 
+    /** What [z] is with eight columns from [k] on: each sum waits for its own row before alone. */
+    private fun dots(columns: List<DoubleArray>, k: Int, z: DoubleArray, out: DoubleArray) {
+        if (k + TOGETHER > size) {
+            for (j in k until size) out[j] = dot(columns[j], z)
+            return
+        }
+        val a = columns[k]
+        val b = columns[k + 1]
+        val c = columns[k + 2]
+        val d = columns[k + 3]
+        val e = columns[k + 4]
+        val f = columns[k + 5]
+        val g = columns[k + 6]
+        val h = columns[k + 7]
+        var p = 0.0
+        var q = 0.0
+        var r = 0.0
+        var s = 0.0
+        var t = 0.0
+        var u = 0.0
+        var v = 0.0
+        var w = 0.0
+        for (i in 0 until n) {
+            val height = z[i]
+            p += a[i] * height
+            q += b[i] * height
+            r += c[i] * height
+            s += d[i] * height
+            t += e[i] * height
+            u += f[i] * height
+            v += g[i] * height
+            w += h[i] * height
+        }
+        out[k] = p
+        out[k + 1] = q
+        out[k + 2] = r
+        out[k + 3] = s
+        out[k + 4] = t
+        out[k + 5] = u
+        out[k + 6] = v
+        out[k + 7] = w
+    }
+
     /** R [beta], length n. */
     fun times(beta: DoubleArray): DoubleArray {
+        val columns = columns
         val out = DoubleArray(n)
-        for (k in 0 until size step 4) {
-            val last = size - 1
-            val a = columns[k]
-            val b = columns[minOf(k + 1, last)]
-            val c = columns[minOf(k + 2, last)]
-            val d = columns[minOf(k + 3, last)]
-            val p = beta[k]
-            val q = if (k + 1 <= last) beta[k + 1] else 0.0
-            val r = if (k + 2 <= last) beta[k + 2] else 0.0
-            val s = if (k + 3 <= last) beta[k + 3] else 0.0
-            for (i in 0 until n) out[i] += p * a[i] + q * b[i] + r * c[i] + s * d[i]
+        loops.each(HALVES) { half ->
+            Combination.add(columns, beta, out, size, half * n / HALVES, (half + 1) * n / HALVES)
         }
         return out
     }
@@ -116,5 +155,9 @@ internal class BlindDesign(shown: Array<DoubleArray>, val noise: BlindNoise, loo
     private companion object {
         const val STRETCH = 64
         const val AT_ONCE = 4
+
+        /** Parts of the work that may be done at the same time. */
+        const val HALVES = 2
+        const val TOGETHER = 8
     }
 }

@@ -14,6 +14,19 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
         noise.whiten(out, out)
     }
 
+    /** Whitens [one] into [out] and [two] into [outTwo], together: each waits for its own row before. */
+    fun whiten(one: DoubleArray, out: DoubleArray, two: DoubleArray, outTwo: DoubleArray) {
+        for (i in one.indices) {
+            out[i] = one[i] / spread[i]
+            outTwo[i] = two[i] / spread[i]
+        }
+        noise.whitenBoth(out, outTwo)
+    }
+
+    /** Whether [other] whitens in the same way. */
+    fun isSame(other: BlindNoise): Boolean =
+        this === other || noise.isSame(other.noise) && spread.contentEquals(other.spread)
+
     /** Sum of ln of the variances that whitening divides by. */
     val logDeterminant: Double = noise.logDeterminant + 2 * spread.sumOf { ln(it) }
 }
@@ -50,7 +63,7 @@ internal class BlindFit private constructor(
     fun at(heights: DoubleArray) = BlindFit(design, precisions, heights, factor)
 
     /** Diagonal of the posterior's covariance over the noise's variance. */
-    fun spreads(): DoubleArray = factor.inverseDiagonal()
+    fun spreads(): DoubleArray = factor.inverseDiagonal(design.loops)
 
     /** Rᵀ of the whitened residuals [z] less what the prior wants. */
     private fun pull(z: DoubleArray): DoubleArray {
@@ -60,14 +73,13 @@ internal class BlindFit private constructor(
     }
 
     /** What is left of [r], square sum. */
-    fun left(r: DoubleArray): Double {
-        val z = whitened(r)
-        val half = factor.half(pull(z))
-        return maxOf(squares(z) + prior - squares(half), TINY)
-    }
+    fun left(r: DoubleArray): Double = whitened(r).let { left(it, taken(it)) }
 
-    /** L⁻¹ of the pull of [r], whose square sum is what the water takes of it; see [left]. */
-    fun taken(r: DoubleArray): DoubleArray = factor.half(pull(whitened(r)))
+    /** What is left of residuals that are [z] whitened, where the water takes [taken] of them, square sum. */
+    fun left(z: DoubleArray, taken: DoubleArray): Double = maxOf(squares(z) + prior - squares(taken), TINY)
+
+    /** L⁻¹ of the pull of whitened residuals [z], whose square sum is what the water takes of them; see [left]. */
+    fun taken(z: DoubleArray): DoubleArray = factor.half(pull(z))
 
     /** What a whitened column [white] moves the water, as [taken] measures it. */
     fun imitated(white: DoubleArray): DoubleArray = factor.half(design.transposed(white))

@@ -291,13 +291,13 @@ internal class BlindSearch(
         var bands =
             variances.takeIf { it.size == modes.bands } ?: modes.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-        var model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
+        var model = ResponseModel(series.withReference(designs.along(modes, heights)), terms, held, scales)
         var hidden = RangeEnd.beyond(model, at)
         var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, modes), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
-            model = ResponseModel(series.withReference(modes.along(heights)), terms, held, scales)
+            model = ResponseModel(series.withReference(designs.along(modes, heights)), terms, held, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             if (round < rounds) {

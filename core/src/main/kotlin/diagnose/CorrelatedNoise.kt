@@ -97,6 +97,31 @@ internal class CorrelatedNoise(
         }
     }
 
+    /** Whitens [one] and [two], which are modified, at the price of little more than one. */
+    fun whitenBoth(one: DoubleArray, two: DoubleArray) {
+        if (shocks != null) {
+            whiten(one, one)
+            return whiten(two, two)
+        }
+        var state = 0.0
+        var stateTwo = 0.0
+        for (i in one.indices) {
+            state *= keep[i]
+            stateTwo *= keep[i]
+            if (used[i]) {
+                val innovation = one[i] - state
+                val innovationTwo = two[i] - stateTwo
+                one[i] = innovation * scale[i]
+                two[i] = innovationTwo * scale[i]
+                state += gain[i] * innovation
+                stateTwo += gain[i] * innovationTwo
+            } else {
+                one[i] = 0.0
+                two[i] = 0.0
+            }
+        }
+    }
+
     private fun whiten(column: DoubleArray, out: DoubleArray, fade: DoubleArray) {
         var state = 0.0
         var shaken = 0.0
@@ -113,6 +138,10 @@ internal class CorrelatedNoise(
             }
         }
     }
+
+    /** Whether [other], of the same log, whitens in the same way. */
+    fun isSame(other: CorrelatedNoise): Boolean =
+        share == other.share && time == other.time && shocks === other.shocks && used.contentEquals(other.used)
 
     /** The same noise where [rows] alone are in use. */
     fun over(times: DoubleArray, rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks)

@@ -37,10 +37,7 @@ internal class PivotedCholesky private constructor(val columns: List<DoubleArray
                 if (rest[pivot] < left) break
                 val scale = 1 / sqrt(rest[pivot])
                 val column = DoubleArray(count) { covariance.of(it, pivot) }
-                for (other in columns) {
-                    val share = other[pivot]
-                    if (share != 0.0) for (i in 0 until count) column[i] -= share * other[i]
-                }
+                Combination.add(columns, DoubleArray(columns.size) { -columns[it][pivot] }, column)
                 for (i in 0 until count) {
                     column[i] *= scale
                     rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)

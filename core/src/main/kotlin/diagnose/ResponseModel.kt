@@ -58,11 +58,6 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         return numbers
     }
 
-    /** To be called after other values were written into the log's reference. */
-    fun truthChanged() {
-        isFitted = false
-    }
-
     /** The truth between the rows. */
     private fun truthCurve(): Spline {
         if (!isFitted) truthSpline.fit(truth)
@@ -98,6 +93,42 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         if (isRounded && Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
     }
 
+    /**
+     * The parts that are linear in the truth, for [p]: gain, offset, first state and all that is not linear left out.
+     */
+    fun linear(p: DoubleArray): LinearResponse {
+        val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
+        val distance = if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0
+        val isLate = deadTime != 0.0 || distance != 0.0
+        val delay = if (isLate) NeighbourSums(series.times, isBent = true) else null
+        if (delay != null) late(deadTime, distance) { i, from, time -> delay.read(i, from, time) }
+        timeConstants(p)
+        val path = lagged(1.0)
+        val slow = if (Cause.TWO_PATH_RESPONSE in causes) {
+            val at = slot(Cause.TWO_PATH_RESPONSE)
+            lagged(minOf(p[at], slowest(p[TIME_CONSTANT]))) to p[at + 1]
+        } else {
+            null
+        }
+        var second: NeighbourSums? = null
+        if (Cause.SECOND_ORDER_RESPONSE in causes) {
+            taus.fill(p[slot(Cause.SECOND_ORDER_RESPONSE)])
+            second = lagged(1.0)
+        }
+        return LinearResponse(spline, delay, path, slow, second)
+    }
+
+    /** A lag of [factor] times the time constants. */
+    private fun lagged(factor: Double) = NeighbourSums(series.times, isBent = !held).also { sums ->
+        for (i in 0 until n) {
+            when {
+                i == 0 || isGap(i, series.times[i] - series.times[i - 1]) -> sums.same(i)
+                held -> sums.hold(i, taus[i] * factor)
+                else -> sums.follow(i, taus[i] * factor)
+            }
+        }
+    }
+
     /** The most by which a slow path's time constant is longer than [timeConstant], s: slower than that is a drift. */
     fun slowest(timeConstant: Double): Double = maxOf(2.0, series.duration / SLOWEST / timeConstant)
 
@@ -110,15 +141,20 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             truth.copyInto(work)
             return
         }
-        var from = 0
         val curve = truthCurve()
+        late(deadTime, distance) { i, from, time -> work[i] = curve.at(from, time) }
+    }
+
+    /** Has [see] told for each row after which row and at what time the sensor has what it shows there. */
+    private inline fun late(deadTime: Double, distance: Double, see: (Int, Int, Double) -> Unit) {
+        var from = 0
         for (i in 0 until n) {
             var time = series.times[i]
             if (distance != 0.0) time = layout.way.timeAt(i, -distance)
             time -= deadTime
             while (from < n - 2 && series.times[from + 1] < time) from++
             while (from > 0 && series.times[from] > time) from--
-            work[i] = curve.at(from, time)
+            see(i, from, time)
         }
     }
 

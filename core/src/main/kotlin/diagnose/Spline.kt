@@ -10,6 +10,9 @@ package stillwater.diagnose
  */
 internal class Spline(private val times: DoubleArray, private val isBroken: BooleanArray? = null) {
     private val n = times.size
+
+    /** Number of knots. */
+    val size: Int get() = n
     private val bend = DoubleArray(n)
     private val work = DoubleArray(n)
     private var column = work
@@ -44,6 +47,41 @@ internal class Spline(private val times: DoubleArray, private val isBroken: Bool
         if (n > 0) bend[n - 1] = 0.0
         for (i in n - 2 downTo 1) bend[i] = back[i] * bend[i + 1] + work[i]
         if (n > 0) bend[0] = 0.0
+    }
+
+    /**
+     * Second derivatives at the knots of the curves through [columns], of which there is an even number, into [out],
+     * two at a time: each waits for its own row before. What [fit] has found stays.
+     */
+    fun bends(columns: Array<DoubleArray>, out: Array<DoubleArray>) {
+        for (k in columns.indices step 2) bends(columns[k], columns[k + 1], out[k], out[k + 1])
+    }
+
+    private fun bends(one: DoubleArray, two: DoubleArray, out: DoubleArray, outTwo: DoubleArray) {
+        out[0] = 0.0
+        outTwo[0] = 0.0
+        out[n - 1] = 0.0
+        outTwo[n - 1] = 0.0
+        var last = 0.0
+        var lastTwo = 0.0
+        for (i in 1 until n - 1) {
+            val before = slopes[i]
+            val after = slopes[i + 1]
+            val change = (one[i + 1] - one[i]) * after - (one[i] - one[i - 1]) * before
+            val changeTwo = (two[i + 1] - two[i]) * after - (two[i] - two[i - 1]) * before
+            last = changes[i] * change - forth[i] * last
+            lastTwo = changes[i] * changeTwo - forth[i] * lastTwo
+            out[i] = last
+            outTwo[i] = lastTwo
+        }
+        last = 0.0
+        lastTwo = 0.0
+        for (i in n - 2 downTo 1) {
+            last = back[i] * last + out[i]
+            lastTwo = back[i] * lastTwo + outTwo[i]
+            out[i] = last
+            outTwo[i] = lastTwo
+        }
     }
 
     /** The value at [time] in the step after row [i]; beyond the first and last row theirs. */

@@ -167,11 +167,7 @@ internal class WaterModes private constructor(
     /** The water along the track with heights [beta], of which the first [size] count. */
     fun along(beta: DoubleArray): DoubleArray {
         val out = DoubleArray(n)
-        for (k in 0 until size) {
-            val column = columns[k]
-            val height = beta[k]
-            for (i in 0 until n) out[i] += height * column[i]
-        }
+        Combination.add(found, beta, out)
         return out
     }
 

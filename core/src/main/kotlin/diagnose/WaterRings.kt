@@ -5,6 +5,7 @@ import org.hipparchus.linear.MatrixUtils
 import kotlin.math.PI
 import kotlin.math.hypot
 import kotlin.math.roundToInt
+import kotlin.math.sqrt
 
 /**
  * Still water along a track as a sum of plane waves of all directions, in rings of lengths, each ring of a variance of
@@ -65,7 +66,8 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         val r = places.size
         val lower = Array(r) { a -> DoubleArray(a + 1) { b -> factor.columns[b][places[a]] } }
         // In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue.
-        val order = Array(r) { a -> DoubleArray(r) { b -> ordered(spectrum, distance(places[a], places[b])) } }
+        val orders = DistanceCurve(step) { ordered(spectrum, it) }
+        val order = Array(r) { a -> DoubleArray(r) { b -> orders.at(distance(places[a], places[b])) } }
         for (column in 0 until r) {
             val solved = solved(lower, DoubleArray(r) { order[it][column] })
             for (a in 0 until r) order[a][column] = solved[a]
@@ -73,17 +75,14 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         for (a in 0 until r) solved(lower, order[a]).copyInto(order[a])
         for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a]
         val turned = EigenDecompositionSymmetric(MatrixUtils.createRealMatrix(order), 1e-12, false)
-        return (0 until r).map { k ->
-            val ring = turned.getEigenvalue(k).roundToInt().coerceIn(0, size - 1)
-            val heights = turned.getEigenvector(k)
-            val out = DoubleArray(n)
-            for (j in 0 until r) {
-                val height = heights.getEntry(j)
-                val column = factor.columns[j]
-                for (i in 0 until n) out[i] += height * column[i]
-            }
-            ring to out
-        }.sortedBy { it.first }
+        val rings = List(r) { turned.getEigenvalue(it).roundToInt().coerceIn(0, size - 1) }
+        val heights = List(r) { turned.getEigenvector(it).toArray() }
+        val out = List(r) { DoubleArray(n) }
+        // So many rows of all columns stay in the processor's cache.
+        for (from in 0 until n step AT_ONCE) {
+            for (k in 0 until r) Combination.add(factor.columns, heights[k], out[k], r, from, minOf(from + AT_ONCE, n))
+        }
+        return rings.zip(out).sortedBy { it.first }
     }
 
     private fun ring(ring: Int, d: Double, spectrum: DoubleArray): Double {
@@ -105,13 +104,17 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         return sum
     }
 
-    private fun distance(a: Int, b: Int) = hypot(x[a] - x[b], y[a] - y[b])
+    /** Between places of a curve: a hundredth of a radian of the shortest wave. */
+    private val step = FINE / edges.last()
+
+    private fun distance(a: Int, b: Int) = sqrt((x[a] - x[b]) * (x[a] - x[b]) + (y[a] - y[b]) * (y[a] - y[b]))
 
     private fun factor(spectrum: DoubleArray, left: Double, most: Int, thin: Int): PivotedCholesky {
         val variance = spectrum.sum()
+        val curve = DistanceCurve(step) { covariance(spectrum, it) }
         // The first column is there however little may be left.
         return PivotedCholesky.of((n + thin - 1) / thin, variance, minOf(left, variance), most) { a, b ->
-            covariance(spectrum, distance(a * thin, b * thin))
+            curve.at(distance(a * thin, b * thin))
         }
     }
 
@@ -128,5 +131,7 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
 
     private companion object {
         const val FACTOR = 1.3
+        const val FINE = 0.01
+        const val AT_ONCE = 128
     }
 }

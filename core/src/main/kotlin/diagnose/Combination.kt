@@ -1,0 +1,54 @@
+package stillwater.diagnose
+
+/**
+ * Sums of many columns, four at a time and in stretches that stay in the processor's cache, so that the sum is not
+ * read and written again for each.
+ */
+internal object Combination {
+    private const val STRETCH = 512
+
+    /** Adds the first [count] of [columns], times [heights], to the rows [from] until [to] of [out]. */
+    fun add(
+        columns: List<DoubleArray>,
+        heights: DoubleArray,
+        out: DoubleArray,
+        count: Int = columns.size,
+        from: Int = 0,
+        to: Int = out.size,
+    ) {
+        var first = from
+        while (first < to) {
+            val last = minOf(first + STRETCH, to)
+            for (k in 0 until count step 4) {
+                if (k + 3 < count) {
+                    val four = FourColumns(columns[k], columns[k + 1], columns[k + 2], columns[k + 3])
+                    four.add(out, first, last, heights[k], heights[k + 1], heights[k + 2], heights[k + 3])
+                } else {
+                    for (j in k until count) one(out, first, last, heights[j], columns[j])
+                }
+            }
+            first = last
+        }
+    }
+
+    private fun one(out: DoubleArray, from: Int, to: Int, height: Double, column: DoubleArray) {
+        for (i in from until to) out[i] += height * column[i]
+    }
+}
+
+/** Four columns of which sums are made; each must be a name of its own for the compiler to do several rows in one step. */
+internal class FourColumns(
+    private val one: DoubleArray,
+    private val two: DoubleArray,
+    private val three: DoubleArray,
+    private val four: DoubleArray,
+) {
+    /** Adds the columns, times [w], [x], [y] and [z], to the rows [from] until [to] of [out]. */
+    fun add(out: DoubleArray, from: Int, to: Int, w: Double, x: Double, y: Double, z: Double) {
+        val a = one
+        val b = two
+        val c = three
+        val d = four
+        for (i in from until to) out[i] += w * a[i] + x * b[i] + y * c[i] + z * d[i]
+    }
+}
