@@ -75,7 +75,7 @@ internal class CauseSearch(
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
-        if (worthHolding && gained <= 0 && best.model.terms.any { it.cause in ACT_NOW_AND_THEN }) {
+        if (worthHolding && gained <= 0 && best.model.terms.any(::actsNowAndThen)) {
             gained = HeldOut.gainWhereTheyAct(best, base, root, used)
         }
         val worth = gain - cost
@@ -83,6 +83,10 @@ internal class CauseSearch(
         val added = if (best === base) term else best.model.terms.last()
         return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
     }
+
+    /** Whether [term] shows only where the water comes to it, which may be once in a log. */
+    private fun actsNowAndThen(term: Term) = term.cause in ACT_NOW_AND_THEN ||
+        (term.cause.isTiming && scales.unknown?.isSharp == true)
 
     /**
      * Of what [term] itself adds where it leaves a given number open besides; 0 where it does not. A wrong number alone
@@ -237,7 +241,7 @@ internal class CauseSearch(
         fun longest(series: MeasuredSeries, settings: DiagnosisSettings): Double =
             maxOf(series.duration / settings.noiseShare, 3 * series.period)
 
-        /** What shows only where the water comes to it, which may be once in a log. */
+        /** What shows at an end of the range, or in the steepest water, alone. */
         private val ACT_NOW_AND_THEN = setOf(Cause.SATURATION, Cause.SLEW_LIMIT)
 
         private val LAG_CHANGES = setOf(

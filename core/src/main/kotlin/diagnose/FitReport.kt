@@ -73,15 +73,20 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         val reach = NORMAL_95 * error
         if (!reach.isFinite() || reach == 0.0) return null
         if (!parameter.logarithmic) {
-            return Interval(parameter.possible(value - reach - open(fit, parameter)), value + reach)
+            val open = open(fit, parameter)
+            return Interval(parameter.possible(value - reach - open.first), value + reach + open.second)
         }
         return Interval(value * exp(-minOf(reach, FAR)), value * exp(minOf(reach, FAR)))
     }
 
-    /** What sharp steps of a truth that is held leave open of [parameter], downward: each may have come a row later. */
-    private fun open(fit: ModelFit, parameter: Parameter): Double {
-        val isOpen = parameter.name == "dead_time_s" && fit.model.held && fit.model.scales.unknown?.isSharp == true
-        return if (isOpen) series.period else 0.0
+    /**
+     * What sharp steps of the truth leave open of [parameter], downward and upward: where it is held, each may have come
+     * a row later, else half a row sooner or later.
+     */
+    private fun open(fit: ModelFit, parameter: Parameter): Pair<Double, Double> = when {
+        parameter.name != "dead_time_s" || fit.model.scales.unknown?.isSharp != true -> 0.0 to 0.0
+        fit.model.held -> series.period to 0.0
+        else -> series.period / 2 to series.period / 2
     }
 
     /**

@@ -53,6 +53,20 @@ internal class UnknownTruth private constructor(
         return if (variance.any { it > 0 }) Shocks(variance, keep) else null
     }
 
+    /** The same where readings show the truth [late] s later than the reference does: they are shaken as much later. */
+    fun seen(late: Double): UnknownTruth {
+        val moved = DoubleArray(times.size) { if (isGap[it]) doubts[it] else 0.0 }
+        for (row in 1 until times.size) {
+            if (isGap[row] || !(doubts[row] > 0)) continue
+            var i = times.binarySearch(times[row - 1] + late).let { if (it >= 0) it + 1 else -it - 1 }
+            while (i < times.size && (i == 0 || times[i - 1] < times[row] + late)) {
+                moved[i] = maxOf(moved[i], doubts[row])
+                i++
+            }
+        }
+        return UnknownTruth(isGap, isBroken, isSharp, moved, times)
+    }
+
     companion object {
         /** Nothing is in doubt in [series]. */
         fun none(series: MeasuredSeries) =
@@ -83,7 +97,7 @@ internal class UnknownTruth private constructor(
                 val doubt = if (i == 0) 0.0 else maxOf(within[i - 1], within[i])
                 when {
                     isGap[i] -> spread
-                    doubt > UNUSUAL * usual -> doubt
+                    doubt > UNUSUAL * usual && doubt > ROUNDING * spread -> doubt
                     else -> 0.0
                 }
             }
@@ -118,6 +132,9 @@ internal class UnknownTruth private constructor(
         /** A step longer than so many usual ones is a gap. */
         private const val GAP = 4.0
         private const val UNUSUAL = 4.0
+
+        /** Where the truth stands still a cubic through it is off by errors of arithmetic. */
+        private const val ROUNDING = 1e-9
         private const val SUDDEN = 12.0
         private const val STEEPER = 3.0
 
