@@ -103,11 +103,20 @@ internal class CauseSearch(
         val kept = base.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, kept + term, base.model.held, scales)
         val free = freed(model, base, term)
-        val rough = Starts(base, model, term).all()
+        val rough = starts(base, model, term)
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
             .maxBy { it.score }
         val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
         return inOrder(if (fine.score >= rough.score) fine else rough)
+    }
+
+    private fun starts(base: ModelFit, model: ResponseModel, term: Term): List<DoubleArray> {
+        val all = Starts(base, model, term).all()
+        val late = scales.unknown?.late ?: 0.0
+        if (term.cause != Cause.DEAD_TIME || late == 0.0) return all
+        val slot = model.slot(term)
+        val parameter = model.parameters[slot]
+        return all + all.first().copyOf().also { it[slot] = late.coerceIn(parameter.lower, parameter.upper) }
     }
 
     /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */

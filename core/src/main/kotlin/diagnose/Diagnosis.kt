@@ -147,8 +147,13 @@ public class Diagnosis(
         val model = ResponseModel(series, rough.model.terms + term, rough.model.held, rough.model.scales)
         val slot = model.slot(term)
         val free = BooleanArray(model.parameters.size) { it == slot || rough.free.getOrElse(it) { false } }
-        val best = Starts(rough, model, term).all()
-            .map { Fitting.fit(model, it, free, used, longest, noise = rough.noise) }.maxBy { it.score }
+        val tau = rough.numbers[ResponseModel.TIME_CONSTANT]
+        val best = (TIMES_LATE.map { it * tau } + ROWS_LATE.map { it * series.period }).map { delay ->
+            val start = rough.numbers.copyOf(model.parameters.size)
+            start[slot] = delay.coerceIn(model.parameters[slot].lower, model.parameters[slot].upper)
+            if (free[ResponseModel.TIME_CONSTANT]) start[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3)
+            Fitting.fit(model, start, free, used, longest, noise = rough.noise)
+        }.maxBy { it.score }
         val found = best.numbers[slot]
         return if (best.score > rough.score + SHAKEN && abs(found) > series.period) found else 0.0
     }
@@ -196,6 +201,10 @@ public class Diagnosis(
 
         /** Twice the log-likelihood by which readings must look late before they are shaken later. */
         const val SHAKEN = 25.0
+
+        /** Delays that are tried then, in time constants and in rows. */
+        val TIMES_LATE = listOf(-1.0, -0.3, 0.3, 1.0, 3.0)
+        val ROWS_LATE = listOf(-4.0, -1.5, 1.5, 4.0)
         const val FEWEST = 30
 
         /** Noise of the reference, in that of the readings, above which it is taken off. */

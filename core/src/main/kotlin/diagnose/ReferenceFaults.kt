@@ -61,23 +61,39 @@ internal class ReferenceFaults(
     }
 
     /** Twice the log-likelihood of a truth that the reference follows with a lag of [lag] s. */
-    private fun led(lag: Double): Double {
+    private fun led(lag: Double): Double = listOf(false, true).maxOf { held ->
+        val lead = series.withQuieter(if (held) steps(lag) else course(lag))
+        val unknown = UnknownTruth.of(lead)
+        val tau = base.numbers[ResponseModel.TIME_CONSTANT] +
+            if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0
+        val spread = Spikes.spread(base.whitened)
+        val scales = Scales(lead, unknown, unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, held))
+        val start = base.numbers.copyOf().also { it[ResponseModel.TIME_CONSTANT] = tau }
+        val guess = CorrelatedNoise(series.times, base.noise.share, base.noise.time, used, scales.shocks)
+        val model = ResponseModel(lead, base.model.terms, held, scales)
+        Fitting.fit(model, start, base.free, used, search.longest, guess = guess).score
+    }
+
+    /** What stood still over each step while a sensor with a lag of [lag] s came to show the reference. */
+    private fun steps(lag: Double): DoubleArray {
+        val reference = requireNotNull(series.reference) { "faults of a reference need one" }
+        return DoubleArray(reference.size) { i ->
+            val keep = if (i == 0) 0.0 else exp(-(series.times[i] - series.times[i - 1]) / lag)
+            if (i == 0) reference[0] else (reference[i] - keep * reference[i - 1]) / (1 - keep)
+        }
+    }
+
+    /** What went on evenly while it did. */
+    private fun course(lag: Double): DoubleArray {
         val reference = requireNotNull(series.reference) { "faults of a reference need one" }
         val times = series.times
         val curve = Spline(times, base.model.scales.unknown?.isBroken).also { it.fit(reference) }
         val reach = series.period / NEAR
-        val truth = DoubleArray(times.size) { i ->
-            val before = curve.at(maxOf(i - 1, 0), maxOf(times[i] - reach, times[0]))
-            val after = curve.at(minOf(i, times.size - 2), minOf(times[i] + reach, times.last()))
-            reference[i] + lag * (after - before) / (2 * reach)
-        }
-        val lead = series.withQuieter(truth)
-        val scales = Scales(lead, base.model.scales.unknown, base.model.scales.shocks)
-        return listOf(false, true).maxOf { held ->
-            val model = ResponseModel(lead, base.model.terms, held, scales)
-            val start = base.numbers.copyOf()
-            if (base.free[ResponseModel.TIME_CONSTANT]) start[ResponseModel.TIME_CONSTANT] += lag
-            Fitting.fit(model, start, base.free, used, search.longest, guess = base.noise).score
+        return DoubleArray(times.size) { i ->
+            val before = maxOf(times[i] - reach, times[0])
+            val after = minOf(times[i] + reach, times.last())
+            val slope = (curve.at(minOf(i, times.size - 2), after) - curve.at(maxOf(i - 1, 0), before)) / (after - before)
+            reference[i] + lag * slope
         }
     }
 
