@@ -76,7 +76,8 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
             val open = open(fit, parameter)
             return Interval(parameter.possible(value - reach - open.first), value + reach + open.second)
         }
-        return Interval(value * exp(-minOf(reach, FAR)), value * exp(minOf(reach, FAR)))
+        // Which of two lags is how long does not show where they are alike, nor what is shorter than rows.
+        return if (reach < FAR) Interval(value * exp(-reach), value * exp(reach)) else null
     }
 
     /**
@@ -137,7 +138,9 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
 
         /** Chi-square with one degree of freedom at 90 %: 95 % to one side. */
         const val ONE_SIDED_95 = 2.71
-        const val FAR = 50.0
+
+        /** Logarithm of the factor either way from which a number does not show. */
+        const val FAR = 7.0
         const val SMALLEST_PART = 1e-4
         const val MOST_STEPS = 14
     }
