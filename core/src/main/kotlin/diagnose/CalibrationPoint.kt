@@ -73,7 +73,7 @@ internal object CalibrationPoint {
         return low..high
     }
 
-    /** Where in the condition [name] an offset may have been right, whatever the log is like: in fresh water at rest, too. */
+    /** Where in the condition [name] an offset may have been right, whatever the log is like: at rest in fresh water. */
     private fun elsewhere(name: String) = when (name) {
         Conditions.TEMPERATURE -> TEMPERATURES
         Conditions.SPEED -> SPEEDS + 0.0

@@ -46,8 +46,8 @@ internal class ReferenceFaults(
     }
 
     /**
-     * The lag of a reference under which the readings are likeliest, s, and twice their log-likelihood then, less what it
-     * gains by chance. A sensor of which part answers at once does the same.
+     * The lag of a reference under which the readings are likeliest, s, and twice their log-likelihood then, less what
+     * it gains by chance. A sensor of which part answers at once does the same.
      */
     private val slowest: Pair<Double, Double> by lazy {
         var step = ln(LONGEST_LAG / SHORTEST_LAG) / (LAGS - 1)
@@ -92,8 +92,8 @@ internal class ReferenceFaults(
         return DoubleArray(times.size) { i ->
             val before = maxOf(times[i] - reach, times[0])
             val after = minOf(times[i] + reach, times.last())
-            val slope = (curve.at(minOf(i, times.size - 2), after) - curve.at(maxOf(i - 1, 0), before)) / (after - before)
-            reference[i] + lag * slope
+            val rise = curve.at(minOf(i, times.size - 2), after) - curve.at(maxOf(i - 1, 0), before)
+            reference[i] + lag * rise / (after - before)
         }
     }
 

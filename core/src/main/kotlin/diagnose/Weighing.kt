@@ -157,7 +157,8 @@ internal class Weighing(
     /** What explains the log better than any cause of the list and is none. */
     private fun unlisted(loose: LooseReadings): Verdict? {
         val faults = ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level)
-        faults.words(explained, chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE })?.let { return Verdict.Unexplained(it) }
+        val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
+        faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         val lasting = loose.lasting.size
         return when {
             lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->
