@@ -33,8 +33,10 @@ class BenchTest {
     private fun noisy(column: DoubleArray, spread: Double) =
         DoubleArray(column.size) { column[it] + spread * random.nextGaussian() }
 
-    private fun log(values: DoubleArray, reference: DoubleArray) =
-        values.indices.map { it.toDouble() }.toDoubleArray().let { MeasuredSeries(it, it, it, values, reference) }
+    private fun log(values: DoubleArray, reference: DoubleArray): MeasuredSeries {
+        val still = DoubleArray(values.size)
+        return MeasuredSeries(DoubleArray(values.size) { it.toDouble() }, still, still, values, reference)
+    }
 
     @Test
     fun aReferenceWithALagOfItsOwnMakesNoSecondPath() {
