@@ -64,13 +64,21 @@ internal object CalibrationPoint {
         val drift = fit.number(Term(Cause.DRIFT))
         val all = scales.centred.map { (name, column) ->
             ends(fit.number(Term(Cause.CROSS_SENSITIVITY, name)), column) {
-                TEMPERATURES.filter { name == Conditions.TEMPERATURE }.map { it - scales.middles.getValue(name) }
+                elsewhere(name).map { it - scales.middles.getValue(name) }
             }
         } + ends(drift, doubleArrayOf(0.0, fit.model.series.duration)) { emptyList() }
         val offset = fit.numbers[ResponseModel.OFFSET]
         val low = if (drift > 0) Double.NEGATIVE_INFINITY else offset + all.sumOf { it.start }
         val high = if (drift < 0) Double.POSITIVE_INFINITY else offset + all.sumOf { it.endInclusive }
         return low..high
+    }
+
+    /** Where in the condition [name] an offset may have been right, whatever the log is like: at rest in fresh water. */
+    private fun elsewhere(name: String) = when (name) {
+        Conditions.TEMPERATURE -> TEMPERATURES
+        Conditions.SPEED -> SPEEDS + 0.0
+        Conditions.HEADING -> emptyList()
+        else -> listOf(0.0)
     }
 
     /** [factor] times the lowest and the highest of [column] and [others]; 0 where it does nothing. */

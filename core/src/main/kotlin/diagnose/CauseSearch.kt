@@ -75,7 +75,7 @@ internal class CauseSearch(
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
-        if (worthHolding && gained <= 0 && best.model.terms.any { it.cause in ACT_NOW_AND_THEN }) {
+        if (worthHolding && gained <= 0 && best.model.terms.any(::actsNowAndThen)) {
             gained = HeldOut.gainWhereTheyAct(best, base, root, used)
         }
         val worth = gain - cost
@@ -83,6 +83,10 @@ internal class CauseSearch(
         val added = if (best === base) term else best.model.terms.last()
         return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
     }
+
+    /** Whether [term] shows only where the water comes to it, which may be once in a log. */
+    private fun actsNowAndThen(term: Term) = term.cause in ACT_NOW_AND_THEN ||
+        (term.cause.isTiming && scales.unknown?.isSharp == true)
 
     /**
      * Of what [term] itself adds where it leaves a given number open besides; 0 where it does not. A wrong number alone
@@ -99,11 +103,20 @@ internal class CauseSearch(
         val kept = base.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, kept + term, base.model.held, scales)
         val free = freed(model, base, term)
-        val rough = Starts(base, model, term).all()
+        val rough = starts(base, model, term)
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
             .maxBy { it.score }
         val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
         return inOrder(if (fine.score >= rough.score) fine else rough)
+    }
+
+    private fun starts(base: ModelFit, model: ResponseModel, term: Term): List<DoubleArray> {
+        val all = Starts(base, model, term).all()
+        val late = scales.unknown?.late ?: 0.0
+        if (term.cause != Cause.DEAD_TIME || late == 0.0) return all
+        val slot = model.slot(term)
+        val parameter = model.parameters[slot]
+        return all + all.first().copyOf().also { it[slot] = late.coerceIn(parameter.lower, parameter.upper) }
     }
 
     /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */
@@ -237,7 +250,7 @@ internal class CauseSearch(
         fun longest(series: MeasuredSeries, settings: DiagnosisSettings): Double =
             maxOf(series.duration / settings.noiseShare, 3 * series.period)
 
-        /** What shows only where the water comes to it, which may be once in a log. */
+        /** What shows at an end of the range, or in the steepest water, alone. */
         private val ACT_NOW_AND_THEN = setOf(Cause.SATURATION, Cause.SLEW_LIMIT)
 
         private val LAG_CHANGES = setOf(

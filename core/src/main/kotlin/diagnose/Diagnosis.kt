@@ -37,6 +37,9 @@ public class Diagnosis(
     /** The base model as it looks with nothing known of gaps, sharp fronts and single wild readings. */
     private val rough by lazy { base(null, null) }
 
+    /** What the reference leaves open of the readings, which may be late by whole rows. */
+    private val shaken by lazy { if (unknown.isSharp) unknown.seen(late()) else unknown }
+
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
         val reference = series.reference
@@ -105,7 +108,7 @@ public class Diagnosis(
         val settled = settled(held)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
         val spikes = Spikes.of(settled.whitened).filter {
-            abs(settled.residuals[it]) > settled.model.scales.resolution && !unknown.isInDoubt(it) &&
+            abs(settled.residuals[it]) > settled.model.scales.resolution && !shaken.isInDoubt(it) &&
                 Spikes.isSingle(settled.residuals, it)
         }
         spikes.forEach { used[it] = false }
@@ -131,7 +134,28 @@ public class Diagnosis(
         if (fit == null) return Scales(series, unknown)
         val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
         val spread = Spikes.spread(fit.whitened)
-        return Scales(series, unknown, unknown.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, held))
+        return Scales(series, shaken, shaken.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, held))
+    }
+
+    /**
+     * By how much the readings are later than the reference, s, below 0 where they are earlier: by a row or more for
+     * certain, else 0. When the truth moved within a row then shakes the readings as much later.
+     */
+    private fun late(): Double {
+        val term = Term(Cause.DEAD_TIME, isEitherWay = true)
+        if (rough.model.slotOrNull(term) != null) return 0.0
+        val model = ResponseModel(series, rough.model.terms + term, rough.model.held, rough.model.scales)
+        val slot = model.slot(term)
+        val free = BooleanArray(model.parameters.size) { it == slot || rough.free.getOrElse(it) { false } }
+        val tau = rough.numbers[ResponseModel.TIME_CONSTANT]
+        val best = (TIMES_LATE.map { it * tau } + ROWS_LATE.map { it * series.period }).map { delay ->
+            val start = rough.numbers.copyOf(model.parameters.size)
+            start[slot] = delay.coerceIn(model.parameters[slot].lower, model.parameters[slot].upper)
+            if (free[ResponseModel.TIME_CONSTANT]) start[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3)
+            Fitting.fit(model, start, free, used, longest, noise = rough.noise)
+        }.maxBy { it.score }
+        val found = best.numbers[slot]
+        return if (best.score > rough.score + SHAKEN && abs(found) > series.period) found else 0.0
     }
 
     /** One more trial is done; a search of [terms] terms takes one round of them or several. */
@@ -174,6 +198,13 @@ public class Diagnosis(
         /** Twice the log-likelihood by which steps must look held. */
         const val HELD = 6.0
         const val SETTLING = 2
+
+        /** Twice the log-likelihood by which readings must look late before they are shaken later. */
+        const val SHAKEN = 25.0
+
+        /** Delays that are tried then, in time constants and in rows. */
+        val TIMES_LATE = listOf(-1.0, -0.3, 0.3, 1.0, 3.0)
+        val ROWS_LATE = listOf(-4.0, -1.5, 1.5, 4.0)
         const val FEWEST = 30
 
         /** Noise of the reference, in that of the readings, above which it is taken off. */

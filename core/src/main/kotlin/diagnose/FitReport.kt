@@ -73,15 +73,21 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         val reach = NORMAL_95 * error
         if (!reach.isFinite() || reach == 0.0) return null
         if (!parameter.logarithmic) {
-            return Interval(parameter.possible(value - reach - open(fit, parameter)), value + reach)
+            val open = open(fit, parameter)
+            return Interval(parameter.possible(value - reach - open.first), value + reach + open.second)
         }
-        return Interval(value * exp(-minOf(reach, FAR)), value * exp(minOf(reach, FAR)))
+        // Which of two lags is how long does not show where they are alike, nor what is shorter than rows.
+        return if (reach < FAR) Interval(value * exp(-reach), value * exp(reach)) else null
     }
 
-    /** What sharp steps of a truth that is held leave open of [parameter], downward: each may have come a row later. */
-    private fun open(fit: ModelFit, parameter: Parameter): Double {
-        val isOpen = parameter.name == "dead_time_s" && fit.model.held && fit.model.scales.unknown?.isSharp == true
-        return if (isOpen) series.period else 0.0
+    /**
+     * What sharp steps of the truth leave open of [parameter], downward and upward: where it is held, each may have come
+     * a row later, else half a row sooner or later.
+     */
+    private fun open(fit: ModelFit, parameter: Parameter): Pair<Double, Double> = when {
+        parameter.name != "dead_time_s" || fit.model.scales.unknown?.isSharp != true -> 0.0 to 0.0
+        fit.model.held -> series.period to 0.0
+        else -> series.period / 2 to series.period / 2
     }
 
     /**
@@ -132,7 +138,9 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
 
         /** Chi-square with one degree of freedom at 90 %: 95 % to one side. */
         const val ONE_SIDED_95 = 2.71
-        const val FAR = 50.0
+
+        /** Logarithm of the factor either way from which a number does not show. */
+        const val FAR = 7.0
         const val SMALLEST_PART = 1e-4
         const val MOST_STEPS = 14
     }

@@ -15,7 +15,10 @@ internal object LocalSpread {
     /** Three standard errors of a median of absolute normal residuals, in itself, times the root of their number. */
     private const val CLEAR = 3.5
 
-    /** For each row by how much [z], residuals of [fit], scatter more than overall at such times, values, rates or conditions. */
+    /**
+     * For each row by how much [z], residuals of [fit], scatter more than overall at such times, values, rates or
+     * conditions. Rows in which they are 0 are not in use.
+     */
     fun of(fit: ModelFit, z: DoubleArray): DoubleArray = of(z, columns(fit))
 
     /**
@@ -68,18 +71,26 @@ internal object LocalSpread {
     private fun of(z: DoubleArray, columns: List<DoubleArray>): DoubleArray {
         val factors = DoubleArray(z.size) { 1.0 }
         val size = maxOf(z.size / PARTS, FEWEST)
-        val overall = median(DoubleArray(z.size) { abs(z[it]) })
+        val overall = scatter(z, z.indices.toList())
         if (z.size < 2 * size || !(overall > 0)) return factors
         for (column in columns) {
             val order = column.indices.sortedBy { column[it] }
             for (part in order.chunked(size)) {
                 // The last rows are too few by themselves.
                 val rows = if (part.size < size) order.takeLast(size) else part
-                val factor = median(DoubleArray(rows.size) { abs(z[rows[it]]) }) / overall
+                val factor = scatter(z, rows) / overall
                 val least = 1 + CLEAR / sqrt(rows.size.toDouble())
                 if (factor > least) for (i in part) factors[i] = maxOf(factors[i], factor)
             }
         }
         return factors
+    }
+
+    /** The median of how far [z] are off 0 in those of [rows] that are in use; NaN of none. */
+    private fun scatter(z: DoubleArray, rows: Collection<Int>): Double {
+        val sizes = DoubleArray(rows.size)
+        var count = 0
+        for (row in rows) if (z[row] != 0.0) sizes[count++] = abs(z[row])
+        return median(sizes.copyOf(count))
     }
 }

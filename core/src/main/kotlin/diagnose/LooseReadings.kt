@@ -6,11 +6,7 @@ import kotlin.math.sqrt
 /** Single readings that the model of [fit] leaves far off, among all rows. */
 internal class LooseReadings(private val fit: ModelFit) {
     private val series = fit.model.series
-    private val z = DoubleArray(series.size).also { out ->
-        val all = BooleanArray(series.size) { true }
-        fit.noise.over(series.times, all).whiten(fit.residuals, out)
-        fit.model.scales.unknown?.let { unknown -> for (i in out.indices) if (unknown.isInDoubt(i)) out[i] = 0.0 }
-    }
+    private val z = whitened(BooleanArray(series.size) { true })
     private val spread = sqrt(fit.variance)
 
     /** Half of this is what rounding alone may move a reading by. */
@@ -27,11 +23,22 @@ internal class LooseReadings(private val fit: ModelFit) {
         fun isFar(i: Int) = abs(fit.residuals[i]) > FARTHEST * spread + resolution / 2
         val usual = usual()
         val sudden = z.indices.filter { abs(z[it]) > FARTHEST * usual }
-        // A single reading makes two sudden changes.
+        // What is foretold of the rows after a single wild reading is to come from those before it.
+        val single = sudden.filter { isSingle(it) && isFar(it) }
+        val others = BooleanArray(series.size) { true }
+        single.forEach { others[it] = false }
+        val beside = whitened(others)
         lasting = sudden.filterNot { isSingle(it) || (it > 0 && abs(z[it - 1]) > FARTHEST * usual && isSingle(it - 1)) }
+            .filter { abs(beside[it]) > FARTHEST * usual }
         lasting.forEach { z[it] = 0.0 }
         spikes = Spikes.of(z).filter(::isFar)
         mixture = Spikes.ratio(z)
+    }
+
+    /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
+    private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->
+        fit.noise.over(series.times, rows).whiten(fit.residuals, out)
+        fit.model.scales.unknown?.let { unknown -> for (i in out.indices) if (unknown.isInDoubt(i)) out[i] = 0.0 }
     }
 
     /** Spread of the rows that are not in doubt. */

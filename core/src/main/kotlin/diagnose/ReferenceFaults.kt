@@ -2,10 +2,12 @@ package stillwater.diagnose
 
 import java.util.Locale
 import kotlin.math.exp
+import kotlin.math.ln
 
 /**
- * What a reference can have, and no sensor: it is late, by its clock or by a lag of its own, or it shows more than the
- * water at the sensor, for noise that neighbouring rows share or for water that it sees elsewhere.
+ * What a reference can have, and no sensor: it is late, by its clock or by a lag of its own, which need not be longer
+ * than the sensor's, or it shows more than the water at the sensor, for noise that neighbouring rows share or for water
+ * that it sees elsewhere.
  *
  * @param base the model without causes. @param tried how many causes are tried in all.
  */
@@ -20,19 +22,78 @@ internal class ReferenceFaults(
     private val series = base.model.series
     private val late = search.attempt(base, baseHeldOut, Term(Cause.DEAD_TIME, isEitherWay = true), base)
 
-    /** How the reference differs if that explains as much as causes do that are worth [explained]; null if not. */
-    fun words(explained: Double): String? {
+    /**
+     * How the reference differs if that explains as much as causes do that are worth [explained], of which a slow path
+     * may be one, [isTwoPath]; null if not.
+     */
+    fun words(explained: Double, isTwoPath: Boolean): String? {
         val ahead = -late.fit.numbers[late.fit.model.slot(late.term)]
-        val isLate = ahead > 0 && late.pValue * tried < level && late.foretells &&
+        // How a log is sampled may do as much as a tenth of a row.
+        val isLate = ahead > SmallShifts.LEAST_ROWS * series.period && late.pValue * tried < level && late.foretells &&
             late.fit.score - late.cost >= explained
         return when {
             isLate ->
                 "the readings are ahead of the reference by %.2g s: its clock is behind, or it has a lag of its own"
                     .format(Locale.ROOT, ahead)
+            isTwoPath && slowest.second >= explained - WITHIN_ROWS * (explained - base.score) ->
+                "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
+                    "own, of about %.2g s".format(Locale.ROOT, slowest.first)
             explained > base.score && smoothest() >= explained ->
                 "the readings follow a smoother course than the reference's: it is noisy, or sees other water than " +
                     "the sensor"
             else -> null
+        }
+    }
+
+    /**
+     * The lag of a reference under which the readings are likeliest, s, and twice their log-likelihood then, less what
+     * it gains by chance. A sensor of which part answers at once does the same.
+     */
+    private val slowest: Pair<Double, Double> by lazy {
+        var step = ln(LONGEST_LAG / SHORTEST_LAG) / (LAGS - 1)
+        var best = List(LAGS) { SHORTEST_LAG * series.period * exp(it * step) }.map { it to led(it) }.maxBy { it.second }
+        repeat(REFINEMENTS) {
+            step /= 2
+            val beside = listOf(best.first * exp(step), best.first * exp(-step)).map { it to led(it) }
+            best = (beside + best).maxBy { it.second }
+        }
+        best.first to best.second - CHANCE
+    }
+
+    /** Twice the log-likelihood of a truth that the reference follows with a lag of [lag] s. */
+    private fun led(lag: Double): Double = listOf(false, true).maxOf { held ->
+        val lead = series.withQuieter(if (held) steps(lag) else course(lag))
+        val unknown = UnknownTruth.of(lead)
+        val tau = base.numbers[ResponseModel.TIME_CONSTANT] +
+            if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0
+        val spread = Spikes.spread(base.whitened)
+        val scales = Scales(lead, unknown, unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, held))
+        val start = base.numbers.copyOf().also { it[ResponseModel.TIME_CONSTANT] = tau }
+        val guess = CorrelatedNoise(series.times, base.noise.share, base.noise.time, used, scales.shocks)
+        val model = ResponseModel(lead, base.model.terms, held, scales)
+        Fitting.fit(model, start, base.free, used, search.longest, guess = guess).score
+    }
+
+    /** What stood still over each step while a sensor with a lag of [lag] s came to show the reference. */
+    private fun steps(lag: Double): DoubleArray {
+        val reference = requireNotNull(series.reference) { "faults of a reference need one" }
+        return DoubleArray(reference.size) { i ->
+            val keep = if (i == 0) 0.0 else exp(-(series.times[i] - series.times[i - 1]) / lag)
+            if (i == 0) reference[0] else (reference[i] - keep * reference[i - 1]) / (1 - keep)
+        }
+    }
+
+    /** What went on evenly while it did. */
+    private fun course(lag: Double): DoubleArray {
+        val reference = requireNotNull(series.reference) { "faults of a reference need one" }
+        val times = series.times
+        val curve = Spline(times, base.model.scales.unknown?.isBroken).also { it.fit(reference) }
+        val reach = series.period / NEAR
+        return DoubleArray(times.size) { i ->
+            val before = maxOf(times[i] - reach, times[0])
+            val after = minOf(times[i] + reach, times.last())
+            val rise = curve.at(minOf(i, times.size - 2), after) - curve.at(maxOf(i - 1, 0), before)
+            reference[i] + lag * rise / (after - before)
         }
     }
 
@@ -74,6 +135,18 @@ internal class ReferenceFaults(
         /** Of the windows, in rows. */
         val WIDTHS = listOf(0.7, 1.5, 3.0, 6.0)
         const val REACH = 3.0
+
+        /** Of lags of the reference that are tried first, in rows. */
+        const val SHORTEST_LAG = 0.5
+        const val LONGEST_LAG = 32.0
+        const val LAGS = 7
+        const val REFINEMENTS = 4
+
+        /** Of what causes explain: what the truth does within rows, which is not known, may make up so much. */
+        const val WITHIN_ROWS = 0.02
+
+        /** Of a row: how near the two places are between which the reference's slope is taken. */
+        const val NEAR = 100
         const val GAP = 3.0
 
         /** Twice the log-likelihood that one number and the choice among the windows gain by chance. */

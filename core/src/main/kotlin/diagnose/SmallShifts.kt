@@ -92,7 +92,7 @@ internal class SmallShifts(private val last: ModelFit) {
 
     companion object {
         /** Rows; a shift of less is next to nothing. */
-        private const val LEAST_ROWS = 0.1
+        const val LEAST_ROWS = 0.1
 
         /** Why nothing of less than a row shows where the truth is sharp. */
         const val SHARP = "the truth moves in sharp steps, and when between two rows each came is not known."

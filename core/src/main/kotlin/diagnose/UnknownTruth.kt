@@ -14,6 +14,7 @@ import kotlin.math.sqrt
  * @property isGap whether the step before a row is too long for the truth to be guessed, length n.
  * @property isBroken whether no smooth curve goes through the step before a row, length n; gaps included.
  * @property isSharp whether the truth hardly moves but in such steps, as where samples are changed at once on a bench.
+ * @property late how much later than the reference the readings show the truth, s, as far as was asked.
  */
 internal class UnknownTruth private constructor(
     val isGap: BooleanArray,
@@ -21,6 +22,7 @@ internal class UnknownTruth private constructor(
     val isSharp: Boolean,
     private val doubts: DoubleArray,
     private val times: DoubleArray,
+    val late: Double = 0.0,
 ) {
     /** Whether so many steps are in doubt that the log says little of how the reading follows the truth. */
     val isMostly: Boolean get() = isBroken.count { it } > OFTEN * isBroken.size
@@ -53,6 +55,25 @@ internal class UnknownTruth private constructor(
         return if (variance.any { it > 0 }) Shocks(variance, keep) else null
     }
 
+    /**
+     * The same where readings show the truth [late] s later than the reference does, known to a row: they are shaken as
+     * much later.
+     */
+    fun seen(late: Double): UnknownTruth {
+        if (late == 0.0) return this
+        val period = median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
+        val moved = DoubleArray(times.size) { if (isGap[it]) doubts[it] else 0.0 }
+        for (row in 1 until times.size) {
+            if (isGap[row] || !(doubts[row] > 0)) continue
+            var i = times.binarySearch(times[row - 1] + late - period).let { if (it >= 0) it + 1 else -it - 1 }
+            while (i < times.size && (i == 0 || times[i - 1] < times[row] + late + period)) {
+                moved[i] = maxOf(moved[i], doubts[row])
+                i++
+            }
+        }
+        return UnknownTruth(isGap, isBroken, isSharp, moved, times, late)
+    }
+
     companion object {
         /** Nothing is in doubt in [series]. */
         fun none(series: MeasuredSeries) =
@@ -83,7 +104,7 @@ internal class UnknownTruth private constructor(
                 val doubt = if (i == 0) 0.0 else maxOf(within[i - 1], within[i])
                 when {
                     isGap[i] -> spread
-                    doubt > UNUSUAL * usual -> doubt
+                    doubt > UNUSUAL * usual && doubt > ROUNDING * spread -> doubt
                     else -> 0.0
                 }
             }
@@ -118,6 +139,9 @@ internal class UnknownTruth private constructor(
         /** A step longer than so many usual ones is a gap. */
         private const val GAP = 4.0
         private const val UNUSUAL = 4.0
+
+        /** Where the truth stands still a cubic through it is off by errors of arithmetic. */
+        private const val ROUNDING = 1e-9
         private const val SUDDEN = 12.0
         private const val STEEPER = 3.0
 

@@ -145,6 +145,9 @@ internal class Weighing(
                     "went in between might explain what is left",
             )
             structured && left.ratio > LEFT * least -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
+            all.isEmpty() && isFlat(series.reference) -> Verdict.InsufficientData(
+                "the truth never changes, so that neither a lag nor a gain can show",
+            )
             all.isEmpty() -> Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
@@ -154,7 +157,8 @@ internal class Weighing(
     /** What explains the log better than any cause of the list and is none. */
     private fun unlisted(loose: LooseReadings): Verdict? {
         val faults = ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level)
-        faults.words(explained)?.let { return Verdict.Unexplained(it) }
+        val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
+        faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         val lasting = loose.lasting.size
         return when {
             lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->
@@ -165,7 +169,7 @@ internal class Weighing(
 
     private fun insufficient(): Verdict? {
         if (series.size < FEWEST_ROWS) return Verdict.InsufficientData("there are ${series.size} rows only")
-        if (listOfNotNull(series.values, series.reference).all { column -> column.all { it == column[0] } }) {
+        if (isFlat(series.values) && isFlat(series.reference)) {
             return Verdict.InsufficientData("neither the readings nor the truth ever change")
         }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&
@@ -175,6 +179,8 @@ internal class Weighing(
         }
         return null
     }
+
+    private fun isFlat(column: DoubleArray?) = column != null && column.all { it == column[0] }
 
     private fun candidates(size: SpikeSize?, outlierP: Double): List<Candidate> {
         val first = forward.first

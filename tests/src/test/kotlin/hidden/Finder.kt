@@ -25,12 +25,14 @@ internal class FinderAnswer(json: JsonObject) {
         (json.getValue("causes") as JsonArray).map { listOf(it.jsonPrimitive.content) }
             .filter { it.single() !in setOf("none", "unexplained") } +
             (json.getValue("ambiguity") as JsonArray).map { set -> set.jsonArray.map { it.jsonPrimitive.content } }
-    val numbers: Map<String, Map<String, Double>> = json.getValue("candidates").jsonArray.associate { candidate ->
-        val fields = candidate.jsonObject
-        fields.text("cause") to fields.getValue("parameters").jsonArray.associate {
-            it.jsonObject.text("name") to (it.jsonObject.getValue("value").jsonPrimitive.doubleOrNull ?: Double.NaN)
+    val numbers: Map<String, Map<String, Double>> = json.getValue("candidates").jsonArray.map { it.jsonObject }
+        .groupBy { it.text("cause") }
+        .mapValues { (_, candidates) ->
+            // A cross-sensitivity is a candidate for each condition, which its number's name says.
+            candidates.flatMap { it.getValue("parameters").jsonArray }.associate {
+                it.jsonObject.text("name") to (it.jsonObject.getValue("value").jsonPrimitive.doubleOrNull ?: Double.NaN)
+            }
         }
-    }
     val before: Double = json.number("baseline")
     val after: Double = json.number("extended")
 

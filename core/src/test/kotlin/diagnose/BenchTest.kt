@@ -1,0 +1,109 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertIs
+import kotlin.test.assertTrue
+
+/** Logs as a laboratory makes them: a probe moved between samples, or a reference that is an instrument itself. */
+class BenchTest {
+    private val random = java.util.Random(20260917)
+    private val n = 500
+
+    private fun water(time: Double) = 6 + sin(time / 9) + 0.7 * sin(time / 23 + 1)
+
+    /** What a lag of [lag] s shows of the water each second, without noise. */
+    private fun lagged(lag: Double): DoubleArray {
+        val per = 20
+        var state = water(0.0)
+        return DoubleArray(n) { row ->
+            if (row > 0) {
+                for (k in 0 until per) {
+                    state += (1 - exp(-1.0 / per / lag)) * (water(row - 1 + (k + 0.5) / per) - state)
+                }
+            }
+            state
+        }
+    }
+
+    private fun noisy(column: DoubleArray, spread: Double) =
+        DoubleArray(column.size) { column[it] + spread * random.nextGaussian() }
+
+    private fun log(values: DoubleArray, reference: DoubleArray): MeasuredSeries {
+        val still = DoubleArray(values.size)
+        return MeasuredSeries(DoubleArray(values.size) { it.toDouble() }, still, still, values, reference)
+    }
+
+    @Test
+    fun aReferenceWithALagOfItsOwnMakesNoSecondPath() {
+        val result = Diagnosis(log(noisy(lagged(12.0), 0.015), noisy(lagged(4.0), 0.003))).run()
+        assertContains(assertIs<Verdict.Unexplained>(result.verdict).what, "a lag of its own, of about 4")
+    }
+
+    @Test
+    fun wildReadingsBesideNoiseThatWandersAreNoChangesThatLast() {
+        val wild = (20 until n step 40).toList()
+        val truth = DoubleArray(n) { sin(it / 9.0) }
+        val values = noisy(truth, 0.02)
+        wild.forEach { values[it] += 3 + random.nextDouble() }
+        val series = log(values, truth)
+        val used = BooleanArray(n) { it !in wild }
+        val model = ResponseModel(series, emptyList(), held = false, Scales(series))
+        val noise = CorrelatedNoise(series.times, 0.3, 10.0, used)
+        val promptly = doubleArrayOf(series.period / 50, 1.0, 0.0, 0.0)
+        val loose = LooseReadings(Fitting.at(model, promptly, BooleanArray(promptly.size), noise))
+        assertEquals(emptyList(), loose.lasting)
+        assertTrue(loose.pValue < 1e-6, "${loose.pValue}")
+    }
+
+    @Test
+    fun aTruthThatNeverMovesShowsNoLag() {
+        val result = Diagnosis(log(noisy(DoubleArray(FEW) { 8.2 }, 0.015), DoubleArray(FEW) { 8.2 })).run()
+        assertIs<Verdict.InsufficientData>(result.verdict)
+    }
+
+    @Test
+    fun aTruthThatStandsStillIsNotInDoubt() {
+        // A cubic through numbers that are no sums of powers of two is off by errors of arithmetic.
+        val truth = DoubleArray(n) { if (it < n / 2) 9.1 else 0.3 }
+        val unknown = UnknownTruth.of(log(truth, truth))
+        assertTrue(unknown.isInDoubt(n / 2))
+        assertFalse((10 until n / 2 - 10).any(unknown::isInDoubt))
+    }
+
+    @Test
+    fun whatIsInDoubtIsSeenAsMuchLaterAsTheReadingsAre() {
+        val truth = DoubleArray(n) { if (it < n / 2) 9.1 else 0.3 }
+        val seen = UnknownTruth.of(log(truth, truth)).seen(20.0)
+        assertTrue(seen.isInDoubt(n / 2 + 20))
+        assertFalse(seen.isInDoubt(n / 2))
+    }
+
+    @Test
+    fun anOffsetThatIsRightInFreshWaterIsNotWrongAtSea() {
+        val salinity = DoubleArray(n) { 34 + sin(it / 40.0) }
+        val truth = DoubleArray(n) { water(it.toDouble()) }
+        val values = noisy(DoubleArray(n) { truth[it] + 0.1 * salinity[it] }, 0.01)
+        val times = DoubleArray(n) { it.toDouble() }
+        val series = MeasuredSeries(times, times, times, values, truth, mapOf("salinity" to salinity))
+        val used = BooleanArray(n) { true }
+        val given = ResponseModel(series, emptyList(), held = false, Scales(series))
+        val promptly = doubleArrayOf(series.period / 50, 1.0, 0.0, 0.0)
+        val base = Fitting.fit(given, promptly, BooleanArray(promptly.size), used, longest = 20.0)
+        val term = Term(Cause.CROSS_SENSITIVITY, "salinity")
+        val model = ResponseModel(series, listOf(term), held = false, Scales(series))
+        val free = BooleanArray(model.parameters.size) { it == ResponseModel.OFFSET || it == model.slot(term) }
+        val fit = Fitting.fit(model, promptly.copyOf(free.size), free, used, longest = 20.0)
+        // Of water of the log's own salinities the offset is 3.3 to 3.5.
+        assertEquals(3.4, fit.numbers[ResponseModel.OFFSET], 0.05)
+        assertTrue(CalibrationPoint.isPossible(fit, base, listOf(ResponseModel.OFFSET)))
+    }
+
+    private companion object {
+        const val FEW = 100
+    }
+}
