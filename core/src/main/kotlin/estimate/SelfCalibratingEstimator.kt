@@ -231,8 +231,14 @@ public class SelfCalibratingEstimator(
         if (!isExplained) {
             fallback.bring(cell)
             val kept = if (fallback.isPreferred) fallback.map.value(cell) else value.coerceIn(prior.lower, prior.upper)
+            // Bounds of even cells know nothing of water that changes within one, but its readings show some of it.
+            val more = if (choice.areCellsEven) 0.0 else SPREAD * fallback.spread(cell)
             written.setValue(cell, kept)
-            written.setBounds(cell, minOf(kept, fallback.map.lower(cell)), maxOf(kept, fallback.map.upper(cell)))
+            written.setBounds(
+                cell,
+                minOf(maxOf(prior.lower, kept - more), fallback.map.lower(cell), kept),
+                maxOf(minOf(prior.upper, kept + more), fallback.map.upper(cell), kept),
+            )
         } else if (upper < prior.lower || lower > prior.upper) {
             written.setValue(cell, value)
             written.setBounds(cell, lower, upper)
@@ -257,5 +263,8 @@ public class SelfCalibratingEstimator(
         /** [work] of some 0.4 ms on a desk's core. */
         public const val AFLOAT: Double = 16_000.0
         private const val FIRST_CELLS = 128
+
+        /** Standard deviations of a cell's readings that the bounds reach where cells are not even. */
+        private const val SPREAD = 2.0
     }
 }
