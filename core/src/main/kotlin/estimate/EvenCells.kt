@@ -96,7 +96,7 @@ internal class EvenCells(private val tape: Recording) {
         return true
     }
 
-    /** Goes through the tape as [Recording.play] does, each stay's first half counted to the cell before if [isMoved]. */
+    /** Goes through the tape as [Recording.play] does; if [isMoved], each stay's first half is of the cell before. */
     private suspend fun play(isMoved: Boolean) {
         var from = 0
         var before = LagBank.NONE
