@@ -41,8 +41,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         private set
 
     /**
-     * Whether the chosen model explains the readings: what it leaves is white and [areCellsEven]. Once it is not white it
-     * takes innovations that clearly are to say that it is again: a freer model that fits what is not the sensor's
+     * Whether the chosen model explains the readings: what it leaves is white and [areCellsEven]. Once it is not white
+     * it takes innovations that clearly are to say that it is again: a freer model that fits what is not the sensor's
      * hovers about the limit.
      */
     var isExplained: Boolean = true
