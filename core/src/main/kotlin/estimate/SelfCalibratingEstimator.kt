@@ -75,9 +75,10 @@ public class SelfCalibratingEstimator(
     public val timeConstant: Double get() = choice.timeConstant
 
     /**
-     * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike, and cells are
-     * even as far as can be told, see [SensorBelief.areCellsEven]. Where it does not, the map's bounds need no sensor model, and its values are the nearest model's or need none either. True
-     * until there is evidence against it; then false until innovations are clearly unlike.
+     * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike, and cells
+     * are even as far as can be told, see [SensorBelief.areCellsEven]. Where it does not, the map's bounds need no sensor
+     * model, and its values are the nearest model's or need none either. True until there is evidence against it; then
+     * false until innovations are clearly unlike.
      */
     public val isExplained: Boolean get() = choice.isExplained
 
