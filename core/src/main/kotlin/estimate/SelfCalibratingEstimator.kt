@@ -77,8 +77,8 @@ public class SelfCalibratingEstimator(
     /**
      * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike, and cells
      * are even as far as can be told, see [SensorBelief.areCellsEven]. Where it does not, the map's bounds need no
-     * sensor model, and its values are the nearest model's or need none either. True until there is evidence against it;
-     * then false until innovations are clearly unlike.
+     * sensor model, and its values are the nearest model's or need none either. True until there is evidence
+     * against it; then false until innovations are clearly unlike.
      */
     public val isExplained: Boolean get() = choice.isExplained
 
