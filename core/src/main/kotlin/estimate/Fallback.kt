@@ -18,7 +18,9 @@ import kotlin.math.sqrt
  */
 internal class Fallback(private val grid: Grid, prior: Interval) {
     private val filter = BoundedExtendedFilter(grid, prior).also { it.refreshes = false }
-    private val sums = DoubleArray(grid.size)
+    private val means = DoubleArray(grid.size)
+    private val squares = DoubleArray(grid.size)
+    private val counts = IntArray(grid.size)
 
     /** Farther from the first cell than any other is. */
     private val outside = grid.centerX(0) - 2 * (grid.columns * grid.cellWidth + grid.rows * grid.cellHeight)
@@ -35,7 +37,9 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
 
     fun take(cell: Int, seconds: Double, value: Double, conditions: Conditions) {
         this.seconds = seconds
-        sums[cell] += value
+        val off = value - means[cell]
+        means[cell] += off / ++counts[cell]
+        squares[cell] += off * (value - means[cell])
         filter.update(BoatTime(seconds), grid.centerX(cell), grid.centerY(cell), value, conditions)
     }
 
@@ -52,12 +56,15 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
     /** Brings [cell] up to date in [map]. Mostly no cell is asked for. */
     fun bring(cell: Int) = filter.bring(cell)
 
+    /** Standard deviation of the readings in a visited cell, sensor units. */
+    fun spread(cell: Int): Double = sqrt(squares[cell] / counts[cell])
+
     /** Compares its value with [value] of the nearest model in a visited cell, sensor units. */
     fun compare(cell: Int, value: Double) {
         bring(cell)
         val own = map.value(cell)
         val off = value - own
-        val mean = sums[cell] / map.readings(cell)
+        val mean = means[cell]
         apart += off * off
         added += (own - mean) * (own - mean)
     }

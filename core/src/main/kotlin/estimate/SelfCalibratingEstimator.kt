@@ -75,9 +75,10 @@ public class SelfCalibratingEstimator(
     public val timeConstant: Double get() = choice.timeConstant
 
     /**
-     * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike. Where it
-     * does not, the map's bounds need no sensor model, and its values are the nearest model's or need none either. True
-     * until there is evidence against it; then false until innovations are clearly unlike.
+     * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike, and cells
+     * are even as far as can be told, see [SensorBelief.areCellsEven]. Where it does not, the map's bounds need no
+     * sensor model, and its values are the nearest model's or need none either. True until there is evidence
+     * against it; then false until innovations are clearly unlike.
      */
     public val isExplained: Boolean get() = choice.isExplained
 
@@ -231,8 +232,14 @@ public class SelfCalibratingEstimator(
         if (!isExplained) {
             fallback.bring(cell)
             val kept = if (fallback.isPreferred) fallback.map.value(cell) else value.coerceIn(prior.lower, prior.upper)
+            // Bounds of even cells know nothing of water that changes within one, but its readings show some of it.
+            val more = if (choice.areCellsEven) 0.0 else SPREAD * fallback.spread(cell)
             written.setValue(cell, kept)
-            written.setBounds(cell, minOf(kept, fallback.map.lower(cell)), maxOf(kept, fallback.map.upper(cell)))
+            written.setBounds(
+                cell,
+                minOf(maxOf(prior.lower, kept - more), fallback.map.lower(cell), kept),
+                maxOf(minOf(prior.upper, kept + more), fallback.map.upper(cell), kept),
+            )
         } else if (upper < prior.lower || lower > prior.upper) {
             written.setValue(cell, value)
             written.setBounds(cell, lower, upper)
@@ -257,5 +264,8 @@ public class SelfCalibratingEstimator(
         /** [work] of some 0.4 ms on a desk's core. */
         public const val AFLOAT: Double = 16_000.0
         private const val FIRST_CELLS = 128
+
+        /** Standard deviations of a cell's readings that the bounds reach where cells are not even. */
+        private const val SPREAD = 2.0
     }
 }

@@ -24,6 +24,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     )
     private val fits: List<SensorFit> = listOf<SensorFit>(lag) + responses + slew
     private val criteria = DoubleArray(fits.size)
+    private val cells = EvenCells(tape)
 
     /** Logarithm of the odds against each model; NaN if not tried. */
     private val odds = DoubleArray(fits.size) { Double.NaN }.also { it[0] = 0.0 }
@@ -40,10 +41,16 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         private set
 
     /**
-     * Whether the chosen model explains the readings. Once it does not, it takes innovations that are clearly white to
-     * say that one does again: a freer model that fits what is not the sensor's hovers about the limit.
+     * Whether the chosen model explains the readings: what it leaves is white and [areCellsEven]. Once it is not white
+     * it takes innovations that clearly are to say that it is again: a freer model that fits what is not the sensor's
+     * hovers about the limit.
      */
     var isExplained: Boolean = true
+        private set
+    private var isWhite = true
+
+    /** Whether the readings bear out that the water changes at borders only, or are too few to say; see [EvenCells]. */
+    var areCellsEven: Boolean = true
         private set
 
     /** Whether a reading in a cell tells of that cell and the one before, and of no other, whenever it comes. */
@@ -70,7 +77,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     }
 
     private fun judge() {
-        isExplained = if (isExplained) active.isWhite else active.isClearlyWhite
+        isWhite = if (isWhite) active.isWhite else active.isClearlyWhite
+        isExplained = isWhite && areCellsEven
     }
 
     override fun leave() {
@@ -85,6 +93,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         slew.becomeLike(other.slew)
         other.odds.copyInto(odds)
         isExplained = other.isExplained
+        isWhite = other.isWhite
+        areCellsEven = other.areCellsEven
     }
 
     /** Fits to the first [size] on the tape, and chooses. */
@@ -95,6 +105,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         active = lag
         rival = null
         lag.calibrate(tape)
+        areCellsEven = true
         if (lag.freedom < SensorFit.FEWEST_TO_JUDGE) return judge()
         val penalty = ln(lag.freedom)
         criteria.fill(Double.NaN)
@@ -113,6 +124,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
             for (k in fits.indices) if (k != best && isPossible(k) && (next < 0 || odds[k] < odds[next])) next = k
         }
         if (next >= 0) rival = fits[next]
+        // Where borders are heeded, what the sensor looks like without tells even cells; see [SensorLearner].
+        areCellsEven = crossings.areHeeded || cells.areBorneOut(active)
         judge()
     }
 
@@ -150,7 +163,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
             val numbers = if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k, scale)
             SensorCandidate(kinds[k], standing, odds[k], numbers)
         }
-        return SensorBelief(isExplained, candidates.sortedBy { it.standing })
+        return SensorBelief(isExplained, areCellsEven, candidates.sortedBy { it.standing })
     }
 
     private fun parameters(k: Int, scale: Double): List<SensorParameter> {

@@ -51,6 +51,7 @@ internal object SimulationJson {
         result.belief?.let { belief ->
             putJsonObject("sensor_learned") {
                 put("explained", belief.isExplained)
+                put("even_cells", belief.areCellsEven)
                 put("response", belief.chosen.kind.label)
                 belief.chosen.parameters.forEach { put(it.name, finite(it.value)) }
             }

@@ -24,6 +24,7 @@ object MapJson {
 
     private fun sensor(belief: SensorBelief) = buildJsonObject {
         put("explained", belief.isExplained)
+        put("even_cells", belief.areCellsEven)
         putJsonObject("models") {
             for (candidate in belief.candidates) {
                 putJsonObject(candidate.kind.label) {

@@ -16,9 +16,16 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     /** The sentences, most important first. */
     fun list(): List<String> = map.pass.warnings + map.correction?.cautions.orEmpty() +
-        listOfNotNull(jumps(), gap(), outliers(), outsideRange(), skipped()) +
+        listOfNotNull(unevenCells(), jumps(), gap(), outliers(), outsideRange(), skipped()) +
         epsilon() + listOfNotNull(standing()) + bounds() + listOfNotNull(map.interval?.warning(wording::value)) +
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
+
+    private fun unevenCells(): String? {
+        if (map.learned?.sensor()?.areCellsEven != false) return null
+        return "nothing shows that the water changes at the cells' borders and not within cells, so self-calibrating " +
+            "cannot learn the sensor: its bounds are wide, and its values may be as late as the readings; " +
+            "`stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
+    }
 
     private fun jumps(): String? {
         if (statistics.jumps == 0L) return null

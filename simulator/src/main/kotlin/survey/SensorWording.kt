@@ -26,8 +26,14 @@ internal class SensorWording(private val belief: SensorBelief) {
         return if (belief.isExplained) {
             "${chosen.kind.label}, ${parameters(chosen)}"
         } else {
-            "none explains the readings: bounds are those of bounded-extended; ${chosen.kind.label} comes closest, " +
-                "with " + chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
+            val why = if (belief.areCellsEven) {
+                "none explains the readings: bounds are those of bounded-extended"
+            } else {
+                "none can be learned in these cells, because nothing shows that the water changes at their borders " +
+                    "and not within them: bounds are those of bounded-extended and of the readings' spread"
+            }
+            "$why; ${chosen.kind.label} comes closest, with " +
+                chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
         }
     }
 
@@ -38,6 +44,7 @@ internal class SensorWording(private val belief: SensorBelief) {
             val others = undecided.joinToString("; ") { "${it.kind.label}, ${parameters(it)}" }
             return "$others: about as likely; the bounds hold what either says"
         }
+        if (!belief.areCellsEven) return "between a time constant, a dead time and the others: odds mean nothing here"
         val others = undecided.joinToString { "${it.kind.label} ${digits(it.evidence)}" }
         return "between a time constant, a dead time and the others, as long as none explains the readings; log odds " +
             "against them: $others"

@@ -1,0 +1,87 @@
+package stillwater.estimate
+
+import org.junit.jupiter.api.Test
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.model.Position
+import kotlin.math.cos
+import kotlin.math.exp
+import kotlin.math.floor
+import kotlin.math.sin
+import kotlin.random.Random
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertTrue
+
+class EvenCellsTest {
+    private val grid = Grid(Position(0.0, 0.0), 12, 8, 10.0)
+
+    /** Waves of 30 to 90 m, as a [Random] has them. */
+    private fun smooth(random: Random): (Double, Double) -> Double {
+        val waves = List(12) {
+            val length = 30 * exp(random.nextDouble(1.1))
+            val way = random.nextDouble(6.283)
+            Triple(6.283 / length * cos(way), 6.283 / length * sin(way), random.nextDouble(6.283))
+        }
+        return { x, y -> 8 + waves.sumOf { (a, b, phase) -> 0.3 * sin(a * x + b * y + phase) } }
+    }
+
+    /** A lag of [lag] s on a lawnmower's way at 1 m/s, a reading a second, noise of 0.02, resolution of 0.01. */
+    private fun sail(random: Random, lag: Double, water: (x: Double, y: Double) -> Double): SelfCalibratingEstimator {
+        val estimator = SelfCalibratingEstimator(grid, Interval(4.0, 12.0))
+        var state = water(0.5, 5.0)
+        for (second in 0 until 960) {
+            val row = second / 120
+            val along = second % 120 + 0.5
+            val x = if (row % 2 == 0) along else 120 - along
+            val y = 10.0 * row + 5
+            state += (1 - exp(-1 / lag)) * (water(x, y) - state)
+            val noise = 0.02 * (random.nextDouble() + random.nextDouble() + random.nextDouble() - 1.5) * 2
+            val value = floor((state + noise) * 100 + 0.5) / 100
+            estimator.update(BoatTime(second.toDouble()), x, y, value, Conditions.NONE)
+        }
+        return estimator
+    }
+
+    @Test
+    fun whereWaterChangesWithinCellsNothingIsSaidOfTheSensorAndBoundsHold() {
+        for (seed in 601..606) {
+            val random = Random(seed)
+            val water = smooth(random)
+            val estimator = sail(random, lag = 3.0 + 2 * (seed - 600), water)
+            val belief = estimator.sensor()
+            assertFalse(estimator.isExplained, "seed $seed: $belief")
+            assertFalse(belief.areCellsEven, "seed $seed")
+            assertTrue(belief.candidates.none { it.standing == SensorStanding.EXCLUDED }, "seed $seed: $belief")
+            val map = estimator.map
+            val held = (0 until grid.size).count {
+                water(grid.centerX(it), grid.centerY(it)) in map.lower(it)..map.upper(it)
+            }
+            assertTrue(held >= 0.9 * grid.size, "seed $seed: $held of ${grid.size}")
+        }
+    }
+
+    @Test
+    fun evenCellsAreToldByTheirBorders() {
+        for (seed in 611..614) {
+            val random = Random(seed)
+            val water = smooth(random)
+            // The same water, the same in all of a cell.
+            val estimator = sail(random, lag = 3.0 + 3 * (seed - 610)) { x, y ->
+                val cell = grid.cellAt(x, y)
+                water(grid.centerX(cell), grid.centerY(cell))
+            }
+            assertTrue(estimator.isExplained, "seed $seed: ${estimator.sensor()}")
+            assertTrue(estimator.sensor().areCellsEven, "seed $seed")
+        }
+    }
+
+    @Test
+    fun waterThatIsTheSameAllOverSaysNothingAgainstItsCells() {
+        val estimator = sail(Random(621), lag = 10.0) { _, _ -> 8.0 }
+        assertTrue(estimator.isExplained)
+        assertEquals(8.0, estimator.map.value(17), 0.05)
+    }
+}
