@@ -78,6 +78,11 @@ internal class BlindDiagnosis(
         private val held = if (still === state) state else search.held(state)
         private val heldTries = if (still === state) tries else BlindTrials(search, held)
 
+        /** Still water under noise that hardly wanders; null where it does not anyway. */
+        private val quiet = search.quiet(still)
+        private val quietTries = quiet?.let { BlindTrials(search, it) }
+        private var onQuiet: Map<String, BlindTrial> = emptyMap()
+
         /**
          * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other
          * responses are then begun far from what the wrong water makes of them.
@@ -100,10 +105,14 @@ internal class BlindDiagnosis(
                 val others = both.associate {
                     it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
                 }
+                onQuiet = terms.filter { quiet != null && it.cause !in SLOW }
+                    .mapNotNull { quietTries?.attempt(it) }.filter { it.likelier > LIKELY }
+                    .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { checkNotNull(it.term).key }
                 fun other(trial: BlindTrial) = others[trial.term?.key]
                 fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
                 val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
-                    .sortedByDescending(::worth).take(MOST_LIKELY).toSet()
+                    .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
+                    all.filter { it.term?.key in onQuiet }
                 all.map {
                     val other = other(it)
                     when {
@@ -168,7 +177,8 @@ internal class BlindDiagnosis(
             if (isSlow && onStill != null && (onState == null || onState.score < onStill.score + CHANGING_TOO)) {
                 return heldAgainstChange(checkNotNull(other), onStill)
             }
-            val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }).maxBy { it.score }
+            val onQuiet = onQuiet[trial.term?.key]?.let { search.climbed(found(checkNotNull(quiet), it)) }
+            val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, onQuiet).maxBy { it.score }
             val searched = searched(trial)
             val first = tries.settled(trial, found, state.score, searched)
             if (first.pValue > settings.level) return first
@@ -341,6 +351,7 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+        private const val MOST_QUIET = 3
 
         /** Twice the gain in log-likelihood of water that changes that is none. */
         private const val NO_CHANGE = 2.0

@@ -18,17 +18,20 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
     private val edge = JumpPlaces.edge(n)
     private val striking = (edge until n - edge).sortedByDescending { abs(z[it]) }.take(STRIKING)
 
-    /** How many independent places a jump may be at: of rows next to each other only as far as they can be told apart. */
+    /**
+     * How many places a jump may be at: rows next to each other count as far as they can be told apart. No fewer than
+     * were looked at, by which a drift is not taken for the best of many jumps.
+     */
     private val count: Double by lazy {
         val all = n - 2 * edge - 1
         val looked = minOf(all, LOOKED)
-        if (looked < 1) return@lazy 1.0
+        if (looked < 1) return@lazy PLACES.toDouble()
         val steps = DoubleArray(looked) { k ->
             val row = edge + ((k + 0.5) * all / looked).toInt()
             JumpScan.angle(column(row), column(row + 1))
         }
         val scan = JumpScan(steps, all / looked.toDouble())
-        (scan.single(CLEAR) / Evidence.pValue(CLEAR, 1)).coerceIn(1.0, n.toDouble())
+        maxOf(scan.single(CLEAR) / Evidence.pValue(CLEAR, 1), minOf(PLACES, n / 10).toDouble())
     }
 
     /** What the best of all places gains by chance, for [jumps] jumps. */

@@ -72,13 +72,23 @@ internal class BlindSearch(
      * short and noise that wanders make up for each other.
      */
     private fun restarted(state: BlindState): BlindState {
-        val quiet = BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
+        val quiet = hardlyWandering(state)
         val begun = LONGER.map { times ->
             settled(state.model.terms, base(times * state.timeConstant), quiet, state.variances, before = state)
         }
         val other = climbed(requieted(climbed(begun.maxBy { it.score })))
         return if (other.score > state.score) other else state
     }
+
+    private fun hardlyWandering(state: BlindState) =
+        BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
+
+    /**
+     * [state] with noise that hardly wanders, where it does: such noise has taken what a sensor does that the model does
+     * not have, and leaves little for it to explain.
+     */
+    fun quiet(state: BlindState): BlindState? =
+        if (state.fit.design.noise.noise.share < WANDERING) null else climbed(again(state, hardlyWandering(state)))
 
     /** [state] with as many waves as it takes; where even those it has are too few, at the lag they tell. */
     private fun finer(state: BlindState): BlindState {
@@ -353,6 +363,7 @@ internal class BlindSearch(
         const val FAR_LAG = 0.5
         val LONGER = listOf(1.0, 2.0, 4.0)
         const val QUIET = 0.2
+        const val WANDERING = 0.5
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
