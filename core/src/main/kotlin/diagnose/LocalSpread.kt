@@ -12,6 +12,9 @@ internal object LocalSpread {
     private const val FEWEST_GATHERED = 4
     private const val GATHERED = 3.3
 
+    /** Relative. */
+    private const val ROUNDING = 1e-9
+
     /** Three standard errors of a median of absolute normal residuals, in itself, times the root of their number. */
     private const val CLEAR = 3.5
 
@@ -29,13 +32,20 @@ internal object LocalSpread {
         if (rows.size < FEWEST_GATHERED) return false
         // Correlated noise makes two of a single wild reading.
         val alone = rows.filterNot { it - 1 in rows && it - 2 !in rows && it + 1 !in rows }
-        return columns(fit).filter { column -> column.any { it != column[0] } }.any { column ->
+        return columns(fit).filter(::isVaried).any { column ->
             val sorted = column.sortedArray()
             val ranks = alone.map { row -> rank(sorted, column[row]) }
             val lone = sqrt(12.0 * ranks.size)
             abs(ranks.average() - 0.5) * lone > GATHERED ||
                 abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED
         }
+    }
+
+    /** Whether [column] has different values by more than the rounding of what was reckoned, as a speed from fixes is. */
+    private fun isVaried(column: DoubleArray): Boolean {
+        val lowest = column.min()
+        val highest = column.max()
+        return highest - lowest > ROUNDING * maxOf(abs(lowest), abs(highest))
     }
 
     /** The share of [sorted] below [value], of equal ones half. */

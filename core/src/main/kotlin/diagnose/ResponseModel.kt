@@ -218,8 +218,36 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         }
     }
 
+    /**
+     * A play of [width]. Where the truth goes on between the rows it takes the turning points there, too: a parabola
+     * through three rows says how far they are.
+     */
     private fun play(out: DoubleArray, width: Double) {
-        for (i in 1 until n) out[i] = out[i - 1].coerceIn(out[i] - width / 2, out[i] + width / 2)
+        var earlier = out[0]
+        var before = out[0]
+        for (i in 1 until n) {
+            val here = out[i]
+            var state = out[i - 1]
+            if (!held) {
+                state = pulled(state, if (i > 1) turn(earlier, before, here) else before, width)
+                state = pulled(state, if (i < n - 1) turn(out[i + 1], here, before) else here, width)
+            }
+            out[i] = pulled(state, here, width)
+            earlier = before
+            before = here
+        }
+    }
+
+    private fun pulled(state: Double, to: Double, width: Double) = state.coerceIn(to - width / 2, to + width / 2)
+
+    /**
+     * The extreme of a parabola through [far], [near] and [beyond], each a row apart, where it lies between the last
+     * two; else [near].
+     */
+    private fun turn(far: Double, near: Double, beyond: Double): Double {
+        val slope = (beyond - far) / 2
+        val bend = beyond - 2 * near + far
+        return if (bend != 0.0 && -slope / bend in 0.0..1.0) near - slope * slope / (2 * bend) else near
     }
 
     private fun calibrate(p: DoubleArray, out: DoubleArray) {
