@@ -25,7 +25,7 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
 
     /** Whether [other] whitens in the same way. */
     fun isSame(other: BlindNoise): Boolean =
-        this === other || noise.isSame(other.noise) && spread.contentEquals(other.spread)
+        this === other || (noise.isSame(other.noise) && spread.contentEquals(other.spread))
 
     /** Sum of ln of the variances that whitening divides by. */
     val logDeterminant: Double = noise.logDeterminant + 2 * spread.sumOf { ln(it) }

@@ -21,7 +21,8 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
             val count = minOf(AT_ONCE, n - j)
             for (c in 0 until count) sum += 2 * ln(column(j + c, columns, c))
             for (c in count until AT_ONCE) columns[c].fill(0.0)
-            val (p, q, r, s) = columns
+            val (p, q, r) = columns
+            val s = columns[3]
             val four = FourColumns(p, q, r, s)
             for (i in j + AT_ONCE until n) four.add(lower[i], j + AT_ONCE, i + 1, -p[i], -q[i], -r[i], -s[i])
         }

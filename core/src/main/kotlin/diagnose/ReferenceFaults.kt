@@ -51,7 +51,8 @@ internal class ReferenceFaults(
      */
     private val slowest: Pair<Double, Double> by lazy {
         var step = ln(LONGEST_LAG / SHORTEST_LAG) / (LAGS - 1)
-        var best = List(LAGS) { SHORTEST_LAG * series.period * exp(it * step) }.map { it to led(it) }.maxBy { it.second }
+        val lags = List(LAGS) { SHORTEST_LAG * series.period * exp(it * step) }
+        var best = lags.map { it to led(it) }.maxBy { it.second }
         repeat(REFINEMENTS) {
             step /= 2
             val beside = listOf(best.first * exp(step), best.first * exp(-step)).map { it to led(it) }
