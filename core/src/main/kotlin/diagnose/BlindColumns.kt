@@ -79,8 +79,9 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         inMemory -= design
         inMemory += design
         val most = (MOST_NUMBERS / (n.toLong() * design.size)).coerceIn(2, IN_MEMORY)
-        if (inMemory.size <= most) return null
-        return inMemory.removeAt(0).forget()?.takeIf { it.size == design.size }
+        var space: List<DoubleArray>? = null
+        while (inMemory.size > most) space = inMemory.removeAt(0).forget() ?: space
+        return space?.takeIf { it.size == design.size }
     }
 
     /** The water of [modes] with [heights] along the track. */

@@ -66,7 +66,12 @@ internal class BlindDiagnosis(
 
     /** All causes and looks on top of one model. */
     inner class Round(model: BlindState) {
-        private val still = search.still(model)
+        private val settledStill = search.still(model)
+
+        /** Still water under noise that hardly wanders; null where it does not anyway. */
+        private val quiet = search.quiet(settledStill)
+        private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })
+            .maxBy { it.score }
         private val open = search.opened(model)
 
         /** The model, with water that changes in time or does not. */
@@ -78,11 +83,6 @@ internal class BlindDiagnosis(
         private val held = if (still === state) state else search.held(state)
         private val heldTries = if (still === state) tries else BlindTrials(search, held)
 
-        /** Still water under noise that hardly wanders; null where it does not anyway. */
-        private val quiet = search.quiet(still)
-        private val quietTries = quiet?.let { BlindTrials(search, it) }
-        private var onQuiet: Map<String, BlindTrial> = emptyMap()
-
         /**
          * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other
          * responses are then begun far from what the wrong water makes of them.
@@ -92,9 +92,21 @@ internal class BlindDiagnosis(
         /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
         val changing = maxOf(open.score - still.score, 0.0)
 
+        private val terms = BlindTerms.of(search, !isShapeOpen && isLagSeen).filter(::isNew)
+
+        /**
+         * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:
+         * such as make up for much of what these explain.
+         */
+        private val onQuiet: Map<String, BlindTrial> = quiet?.let { without ->
+            val tries = BlindTrials(search, without)
+            val least = MADE_UP * (state.score - without.score)
+            terms.filter { it.cause !in SLOW }.map(tries::attempt).filter { it.likelier > maxOf(LIKELY, least) }
+                .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { it.name }
+        }.orEmpty()
+
         /** The causes that are not in the model yet. */
-        val causes: List<BlindTrial> =
-            BlindTerms.of(search, !isShapeOpen && isLagSeen).filter(::isNew).let { terms ->
+        val causes: List<BlindTrial> = run {
                 val all = terms.mapIndexed { i, term ->
                     tell(i.toDouble() / terms.size)
                     tries.attempt(term)
@@ -105,14 +117,11 @@ internal class BlindDiagnosis(
                 val others = both.associate {
                     it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
                 }
-                onQuiet = terms.filter { quiet != null && it.cause !in SLOW }
-                    .mapNotNull { quietTries?.attempt(it) }.filter { it.likelier > LIKELY }
-                    .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { checkNotNull(it.term).key }
                 fun other(trial: BlindTrial) = others[trial.term?.key]
                 fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
                 val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
                     .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
-                    all.filter { it.term?.key in onQuiet }
+                    all.filter { it.name in onQuiet }
                 all.map {
                     val other = other(it)
                     when {
@@ -177,8 +186,8 @@ internal class BlindDiagnosis(
             if (isSlow && onStill != null && (onState == null || onState.score < onStill.score + CHANGING_TOO)) {
                 return heldAgainstChange(checkNotNull(other), onStill)
             }
-            val onQuiet = onQuiet[trial.term?.key]?.let { search.climbed(found(checkNotNull(quiet), it)) }
-            val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, onQuiet).maxBy { it.score }
+            val quieter = onQuiet[trial.name]?.let { search.climbed(found(checkNotNull(quiet), it)) }
+            val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, quieter).maxBy { it.score }
             val searched = searched(trial)
             val first = tries.settled(trial, found, state.score, searched)
             if (first.pValue > settings.level) return first
@@ -351,6 +360,11 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+
+        /** Share of what noise that wanders and water that changes explain, for which a cause may make up alone. */
+        private const val MADE_UP = 0.4
+
+        /** Causes that are given water and noise of their own from quiet still water on. */
         private const val MOST_QUIET = 3
 
         /** Twice the gain in log-likelihood of water that changes that is none. */

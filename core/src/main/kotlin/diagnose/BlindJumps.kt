@@ -2,13 +2,14 @@ package stillwater.diagnose
 
 import org.hipparchus.special.Erf
 import kotlin.math.abs
+import kotlin.math.exp
 import kotlin.math.ln
-import kotlin.math.sqrt
 
 /**
  * Where jumps of the readings would explain most of what [state] leaves, [z] whitened.
  *
- * Looked at are even places and the rows that surprise most: under noise that wanders a jump shows at its own row alone.
+ * Looked at are even places and the rows that surprise most: under noise that wanders a jump shows at its own row
+ * alone.
  */
 internal class BlindJumps(private val state: BlindState, private val z: DoubleArray) {
     private val times = state.model.series.times
@@ -20,7 +21,7 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
 
     /**
      * How many places a jump may be at: rows next to each other count as far as they can be told apart. No fewer than
-     * were looked at, by which a drift is not taken for the best of many jumps.
+     * the even places, by which a drift is less often taken for the best of many jumps.
      */
     private val count: Double by lazy {
         val all = n - 2 * edge - 1
@@ -43,14 +44,15 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
      */
     fun best(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
         fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), LEAST) }
-        val rows = ((edge until n - edge step stride) + striking).distinct().filter { row ->
-            taken.all { abs(it - (times[row] - times[0])) > duration / PLACES }
-        }
+
+        fun isFree(row: Int) = taken.all { abs(it - (times[row] - times[0])) > duration / PLACES }
+        val rows = ((edge until n - edge step stride) + striking).distinct().filter(::isFree)
         var row = rows.maxByOrNull(::gain) ?: return null
         var reach = stride
         while (reach > 0) {
             val step = maxOf(reach / FINER, 1)
-            row = ((maxOf(row - reach, edge)..minOf(row + reach, n - edge - 1)) step step).plus(row).maxBy(::gain)
+            val near = (maxOf(row - reach, edge)..minOf(row + reach, n - edge - 1)) step step
+            row = near.filter(::isFree).plus(row).maxBy(::gain)
             reach = if (step > 1) step else 0
         }
         return (times[row] + times[row - 1]) / 2 - times[0] to column(row)
@@ -68,24 +70,30 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
         /** Twice a gain in log-likelihood about where jumps are told from chance. */
         private const val CLEAR = 20.0
 
-        /** Ranks of the rows that tell how heavy the tails are; a few of the farthest may be effects. */
-        private val RANKS = 4..20
+        /** Ranks of the rows that tell how heavy the tails are; the farthest of all may be an effect. */
+        private val RANKS = 2..40
 
         /**
-         * By how much the squares of the rows that surprise most, of what [z] leaves, are larger than normal noise has
-         * them, at least 1: as much larger is the gain of a jump by chance.
+         * By how much a [gain], twice that in log-likelihood, is larger than under normal noise one as unlikely is, at
+         * least 1, where [z] is left: a line through the squares of the rows that surprise most, over normal ones, in
+         * logarithms, and no less than any of these rows is larger.
          */
-        fun tails(z: DoubleArray): Double {
+        fun tails(z: DoubleArray, gain: Double): Double {
             val used = z.filter { it != 0.0 }
             val variance = used.sumOf { it * it } / maxOf(used.size, 1)
-            if (used.size < FEWEST || !(variance > 0)) return 1.0
+            if (used.size < FEWEST || !(variance > 0) || !(gain > 0)) return 1.0
             val sorted = used.map { it * it / variance }.sortedDescending()
-            return RANKS.maxOf { rank ->
-                val normal = sqrt(2.0) * Erf.erfcInv((rank - 0.5) / used.size)
-                sorted[rank - 1] / (normal * normal)
-            }.coerceAtLeast(1.0)
+            val found = RANKS.map { ln(maxOf(sorted[it - 1], LEAST)) }
+            val normal = RANKS.map { rank -> ln(2.0) + 2 * ln(Erf.erfcInv((rank - 0.5) / used.size)) }
+            val middle = normal.average()
+            val steepness = normal.indices.sumOf { (normal[it] - middle) * found[it] } /
+                normal.sumOf { (it - middle) * (it - middle) }
+            val slope = maxOf(steepness, 1.0)
+            val asNormal = exp((ln(gain) - found.average()) / slope + middle)
+            val larger = normal.indices.maxOf { exp(found[it] - normal[it]) }
+            return maxOf(gain / asNormal, larger, 1.0)
         }
 
-        private const val FEWEST = 200
+        private const val FEWEST = 60
     }
 }

@@ -40,10 +40,16 @@ internal class BlindOutliers(state: BlindState) {
         return Spikes.isSingle(residuals, i) && off > STEPS * resolution && isAlone(i) && !isJump(i)
     }
 
-    /** Whether the readings beside [i] are off by as much to the other side: so they are about a jump, which stays. */
+    /** Whether the readings about [i] are off as a jump beside it makes them, which stays, more than a single one does. */
     private fun isJump(i: Int): Boolean {
-        val beside = minOf(off[i - 1] * off[i].sign, off[i + 1] * off[i].sign)
-        return beside < -ABOUT_A_JUMP * abs(off[i])
+        val jump = maxOf(alike(Neighbours.ABOUT_JUMP, i - REACH), alike(Neighbours.ABOUT_JUMP, i - REACH + 1))
+        return jump > alike(Neighbours.ABOUT_SINGLE, i - REACH)
+    }
+
+    /** How much of the squares of how far readings from row [from] on are off the [shape] explains. */
+    private fun alike(shape: DoubleArray, from: Int): Double {
+        val product = shape.indices.sumOf { shape[it] * off.getOrElse(from + it) { 0.0 } }
+        return product * product / squares(shape)
     }
 
     /** Whether reading [i] is off the line between its neighbours as none about it is: a sharp front is no outlier. */
@@ -56,7 +62,9 @@ internal class BlindOutliers(state: BlindState) {
 
     /** [column] over the robust deviation of the rows about each, rounding's at least. */
     private fun evened(column: DoubleArray): DoubleArray {
-        val least = resolution * sqrt(Neighbours.errorVariance / ROUNDED)
+        val rounded = resolution * sqrt(Neighbours.errorVariance / ROUNDED)
+        // Where a logger repeats a reading nothing scatters about it.
+        val least = maxOf(rounded, STUCK * median(DoubleArray(column.size) { abs(column[it]) }))
         return DoubleArray(column.size) { i ->
             val about = (maxOf(0, i - NEAR)..minOf(column.size - 1, i + NEAR)).filter { it != i }
             column[i] / maxOf(NORMAL * median(DoubleArray(about.size) { abs(column[about[it]]) }), least, TINY)
@@ -75,17 +83,19 @@ internal class BlindOutliers(state: BlindState) {
         listOf(off, evened(z)).map { column -> DoubleArray(rows.size) { column[rows[it]] } }
     }
 
-    /** Noise with single wrong readings against noise without, of the readings about the rows beside them and of what
-     * the model leaves. */
+    /**
+     * Noise with single wrong readings against noise without, of the readings about the rows beside them and of what the
+     * model leaves.
+     */
     private val both = columns.map(Spikes::ratio)
 
-    /** Whether noise with heavy tails is far likelier than either. */
+    /** Whether noise with heavy tails is clearly likelier, by both together. */
     private val isTailed = both.sumOf { it.ratio } < columns.sumOf(Spikes::tails) - TAILED
 
     /**
      * The two in one; null where the noise has heavy tails, or where the far ones are gathered where it is larger.
      * The rows beside say less of each reading, what the model leaves holds what the model gets wrong: the ratio is the
-     * geometric mean of both, and twice the less of the two at most.
+     * geometric mean of both, and half as much again as the less at most.
      */
     private val mixture: Mixture? = if (isTailed || isGathered(state)) {
         null
@@ -97,7 +107,7 @@ internal class BlindOutliers(state: BlindState) {
     private fun isGathered(state: BlindState): Boolean {
         val free = BooleanArray(state.numbers.size)
         val fit = ModelFit(state.model, state.numbers, free, noise.noise, state.residuals, z, state.score)
-        return LocalSpread.isConcentrated(fit, inside.filter { abs(off[it]) > TAIL })
+        return LocalSpread.isConcentrated(fit, inside.filter { abs(off[it]) > TAIL && !isAboutJump[it] })
     }
 
     /**
@@ -114,12 +124,6 @@ internal class BlindOutliers(state: BlindState) {
         SpikeSize.of(rows, residuals, spread) ?: mixture?.let { SpikeSize(it.share, it.size * spread) }
 
     private companion object {
-        /**
-         * Of how far a row is off its neighbours' parabola, from where on the next being off the other way means a jump: of a
-         * single row it is 0.43, of a jump 1.
-         */
-        const val ABOUT_A_JUMP = 0.7
-
         /** Share of rows that stick out of their neighbours as far where the noise's tails are somewhat heavy. */
         const val BEYOND = 1.5e-4
 
@@ -131,12 +135,20 @@ internal class BlindOutliers(state: BlindState) {
         const val FAR = 5.0
         const val NORMAL = 1.4826
         const val ROUNDED = 12.0
+
+        /** Of how far the readings of the whole log are off at the median. */
+        const val STUCK = 1e-3
         const val TINY = 1e-290
         const val DOUBT = 10.0
 
-        /** Twice the gain in log-likelihood, of both columns together, of tails against outliers that is no evidence. */
+        /**
+         * Twice a log-likelihood ratio that is no evidence: where outliers are many and near they are hardly likelier
+         * than tails. For that some logs of which the noise has tails are said to have outliers (BlindOutliersTest).
+         */
         const val TAILED = 4.0
-        const val MOST_TIMES = 2.0
+
+        /** How much surer than the less sure of the two both together may be: what the model gets wrong is in one of them. */
+        const val MOST_TIMES = 1.5
 
         /** Numbers of a mixture: share, size and spread. */
         const val MIXED = 3

@@ -74,7 +74,8 @@ internal class BlindSearch(
     private fun restarted(state: BlindState): BlindState {
         val quiet = hardlyWandering(state)
         val begun = LONGER.map { times ->
-            settled(state.model.terms, base(times * state.timeConstant), quiet, state.variances, before = state)
+            val lag = minOf(times * state.timeConstant, series.duration)
+            settled(state.model.terms, base(lag), quiet, state.variances, before = state)
         }
         val other = climbed(requieted(climbed(begun.maxBy { it.score })))
         return if (other.score > state.score) other else state
@@ -361,7 +362,10 @@ internal class BlindSearch(
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5
+        /** Times the lag found, from which it is looked for once more. */
         val LONGER = listOf(1.0, 2.0, 4.0)
+
+        /** Share of noise that hardly wanders; and from which on it may have taken what a sensor does. */
         const val QUIET = 0.2
         const val WANDERING = 0.5
         const val FIRST_SHARE = 0.8

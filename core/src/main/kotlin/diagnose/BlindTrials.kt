@@ -99,12 +99,14 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val basis = Evidence.orthonormal(others.map(columns::getValue))
         val extra = Evidence.orthonormal(own.map(columns::getValue), basis)
         val z = found.whitened
-        val inflation = inflation(term, extra, z)
-        val ratio = maxOf((found.score - score) / inflation - searched, 0.0)
+        val inflation = inflation(term, extra, z, found.score - score)
+        val count = term.times.size
+        val looked = if (count == 0) searched else maxOf(searched, BlindJumps(found, z).searched(count))
+        val ratio = maxOf((found.score - score) / inflation - looked, 0.0)
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), searched, unlike)
+        val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), looked, unlike)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
@@ -180,10 +182,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return out
     }
 
-    /** What the gain of [term] with the columns [extra] is divided by, where [z] is left with it. */
-    private fun inflation(term: Term?, extra: List<DoubleArray>, z: DoubleArray): Double {
+    /** What the [gain] of [term] with the columns [extra] is divided by, where [z] is left with it. */
+    private fun inflation(term: Term?, extra: List<DoubleArray>, z: DoubleArray, gain: Double): Double {
         val correlated = BlindEvidence.inflation(extra, z)
-        return if (term?.cause == Cause.OFFSET_STEPS) maxOf(correlated, BlindJumps.tails(z)) else correlated
+        return if (term?.cause == Cause.OFFSET_STEPS) maxOf(correlated, BlindJumps.tails(z, gain)) else correlated
     }
 
     private class Weighed(val term: Term?, val name: String, val model: ResponseModel?, val point: BlindPoint?)
@@ -200,7 +202,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val extra = Evidence.orthonormal(columns, ownBasis)
         val gain = Evidence.ratio(base.left, left, state.fit.rows)
         val after = rest ?: what.point?.let { state.fit.residual(it.residuals) } ?: z
-        val inflation = maxOf(inflation(what.term, extra, after), floor)
+        val inflation = maxOf(inflation(what.term, extra, after, gain), floor)
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
@@ -257,8 +259,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         while (times.size < MOST_JUMPS) {
             val (time, column) = places.best(rest, times) ?: break
             times += time
-            val places = searched(times.size)
-            val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), places)
+            val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), searched(times.size))
             if (best != null && next.ratio - best.ratio < JUMP_WORTH) break
             best = next
             rest = Evidence.without(rest, Evidence.orthonormal(listOf(column)))

@@ -16,6 +16,9 @@ internal object CalibrationPoint {
     private val TEMPERATURES = listOf(0.0, 30.0)
     private val SPEEDS = listOf(0.1, 1.0)
 
+    /** What is 0 in fresh water at its surface. */
+    private val FRESH = setOf("salinity", "conductivity", "depth")
+
     /** Standard errors by which a number may be off and still be the given one. */
     private const val ERRORS = 2.0
 
@@ -78,7 +81,8 @@ internal object CalibrationPoint {
         Conditions.TEMPERATURE -> TEMPERATURES
         Conditions.SPEED -> SPEEDS + 0.0
         Conditions.HEADING -> emptyList()
-        else -> listOf(0.0)
+        in FRESH -> listOf(0.0)
+        else -> emptyList()
     }
 
     /** [factor] times the lowest and the highest of [column] and [others]; 0 where it does nothing. */

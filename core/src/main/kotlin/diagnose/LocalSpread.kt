@@ -7,6 +7,7 @@ import kotlin.math.sqrt
 internal object LocalSpread {
     private const val PARTS = 24
     private const val FEWEST = 40
+    private const val FEWEST_USED = 10
 
     /** Rows, and standard errors of their mean rank, from which they are gathered. */
     private const val FEWEST_GATHERED = 4
@@ -88,8 +89,10 @@ internal object LocalSpread {
             for (part in order.chunked(size)) {
                 // The last rows are too few by themselves.
                 val rows = if (part.size < size) order.takeLast(size) else part
+                val used = rows.count { z[it] != 0.0 }
+                if (used < FEWEST_USED) continue
                 val factor = scatter(z, rows) / overall
-                val least = 1 + CLEAR / sqrt(rows.size.toDouble())
+                val least = 1 + CLEAR / sqrt(used.toDouble())
                 if (factor > least) for (i in part) factors[i] = maxOf(factors[i], factor)
             }
         }

@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
+
 /** What the rows beside a row say of it: steps from row to row are taken as even. */
 internal object Neighbours {
     /** Rows on either side that are asked. */
@@ -7,6 +9,19 @@ internal object Neighbours {
 
     /** Of the rows 1, 2 and 3 away in the intercept of a least-squares parabola without the middle row. */
     private val WEIGHTS = doubleArrayOf(3.0 / 7, 3.0 / 14, -1.0 / 7)
+
+    /** How far rows are off what those beside them say, from three rows before a single one that is off by 1. */
+    val ABOUT_SINGLE: DoubleArray = DoubleArray(2 * REACH + 1) { k ->
+        val away = abs(k - REACH)
+        if (away == 0) 1.0 else -WEIGHTS[away - 1]
+    }
+
+    /** The same from three rows before those that a jump by 1 raises. */
+    val ABOUT_JUMP: DoubleArray = DoubleArray(2 * REACH) { k ->
+        val raised = if (k < REACH) REACH - k else k - REACH + 1
+        val beyond = (raised..REACH).sumOf { WEIGHTS[it - 1] }
+        if (k < REACH) -beyond else beyond
+    }
 
     /** Variance of a row less what is foretold of it, over that of white noise. */
     val errorVariance: Double = 1 + 2 * squares(WEIGHTS)

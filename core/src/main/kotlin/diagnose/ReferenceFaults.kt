@@ -2,6 +2,7 @@ package stillwater.diagnose
 
 import java.util.Locale
 import kotlin.math.exp
+import kotlin.math.expm1
 import kotlin.math.ln
 
 /**
@@ -35,7 +36,7 @@ internal class ReferenceFaults(
             isLate ->
                 "the readings are ahead of the reference by %.2g s: its clock is behind, or it has a lag of its own"
                     .format(Locale.ROOT, ahead)
-            isTwoPath && slowest.second >= explained - WITHIN_ROWS * (explained - base.score) ->
+            isTwoPath && slowest.second >= explained - minOf(WITHIN_ROWS * (explained - base.score), FAR_LIKELIER) ->
                 "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
                     "own, of about %.2g s".format(Locale.ROOT, slowest.first)
             explained > base.score && smoothest() >= explained ->
@@ -79,8 +80,8 @@ internal class ReferenceFaults(
     private fun steps(lag: Double): DoubleArray {
         val reference = requireNotNull(series.reference) { "faults of a reference need one" }
         return DoubleArray(reference.size) { i ->
-            val keep = if (i == 0) 0.0 else exp(-(series.times[i] - series.times[i - 1]) / lag)
-            if (i == 0) reference[0] else (reference[i] - keep * reference[i - 1]) / (1 - keep)
+            val follows = if (i == 0) 1.0 else -expm1(-(series.times[i] - series.times[i - 1]) / lag)
+            if (i == 0) reference[0] else reference[i - 1] + (reference[i] - reference[i - 1]) / follows
         }
     }
 
@@ -145,6 +146,9 @@ internal class ReferenceFaults(
 
         /** Of what causes explain: what the truth does within rows, which is not known, may make up so much. */
         const val WITHIN_ROWS = 0.02
+
+        /** Twice a log-likelihood ratio beyond which nothing makes up for it. */
+        const val FAR_LIKELIER = 30.0
 
         /** Of a row: how near the two places are between which the reference's slope is taken. */
         const val NEAR = 100

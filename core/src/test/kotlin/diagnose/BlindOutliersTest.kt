@@ -80,7 +80,7 @@ class BlindOutliersTest {
 
     private companion object {
         const val SEED = 20261123L
-        const val LOGS = 6
+        const val LOGS = 12
 
         /** Of Student's t. */
         const val FREEDOMS = 5
