@@ -7,7 +7,7 @@ import java.util.Locale
  *
  * Each cause is an extension of a first-order lag, fitted with the water free to take what it can imitate at every
  * step. What is left counts: likelihood ratios are divided by what correlation inflates them, and stretches of the log
- * must agree. See core/docs/Diagnosis.md, (11) to (15).
+ * must agree, but about jumps. See core/docs/Diagnosis.md, (11) to (15b).
  */
 internal class BlindDiagnosis(
     private val series: MeasuredSeries,
