@@ -164,8 +164,8 @@ internal class CorrectSummary(
     private fun silence(): String {
         val series = result.series
         if (series.values.all { it == series.values[0] }) return "the readings never change"
-        val few = if (result.agreement.crossings > 0) "too few passes come near another" else "no pass comes near another"
-        return result.learned.stillBoat ?: few
+        val count = if (result.agreement.crossings > 0) "too few passes come" else "no pass comes"
+        return result.learned.stillBoat ?: "$count near another"
     }
 
     private fun legs(): String {

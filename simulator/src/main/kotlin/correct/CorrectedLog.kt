@@ -176,8 +176,8 @@ class CorrectedLog internal constructor(
                 corrected(series, likely, spec.stages, resolution, others, unusable)
             val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
-            // What a given sensor's intervals are is the giver's: they are told of, not changed. "Passes" of a boat that
-            // lay still are none, and have no say in the intervals either.
+            // What a given sensor's intervals are is the giver's: they are told of, not changed. "Passes" of a boat
+            // that lay still are none, and have no say in the intervals either.
             val isToldOnly = learned.origin == SensorOrigin.GIVEN || learned.stillBoat != null
             val agreed = if (isToldOnly) narrow else agreement.widened(narrow)
             val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
