@@ -25,18 +25,22 @@ internal class EvenCells(private val tape: Recording) {
         val noise = fit.noiseVariance
         tape.spend(tape.size)
         if (stays() < FEWEST_STAYS || !(variance() > ALIVE * noise)) return true
-        if (leavesTooMuch(noise)) return false
         return when (fit) {
-            is LagFit -> areBordersNeeded(ResponseBankKind.DEAD_TIME, ln(fit.timeConstant), 0.0, noise)
-            is ResponseBankFit -> areBordersNeeded(fit.kind, fit.first, fit.second, noise)
+            is LagFit -> areBorneOut(ResponseBankKind.DEAD_TIME, ln(fit.timeConstant), 0.0, noise)
+            is ResponseBankFit -> areBorneOut(fit.kind, fit.first, fit.second, noise)
             // A slew limit shows in readings that rest, wherever the borders are.
+            is SlewFit -> !leavesTooMuch(fit.varianceWithin)
             else -> true
         }
     }
 
+    /** Stays that have a border to move: one of a single reading would move to the cell before as a whole. */
     private fun stays(): Int {
         var stays = 0
-        for (i in 0 until tape.size) if (isReading(i) && (i == 0 || tape.slot(i) != tape.slot(i - 1))) stays++
+        for (i in 1 until tape.size) {
+            val isSecond = isReading(i) && tape.slot(i) == tape.slot(i - 1)
+            if (isSecond && (i == 1 || tape.slot(i - 2) != tape.slot(i))) stays++
+        }
         return stays
     }
 
@@ -56,11 +60,12 @@ internal class EvenCells(private val tape: Recording) {
     }
 
     /**
-     * Whether [noise], the variance that a model leaves, is more than second differences of readings in one stay show:
-     * those hold all the noise and some of the sensor's way. What rounds alike in successive readings they do not hold,
-     * so the variance of rounding is added.
+     * Whether [within], the variance that a model leaves within visits, is more than second differences of readings in
+     * one stay show: those hold all the noise and some of the sensor's way. What rounds alike in successive readings
+     * they do not hold, so the variance of rounding is added. Nor do they hold what visits disagree, which a drift, or
+     * water that changed in between, makes large in the evenest of cells.
      */
-    private fun leavesTooMuch(noise: Double): Boolean {
+    private fun leavesTooMuch(within: Double): Boolean {
         var count = 0
         var squares = 0.0
         var resolution = Double.POSITIVE_INFINITY
@@ -75,10 +80,10 @@ internal class EvenCells(private val tape: Recording) {
         }
         if (count < SensorFit.FEWEST_TO_JUDGE || resolution.isInfinite()) return false
         val scatter = squares / count / BEND + resolution * resolution / ROUNDING
-        return noise > (1 + DEVIATIONS / sqrt(count.toDouble())) * scatter
+        return within > (1 + DEVIATIONS / sqrt(count.toDouble())) * scatter
     }
 
-    private suspend fun areBordersNeeded(
+    private suspend fun areBorneOut(
         kind: ResponseBankKind,
         first: Double,
         second: Double,
@@ -87,6 +92,7 @@ internal class EvenCells(private val tape: Recording) {
         most = Double.POSITIVE_INFINITY
         bank.resetMiddle(kind, first, second, noise)
         play(isMoved = false)
+        if (leavesTooMuch(bank.varianceWithin)) return false
         most = WORSE * bank.misfit(0)
         for (stretch in STRETCHES) {
             bank.resetMiddle(kind, first + stretch, second, noise)
@@ -122,7 +128,7 @@ internal class EvenCells(private val tape: Recording) {
     }
 
     private companion object {
-        /** With fewer stays some moved borders explain the readings by chance. */
+        /** With fewer stays of more than a reading some moved borders explain the readings by chance. */
         const val FEWEST_STAYS = 24
 
         /** Readings whose variance is not so many times the noise's show no changes to place. */
@@ -138,7 +144,7 @@ internal class EvenCells(private val tape: Recording) {
         /** Readings nearer to each other are the same reading, scaled. */
         const val SAME = 1e-9
 
-        /** Two standard errors of the ratio of noise and scatter, times the root of their number. */
+        /** Two standard errors of the ratio of what is left and scatter, times the root of their number. */
         const val DEVIATIONS = 4.5
 
         /** Time constants tried with moved borders: logarithm of the factor. */

@@ -21,6 +21,8 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
     private val means = DoubleArray(grid.size)
     private val squares = DoubleArray(grid.size)
     private val counts = IntArray(grid.size)
+    private var allSquares = 0.0
+    private var allFreedom = 0
 
     /** Farther from the first cell than any other is. */
     private val outside = grid.centerX(0) - 2 * (grid.columns * grid.cellWidth + grid.rows * grid.cellHeight)
@@ -35,12 +37,20 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
     var isPreferred: Boolean = false
         private set
 
-    fun take(cell: Int, seconds: Double, value: Double, conditions: Conditions) {
+    /** A reading; if it [isUsed] by the models, it counts to its cell's [spread]. */
+    fun take(cell: Int, isUsed: Boolean, seconds: Double, value: Double, conditions: Conditions) {
         this.seconds = seconds
+        if (isUsed) spread(cell, value)
+        filter.update(BoatTime(seconds), grid.centerX(cell), grid.centerY(cell), value, conditions)
+    }
+
+    private fun spread(cell: Int, value: Double) {
         val off = value - means[cell]
         means[cell] += off / ++counts[cell]
-        squares[cell] += off * (value - means[cell])
-        filter.update(BoatTime(seconds), grid.centerX(cell), grid.centerY(cell), value, conditions)
+        val square = off * (value - means[cell])
+        squares[cell] += square
+        allSquares += square
+        if (counts[cell] > 1) allFreedom++
     }
 
     /** The boat left the last cell without a reading of where it went. */
@@ -56,8 +66,14 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
     /** Brings [cell] up to date in [map]. Mostly no cell is asked for. */
     fun bring(cell: Int) = filter.bring(cell)
 
-    /** Standard deviation of the readings in a visited cell, sensor units. */
-    fun spread(cell: Int): Double = sqrt(squares[cell] / counts[cell])
+    /**
+     * Standard deviation of the readings in a visited cell, at least that of all cells together: a few readings hardly
+     * show how much the water changes. Sensor units.
+     */
+    fun spread(cell: Int): Double {
+        val own = squares[cell] / maxOf(1, counts[cell] - 1)
+        return sqrt(maxOf(own, allSquares / maxOf(1, allFreedom)))
+    }
 
     /** Compares its value with [value] of the nearest model in a visited cell, sensor units. */
     fun compare(cell: Int, value: Double) {

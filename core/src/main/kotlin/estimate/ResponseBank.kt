@@ -55,6 +55,13 @@ internal class ResponseBank : ReadingPlayer {
     var freedom: Double = 0.0
         private set
 
+    /** What of [misfit] of the middle filter is disagreement between visits, and how many agreements that is of. */
+    private var pooledMisfit = 0.0
+    private var agreements = 0
+
+    /** Variance left within visits at the middle filter, scaled, whatever they disagree. */
+    val varianceWithin: Double get() = (misfit(0) - pooledMisfit) / (freedom - agreements)
+
     /** Slot of the cell whose water the sensor sees at the middle filter, [LagBank.NONE] if not known. */
     val here: Int get() = maxOf(current[0], LagBank.NONE)
 
@@ -91,6 +98,8 @@ internal class ResponseBank : ReadingPlayer {
         bank.clear(priorVariance)
         memory.fill(0.0)
         freedom = 0.0
+        pooledMisfit = 0.0
+        agreements = 0
         idle()
     }
 
@@ -227,8 +236,13 @@ internal class ResponseBank : ReadingPlayer {
         val known = memory[at + 1]
         if (known > 0) {
             val gap = truth - memory[at]
-            bank.addMisfit(i, gap * gap / (1 / information + 1 / known))
-            if (i == 0) freedom++
+            val misfit = gap * gap / (1 / information + 1 / known)
+            bank.addMisfit(i, misfit)
+            if (i == 0) {
+                freedom++
+                pooledMisfit += misfit
+                agreements++
+            }
         }
         memory[at] += information / (known + information) * (truth - memory[at])
         memory[at + 1] = known + information

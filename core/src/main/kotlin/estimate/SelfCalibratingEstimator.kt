@@ -107,9 +107,10 @@ public class SelfCalibratingEstimator(
     }
 
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
-        fallback.take(cell, seconds, value, conditions)
         val scaled = (value - middle) / scale
-        if (!(abs(scaled) <= FARTHEST)) {
+        val isUsed = abs(scaled) <= FARTHEST
+        fallback.take(cell, isUsed, seconds, value, conditions)
+        if (!isUsed) {
             written.countConflict(cell)
             if (cell != lastCell) leave()
             return

@@ -78,8 +78,8 @@ public data class SensorCandidate(
  *
  * @property isExplained whether the chosen model explains the readings. If not, no model does and the map's bounds are
  *   those of the extended bounded filter.
- * @property areCellsEven whether the readings bear out that the water changes at the cells' borders only, or are too few
- *   to say; if not, nothing of the sensor can be learned from them in these cells and [isExplained] is false.
+ * @property areCellsEven whether the readings bear out that the water changes at the cells' borders only, or are too
+ *   few to say; if not, nothing of the sensor can be learned from them in these cells and [isExplained] is false.
  * @property candidates all models, the chosen one first.
  */
 public data class SensorBelief(

@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import kotlin.math.abs
+import kotlin.math.hypot
 import kotlin.math.sqrt
 
 /**
@@ -43,6 +44,13 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private const val FEWEST_RUNS = 6
         private const val CLEAR = 0.02
         private const val NARROW = 0.043
+        private const val MOST_PART = 0.9
+
+        /** Times behind the water are the same if most lie within such a part of their median; a limit's do not. */
+        private const val SAME_TIME = 0.3
+
+        /** So wide is that range of half the difference of two readings in a normal distribution, in their noise. */
+        private const val NOISE_WIDTH = 1.8
 
         /** The slower the limit, the longer a line has to be to stand out of the noise, and the longer are the runs. */
         private val REACHES = listOf(1, 2, 3, 4, 6, 8, 10, 12, 16, 24, 36)
@@ -83,7 +91,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
                 if (noise >= CLEAR * top) continue
                 val rate = plateau(slopes, sizes, top)
                 if (rate.isNaN()) continue
-                val isLimit = runs(slopes, rate) >= FEWEST_RUNS && !isWater(series, rate)
+                val isLimit = runs(slopes, rate) >= FEWEST_RUNS && !isWater(series, rate, reach)
                 return if (isLimit) rate else Double.NaN
             }
             return Double.NaN
@@ -96,13 +104,16 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         }
 
         /**
-         * Whether the water itself has the slope [rate]: a sensor at its limit is behind the water, so that a pass on
-         * which it rises and one on which it falls differ where they meet. A row or less is no more than a boat's fixes
-         * and its clock may be off.
+         * Whether the water itself has the slope [rate]: a sensor at its limit is behind the water, the longer the
+         * further it has come, so that a pass on which it rises and one on which it falls differ where they meet, here
+         * by less and there by more. They agree up to a row, which a boat's fixes and its clock may be off, or are
+         * behind by the same time everywhere as a lag, a dead time or such a clock is.
+         *
+         * @param reach rows either way over which [rate] was found: over fewer the noise may have steeper slopes.
          */
-        private fun isWater(series: TrackSeries, rate: Double): Boolean {
+        private fun isWater(series: TrackSeries, rate: Double, reach: Int): Boolean {
             val found = TrackCrossings(series.withFreshPositions())
-            val slopes = slopes(series, 1)
+            val slopes = slopes(series, reach)
             val behind = (0 until found.size).mapNotNull { k ->
                 val one = slopes[found.one(k)]
                 val other = slopes[found.other(k)]
@@ -112,7 +123,12 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
                     valueAt(series, found.one(k), found.shareOne(k))
                 difference * (if (one > 0) 1 else -1) / (2 * rate)
             }.sorted()
-            return behind.size >= TrackAgreement.FEWEST && behind[behind.size / 2] <= series.medianStep
+            if (behind.size < TrackAgreement.FEWEST) return false
+            fun quantile(share: Double) = behind[(share * (behind.size - 1)).toInt()]
+            val median = quantile(0.5)
+            val scatter = NOISE_WIDTH * roughness(series) / rate
+            val width = quantile(MOST_PART) - quantile(1 - MOST_PART)
+            return median <= series.medianStep || width < hypot(SAME_TIME * median, scatter)
         }
 
         private fun valueAt(series: TrackSeries, row: Int, share: Double) =
@@ -158,6 +174,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
 /**
  * The rate at which the sensor of these readings often runs and which it hardly ever exceeds, sensor units/s; NaN where
  * there is none. No lag does that and hardly any water, whose slopes thin out towards their largest: to and fro over an
- * even slope they do not, but then passes up and down agree.
+ * even slope they do not, but then passes up and down agree, or a lag or a dead time sets them apart by the same time
+ * everywhere.
  */
 public fun TrackSeries.rateLimit(): Double = SensorSides.rateLimit(this)

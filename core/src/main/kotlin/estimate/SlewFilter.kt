@@ -37,6 +37,13 @@ internal class SlewFilter : ReadingPlayer {
     /** Sum of squared innovations over their variances, σ² included. */
     val misfit: Double get() = ways[best() * STRIDE + MISFIT]
 
+    /** What of [misfit] is disagreement between visits, and how many agreements that is of. */
+    private var pooledMisfit = 0.0
+    private var agreements = 0
+
+    /** Variance left within visits, whatever they disagree. */
+    val varianceWithin: Double get() = (misfit - pooledMisfit) / (freedom - agreements)
+
     /** Minus twice the logarithm of the likelihood, but for a constant. */
     val score: Double get() = ways[best() * STRIDE + SCORE]
 
@@ -61,6 +68,8 @@ internal class SlewFilter : ReadingPlayer {
         here = LagBank.NONE
         before = LagBank.NONE
         freedomBefore = 0.0
+        pooledMisfit = 0.0
+        agreements = 0
     }
 
     override fun leave() {
@@ -229,6 +238,8 @@ internal class SlewFilter : ReadingPlayer {
                 ways[way * STRIDE + SCORE] += misfit
             }
             freedomBefore++
+            pooledMisfit += misfit * noise
+            agreements++
         }
         memory[at + MEAN] += information / (known + information) * (ways[Q] - memory[at + MEAN])
         memory[at + INFORMATION] = known + information

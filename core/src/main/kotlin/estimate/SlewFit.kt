@@ -16,6 +16,9 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** Standard deviation of ln r. */
     val relativeUncertainty: Double get() = sqrt(filter.rateVariance) / rate
 
+    /** Variance left within visits, scaled. */
+    val varianceWithin: Double get() = filter.varianceWithin
+
     override val here: Int get() = maxOf(filter.here, LagBank.NONE)
     override val before: Int get() = filter.before
 

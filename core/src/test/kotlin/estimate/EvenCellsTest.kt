@@ -28,12 +28,21 @@ class EvenCellsTest {
         return { x, y -> 8 + waves.sumOf { (a, b, phase) -> 0.3 * sin(a * x + b * y + phase) } }
     }
 
-    /** A lag of [lag] s on a lawnmower's way at 1 m/s, a reading a second, noise of 0.02, resolution of 0.01. */
-    private fun sail(random: Random, lag: Double, water: (x: Double, y: Double) -> Double): SelfCalibratingEstimator {
+    /**
+     * A lag of [lag] s on a lawnmower's way at 1 m/s, a reading a second, noise of 0.02, resolution of 0.01; if
+     * [change] is not 0 again from the start, with water changed by it.
+     */
+    private fun sail(
+        random: Random,
+        lag: Double,
+        change: Double = 0.0,
+        still: (x: Double, y: Double) -> Double,
+    ): SelfCalibratingEstimator {
         val estimator = SelfCalibratingEstimator(grid, Interval(4.0, 12.0))
-        var state = water(0.5, 5.0)
-        for (second in 0 until 960) {
-            val row = second / 120
+        var state = still(0.5, 5.0)
+        for (second in 0 until if (change == 0.0) 960 else 1920) {
+            fun water(x: Double, y: Double) = still(x, y) + if (second < 960) 0.0 else change
+            val row = second % 960 / 120
             val along = second % 120 + 0.5
             val x = if (row % 2 == 0) along else 120 - along
             val y = 10.0 * row + 5
@@ -50,7 +59,7 @@ class EvenCellsTest {
         for (seed in 601..606) {
             val random = Random(seed)
             val water = smooth(random)
-            val estimator = sail(random, lag = 3.0 + 2 * (seed - 600), water)
+            val estimator = sail(random, lag = 3.0 + 2 * (seed - 600), still = water)
             val belief = estimator.sensor()
             assertFalse(estimator.isExplained, "seed $seed: $belief")
             assertFalse(belief.areCellsEven, "seed $seed")
@@ -76,6 +85,39 @@ class EvenCellsTest {
             assertTrue(estimator.isExplained, "seed $seed: ${estimator.sensor()}")
             assertTrue(estimator.sensor().areCellsEven, "seed $seed")
         }
+    }
+
+    /** What visits disagree says nothing of where in their cells the water changes. */
+    @Test
+    fun evenCellsWhoseWaterChangedBetweenPassesAreEven() {
+        val random = Random(631)
+        val water = smooth(random)
+        // Three times the noise.
+        val estimator = sail(random, lag = 5.0, change = 0.06) { x, y ->
+            val cell = grid.cellAt(x, y)
+            water(grid.centerX(cell), grid.centerY(cell))
+        }
+        assertTrue(estimator.sensor().areCellsEven)
+    }
+
+    /** Moved by a cell a way of one reading a cell, always the same, is as good as it was. */
+    @Test
+    fun staysOfOneReadingShowNoBorders() {
+        val random = Random(641)
+        val water = smooth(random)
+        val estimator = SelfCalibratingEstimator(grid, Interval(4.0, 12.0))
+        val circuit = (0..11).map { it to 0 } + (1..7).map { 11 to it } + (10 downTo 0).map { it to 7 } +
+            (6 downTo 1).map { 0 to it }
+        var state = 8.0
+        for (second in 0 until 12 * circuit.size) {
+            val (column, row) = circuit[second % circuit.size]
+            val x = 10.0 * column + 5
+            val y = 10.0 * row + 5
+            state += (1 - exp(-1 / 2.0)) * (water(x, y) - state)
+            val value = state + 0.02 * (random.nextDouble() - 0.5)
+            estimator.update(BoatTime(second.toDouble()), x, y, value, Conditions.NONE)
+        }
+        assertTrue(estimator.sensor().areCellsEven)
     }
 
     @Test

@@ -1,6 +1,8 @@
 package stillwater.estimate
 
 import org.junit.jupiter.api.Test
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.abs
 import kotlin.math.cos
@@ -130,6 +132,23 @@ class TrackCorrectionTest {
         val swing = DoubleArray(400) { Math.rint(1000 * sin(it / 60.0)) / 1000 }
         val early = times.copyOf(400)
         assertTrue(TrackSeries(early, early, early, swing).rateLimit().isNaN())
+    }
+
+    /** Such sensors are behind the water by the same time wherever they are, one at its rate limit is not. */
+    @Test
+    fun anEvenSlopeSeenThroughASlowSensorIsNoRateLimit() {
+        val sensors = listOf(3.0, 8.0, 15.0).map { SensorStage.Lag(it) } + SensorStage.Delay(6.0)
+        val times = DoubleArray(1500) { it.toDouble() }
+        val xs = DoubleArray(1500) { abs(it % 240 - 120).toDouble() }
+        for ((stage, reach) in sensors.flatMap { listOf(it to 0.003, it to 0.03) }) {
+            val random = Random(7)
+            val sensor = SensorSpec("slow", listOf(stage)).build(0.01 * xs[0], random)
+            val values = DoubleArray(1500) {
+                sensor.step(0.01 * xs[it], 1.0, Conditions.NONE) + reach * random.nextDouble()
+            }
+            val rate = TrackSeries(times, xs, DoubleArray(1500), values).rateLimit()
+            assertTrue(rate.isNaN(), "$stage, noise of $reach: $rate")
+        }
     }
 
     @Test

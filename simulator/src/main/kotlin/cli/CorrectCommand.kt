@@ -50,7 +50,8 @@ class CorrectCommand : WorkCommand("correct") {
     ).unit().multiple()
     private val heldOut by option(
         "--held-out",
-        help = "also learn on some legs and score the correction on the others; takes five times as long",
+        help = "also learn on some legs and score the correction on the others; takes five times as long; " +
+            "without --sensor and --reference only",
     ).flag()
     private val between by option(
         "--between",

@@ -164,7 +164,8 @@ internal class CorrectSummary(
     private fun silence(): String {
         val series = result.series
         if (series.values.all { it == series.values[0] }) return "the readings never change"
-        return StillBoat.why(series, result.log.frame != null) ?: "no pass comes near another"
+        val count = if (result.agreement.crossings > 0) "too few passes come" else "no pass comes"
+        return result.learned.stillBoat ?: "$count near another"
     }
 
     private fun legs(): String {

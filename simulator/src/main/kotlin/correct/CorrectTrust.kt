@@ -12,15 +12,17 @@ import kotlin.math.sqrt
  */
 internal class CorrectTrust(private val result: CorrectedLog, private val unitAfter: String) {
     private val agreement = result.agreement
-    private val isWidened = agreement.isContradicted && result.origin != SensorOrigin.GIVEN
+    private val isContradicted = agreement.isContradicted && result.learned.stillBoat == null
+    private val isWidened = isContradicted && result.origin != SensorOrigin.GIVEN
 
     /** What the track says of the intervals, for the facts. */
     val words: String
         get() = when {
-            result.origin == SensorOrigin.NOTHING -> "if the sensor has no lag"
+            result.origin == SensorOrigin.NOTHING ->
+                "if the sensor has no lag" + if (isWidened) ", widened by what passes disagree in ${places()}" else ""
             agreement.ratio.isNaN() -> "not checked, for ${crossings()}"
             isWidened -> "widened by what passes disagree in ${places()}"
-            agreement.isContradicted -> "passes disagree by more in ${places()}"
+            isContradicted -> "passes disagree by more in ${places()}"
             else -> "passes agree as far as that in ${places()}"
         }
 
@@ -53,7 +55,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     }
 
     private fun contradicted(): String? {
-        if (!agreement.isContradicted || result.origin == SensorOrigin.NOTHING) return null
+        if (!isContradicted) return null
         // What differs by more counts as the largest, so that the mean says little near it.
         val least = if (agreement.ratio > TrackAgreement.LARGEST / 2) "at least " else ""
         val times = least + digits(sqrt(agreement.ratio), 2)

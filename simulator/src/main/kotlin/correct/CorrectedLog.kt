@@ -176,9 +176,9 @@ class CorrectedLog internal constructor(
                 corrected(series, likely, spec.stages, resolution, others, unusable)
             val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
-            // What a given sensor's intervals are is the giver's: they are told of, not changed. Where nothing could be
-            // learned from passes they have no say in the intervals either.
-            val isToldOnly = learned.origin == SensorOrigin.GIVEN || learned.origin == SensorOrigin.NOTHING
+            // What a given sensor's intervals are is the giver's: they are told of, not changed. "Passes" of a boat
+            // that lay still are none, and have no say in the intervals either.
+            val isToldOnly = learned.origin == SensorOrigin.GIVEN || learned.stillBoat != null
             val agreed = if (isToldOnly) narrow else agreement.widened(narrow)
             val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
             fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())

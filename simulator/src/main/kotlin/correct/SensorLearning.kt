@@ -30,6 +30,7 @@ import kotlin.random.Random
  * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
  * readings without one. @property held whether the reference looks held over each step. @property fault why the
  * reference was not learned from, or null. @property isPart whether usable readings were too many to learn on all.
+ * @property stillBoat why passes of the usable readings teach nothing, as the boat lay still; null where it did not.
  */
 internal data class Learned(
     val origin: SensorOrigin,
@@ -43,6 +44,7 @@ internal data class Learned(
     val fault: String? = null,
     val hinted: LikelyResponse? = null,
     val isPart: Boolean = false,
+    val stillBoat: String? = null,
 )
 
 /** Learns a log's sensor, from passes through the same water or from a reference. */
@@ -83,7 +85,8 @@ internal object SensorLearning {
     ): Learned {
         val series = if (unusable.isNone) all else all.at((0 until all.size).filter(unusable::isUsable))
         val isStuck = series.size < FEWEST || series.values.all { it == series.values[0] }
-        if (isStuck || StillBoat.why(series, hasFixes) != null) return nothing(all.size)
+        val stillBoat = StillBoat.why(series, hasFixes)
+        if (isStuck || stillBoat != null) return nothing(all.size).copy(stillBoat = stillBoat)
         val rate = series.rateLimit()
         if (rate.isFinite()) {
             val response = ResponseKind.SLEW.response(rate)

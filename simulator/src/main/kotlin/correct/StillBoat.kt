@@ -20,6 +20,7 @@ internal object StillBoat {
     /** Why [series], from fixes on the globe if [hasFixes], is that of a boat that lay still; null where it is not. */
     fun why(series: TrackSeries, hasFixes: Boolean): String? = when {
         isFlat(series.xs) && isFlat(series.ys) -> "the boat never moves"
+        // Along a line, as casts on one axis are, nothing scatters.
         isFlat(series.ys) -> null
         hasFixes && isWithin(series) ->
             "the boat hardly moves: 95 % of its fixes lie within 5 m, as far as fixes wander"
@@ -38,6 +39,8 @@ internal object StillBoat {
     private fun isJitter(series: TrackSeries): Boolean {
         if (series.size <= 2 * STEPS.last()) return false
         val one = distance(series, 1)
+        // Rows that far apart are sailed, to and fro or from station to station: no fixes scatter so.
+        if (one >= 2 * WANDER) return false
         return STEPS.all { distance(series, it) < FARTHER * one }
     }
 

@@ -9,6 +9,7 @@ import stillwater.mission.StopReason
 import stillwater.model.Position
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
+import stillwater.survey.SensorWording
 
 /**
  * What to beware of in a mission's map, as far as the mission itself can tell: the same words for a simulated, a real
@@ -62,15 +63,17 @@ internal object MapCautions {
 
     private fun visited(mission: Mission) = (0 until mission.map.grid.size).count { mission.map.readings(it) > 0 }
 
-    /** Where no model of a sensor fits; [where] says why that may be, after a comma. */
+    /** Where no model of a sensor fits; [where] says why that may be, after a comma, unless the readings do. */
     fun unexplained(estimator: EstimatorName, belief: SensorBelief?, where: String = ""): String? {
         if (belief?.isExplained != false) return null
-        val then = if (estimator == EstimatorName.BAYESIAN) {
-            "the map has no bounds"
-        } else {
-            "bounds, and values where the nearest model's ran away, are those of bounded-extended"
+        val values = "values where the nearest model's ran away"
+        val then = when {
+            estimator == EstimatorName.BAYESIAN -> "the map has no bounds"
+            belief.areCellsEven -> "bounds, and $values, are those of bounded-extended"
+            else -> "bounds are those of bounded-extended and of the readings' spread, $values bounded-extended's"
         }
-        return "no sensor model explains the readings$where: $then"
+        if (belief.areCellsEven) return "no sensor model explains the readings$where: $then"
+        return "no sensor model can be learned in these cells, ${SensorWording.UNEVEN}: $then"
     }
 
     /** Where a filter that gives bounds gave few. */

@@ -39,8 +39,10 @@ internal class Stroke(
         for (i in x.indices) {
             if (!axes.showsX(x[i])) continue
             val step = if (first < 0) Double.NaN else axes.placeX(x[i]) - axes.placeX(x[first])
-            // A gap is never thinned away: it ends a step and begins one.
-            if (step >= 0 && step < Axes.SMALLEST_STEP && axes.showsY(y[i]) == axes.showsY(y[first])) {
+            // A gap of the line or the band is never thinned away: it ends a step and begins one.
+            val isAlike = first >= 0 && axes.showsY(y[i]) == axes.showsY(y[first]) &&
+                lower[i].isNaN() == lower[first].isNaN()
+            if (isAlike && step >= 0 && step < Axes.SMALLEST_STEP) {
                 if (foot(i) < foot(lowest)) lowest = i
                 if (top(i) > top(highest)) highest = i
             } else {

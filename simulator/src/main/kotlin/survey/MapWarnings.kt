@@ -22,8 +22,11 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     private fun unevenCells(): String? {
         if (map.learned?.sensor()?.areCellsEven != false) return null
-        return "nothing shows that the water changes at the cells' borders and not within cells, so self-calibrating " +
-            "cannot learn the sensor: its bounds are wide, and its values may be as late as the readings; " +
+        val isBounded = FilterKind.SELF_CALIBRATING in map.maps
+        val filter = if (isBounded) "self-calibrating" else "bayesian"
+        val bounds = if (isBounded) "its bounds are wide" else "it has no bounds"
+        return "nothing shows that the water changes at the cells' borders and not within cells, so $filter " +
+            "cannot learn the sensor: $bounds, and its values may be as late as the readings; " +
             "`stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
     }
 

@@ -8,9 +8,10 @@ import stillwater.survey.Wording.Companion.digits
 /**
  * What a self-calibrating estimator believes of its sensor, in words.
  *
- * @param belief the belief.
+ * @param belief the belief. @param hasBounds whether the map has bounds, as one with filter bayesian that does not
+ * hold has not.
  */
-internal class SensorWording(private val belief: SensorBelief) {
+internal class SensorWording(private val belief: SensorBelief, private val hasBounds: Boolean = true) {
     /** Names and sentences: the chosen model, then what the readings say of the others. */
     val facts: List<Pair<String, String>> = buildList {
         add("sensor model" to chosen())
@@ -26,13 +27,14 @@ internal class SensorWording(private val belief: SensorBelief) {
         return if (belief.isExplained) {
             "${chosen.kind.label}, ${parameters(chosen)}"
         } else {
-            val why = if (belief.areCellsEven) {
-                "none explains the readings: bounds are those of bounded-extended"
-            } else {
-                "none can be learned in these cells, because nothing shows that the water changes at their borders " +
-                    "and not within them: bounds are those of bounded-extended and of the readings' spread"
+            val then = when {
+                !hasBounds -> "the map has no bounds"
+                belief.areCellsEven -> "bounds are those of bounded-extended"
+                else -> "bounds are those of bounded-extended and of the readings' spread"
             }
-            "$why; ${chosen.kind.label} comes closest, with " +
+            val uneven = "none can be learned in these cells, $UNEVEN"
+            val why = if (belief.areCellsEven) "none explains the readings" else uneven
+            "$why: $then; ${chosen.kind.label} comes closest, with " +
                 chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
         }
     }
@@ -61,5 +63,10 @@ internal class SensorWording(private val belief: SensorBelief) {
 
     private fun parameters(candidate: SensorCandidate) = candidate.parameters.joinToString {
         "${it.name} ${digits(it.value)} (95 %: ${digits(it.interval.lower)} to ${digits(it.interval.upper)})"
+    }
+
+    companion object {
+        /** Why nothing of the sensor can be learned where cells are not borne out to be even. */
+        const val UNEVEN = "because nothing shows that the water changes at their borders and not within them"
     }
 }

@@ -282,7 +282,8 @@ class MapBadInputTest {
         private const val TEXT = "rows with text where a number belongs"
 
         private fun pose(millis: Int, zone: String = "17North", east: Double = 592_300.0) =
-            "$millis\tI\t{\"pose\":{\"p\":[${east + millis * 1e-3},4481762.0,252],\"q\":[1,0,0,0],\"zone\":\"$zone\"}}\n"
+            "$millis\tI\t{\"pose\":{\"p\":[${east + millis * 1e-3},4481762.0,252]," +
+                "\"q\":[1,0,0,0],\"zone\":\"$zone\"}}\n"
 
         private fun reading(millis: Int, data: String = "7.$millis") =
             "$millis\tI\t{\"sensor\":{\"channel\":1,\"type\":\"ATLAS_DO\",\"data\":[$data]}}\n"

@@ -88,6 +88,24 @@ class CorrectHonestyTest {
         assertTrue(half < 0.05, "$half")
     }
 
+    /** Once out and once back are too few passes to learn on; that they disagree is told all the same. */
+    @Test
+    fun passesTooFewToLearnOnStillWidenTheIntervals() {
+        val rows = (0 until 80).joinToString("") {
+            val x = if (it < 40) it.toDouble() else 79.5 - it
+            val value = "%.3f".format(Locale.ROOT, sin(x / 6) + (if (it < 40) 0.0 else 0.4) + 0.002 * (it * 7 % 5))
+            "$it,$x,${0.1 * (it % 2)},$value\n"
+        }
+        val result = correct("time_s,x_m,y_m,slow\n$rows")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "sensor: not learned")
+        assertContains(result.stderr, "too few passes come near another")
+        assertContains(result.stderr, "passes through the same")
+        assertContains(result.stdout, "if the sensor has no lag, widened by what passes disagree in")
+        val half = Regex("interval: 95 %, ([0-9.]+) either way").find(result.stdout)!!.groupValues[1].toDouble()
+        assertTrue(half > 0.1, "$half")
+    }
+
     @Test
     fun aReferenceNowAndThenIsNotTakenForTheWaterBetween() {
         val result = correct(pond(600, referenceEvery = 15), "--reference", "fast")

@@ -37,6 +37,24 @@ class ChartsTest {
         assertEquals(2, bands.size, "either side of the gap")
     }
 
+    /** A point of many that fall on one half pixel of the figure. */
+    @Test
+    fun aBandWithoutALineKeepsAGapOfOnePointAmongMany() {
+        val size = 100_000
+        val many = DoubleArray(size) { it.toDouble() }
+        val none = DoubleArray(size) { Double.NaN }
+        val low = DoubleArray(size) { if (it == 0 || it == 50_001) Double.NaN else if (it == 2) -3.0 else 1.0 }
+        val band = Series("bounds", many, none, low, DoubleArray(size) { 7.0 })
+        val truth = Series("truth", many, DoubleArray(size) { if (it % 2 == 0) -5.0 else 9.0 })
+        val parts = SvgParts(LinePlot("Probe", "", listOf(band, truth), "s", "mg/L").draw())
+        val bands = parts.fills(SvgParts.BLUE)
+        assertEquals(2, bands.size, "either side of the gap")
+        // The lowest of the first half pixel is there although its first point has none.
+        val heights = bands.flatMap { Regex("[ML][\\d.]+[ ,]([\\d.]+)").findAll(it.getAttribute("d")) }
+            .map { it.groupValues[1].toDouble() }.distinct()
+        assertEquals(3, heights.size, "$heights")
+    }
+
     @Test
     fun pointsAreAllDrawnAndASeriesWithoutNameHasNoLegend() {
         val y = DoubleArray(100) { if (it % 10 == 0) Double.NaN else it - 50.0 }
