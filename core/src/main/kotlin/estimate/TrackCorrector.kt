@@ -32,30 +32,20 @@ public class CorrectedTrack internal constructor(
     public val clipped: BooleanArray = BooleanArray(values.size),
 ) {
     /** The same values, with intervals that hold those of [other] as well, which is possible too but less likely. */
-    public fun holding(other: CorrectedTrack): CorrectedTrack = CorrectedTrack(
-        values,
-        DoubleArray(values.size) { minOf(lower[it], other.lower[it]) },
-        DoubleArray(values.size) { maxOf(upper[it], other.upper[it]) },
-        silent,
-        outlying,
-        clipped,
-    )
+    public fun holding(other: CorrectedTrack): CorrectedTrack =
+        within({ minOf(lower[it], other.lower[it]) }, { maxOf(upper[it], other.upper[it]) })
 
     /** The same values, with intervals that reach [factor] times as far either way; above 0. */
-    public fun scaledBy(factor: Double): CorrectedTrack = CorrectedTrack(
-        values,
-        DoubleArray(values.size) { values[it] - factor * (values[it] - lower[it]) },
-        DoubleArray(values.size) { values[it] + factor * (upper[it] - values[it]) },
-        silent,
-        outlying,
-        clipped,
-    )
+    public fun scaledBy(factor: Double): CorrectedTrack =
+        within({ values[it] - factor * (values[it] - lower[it]) }, { values[it] + factor * (upper[it] - values[it]) })
 
     /** The same values, with intervals that reach [margin], sensor units, at least 0, farther either way. */
-    public fun widenedBy(margin: Double): CorrectedTrack = CorrectedTrack(
+    public fun widenedBy(margin: Double): CorrectedTrack = within({ lower[it] - margin }, { upper[it] + margin })
+
+    private fun within(low: (Int) -> Double, high: (Int) -> Double) = CorrectedTrack(
         values,
-        DoubleArray(values.size) { lower[it] - margin },
-        DoubleArray(values.size) { upper[it] + margin },
+        DoubleArray(values.size, low),
+        DoubleArray(values.size, high),
         silent,
         outlying,
         clipped,
@@ -72,8 +62,7 @@ public class CorrectedTrack internal constructor(
  * @param series the readings. Retained.
  * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
  * @param unusable readings that are known to say nothing, or one side only, of what the sensor is at; more wild ones
- *   may
- * be found.
+ *   may be found.
  */
 public class TrackCorrector(
     private val series: TrackSeries,

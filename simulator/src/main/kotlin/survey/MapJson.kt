@@ -157,6 +157,7 @@ object MapJson {
             put("earlier_by_s", mismatch.shift.seconds)
             put("low_s", mismatch.shift.low)
             put("high_s", mismatch.shift.high)
+            put("at_end", mismatch.shift.isAtEnd)
             put("mismatch", mismatch.shift.mismatch)
             put("clear", mismatch.shift.isClear)
             put("with_reserve", mismatch.hasReserve)
