@@ -107,30 +107,30 @@ internal class BlindDiagnosis(
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> = run {
-                val all = terms.mapIndexed { i, term ->
-                    tell(i.toDouble() / terms.size)
-                    tries.attempt(term)
-                }
-                // Water that changes in time may have taken what the sensor does.
-                val isOther = still !== state && changing > NO_CHANGE
-                val both = terms.filter { isOther && (it.cause in SLOW || changing < FAR_CHANGE) }
-                val others = both.associate {
-                    it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
-                }
-                fun other(trial: BlindTrial) = others[trial.term?.key]
-                fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
-                val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
-                    .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
-                    all.filter { it.name in onQuiet }
-                all.map {
-                    val other = other(it)
-                    when {
-                        isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
-                        it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
-                        else -> it
-                    }
+            val all = terms.mapIndexed { i, term ->
+                tell(i.toDouble() / terms.size)
+                tries.attempt(term)
+            }
+            // Water that changes in time may have taken what the sensor does.
+            val isOther = still !== state && changing > NO_CHANGE
+            val both = terms.filter { isOther && (it.cause in SLOW || changing < FAR_CHANGE) }
+            val others = both.associate {
+                it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
+            }
+            fun other(trial: BlindTrial) = others[trial.term?.key]
+            fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
+            val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
+                .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
+                all.filter { it.name in onQuiet }
+            all.map {
+                val other = other(it)
+                when {
+                    isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
+                    it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
+                    else -> it
                 }
             }
+        }
 
         private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 

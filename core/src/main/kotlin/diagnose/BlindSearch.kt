@@ -362,6 +362,7 @@ internal class BlindSearch(
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5
+
         /** Times the lag found, from which it is looked for once more. */
         val LONGER = listOf(1.0, 2.0, 4.0)
 

@@ -43,7 +43,15 @@ class ChartsTest {
         val size = 100_000
         val many = DoubleArray(size) { it.toDouble() }
         val none = DoubleArray(size) { Double.NaN }
-        val low = DoubleArray(size) { if (it == 0 || it == 50_001) Double.NaN else if (it == 2) -3.0 else 1.0 }
+        val low = DoubleArray(size) {
+            if (it == 0 || it == 50_001) {
+                Double.NaN
+            } else if (it == 2) {
+                -3.0
+            } else {
+                1.0
+            }
+        }
         val band = Series("bounds", many, none, low, DoubleArray(size) { 7.0 })
         val truth = Series("truth", many, DoubleArray(size) { if (it % 2 == 0) -5.0 else 9.0 })
         val parts = SvgParts(LinePlot("Probe", "", listOf(band, truth), "s", "mg/L").draw())
