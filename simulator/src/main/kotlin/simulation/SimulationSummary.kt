@@ -125,7 +125,11 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         val belief = result.belief ?: return null
         val chosen = belief.chosen
         val numbers = chosen.parameters.joinToString { "${it.name} ${number(it.value)} ${it.unit}" }
-        val verdict = if (belief.isExplained) "" else "none explains the readings; the nearest is "
+        val verdict = when {
+            belief.isExplained -> ""
+            belief.areCellsEven -> "none explains the readings; the nearest is "
+            else -> "none can be learned in these cells; the nearest is "
+        }
         return "$verdict${chosen.kind.label}" + if (numbers.isEmpty()) "" else ", $numbers"
     }
 
