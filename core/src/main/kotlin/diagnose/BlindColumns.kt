@@ -85,14 +85,8 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     }
 
     /** The water of [modes] with [heights] along the track. */
-    fun along(modes: WaterModes, heights: DoubleArray): DoubleArray {
-        val out = DoubleArray(n)
-        val columns = modes.columns.asList()
-        loops.each(HALVES) { half ->
-            Combination.add(columns, heights, out, columns.size, half * n / HALVES, (half + 1) * n / HALVES)
-        }
-        return out
-    }
+    fun along(modes: WaterModes, heights: DoubleArray): DoubleArray =
+        Combination.of(modes.columns.asList(), heights, n, loops)
 
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, held: Boolean): Array<DoubleArray> {
@@ -124,8 +118,5 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
 
         /** Numbers in their columns, where more than two of them have so many: a hundred megabytes. */
         const val MOST_NUMBERS = 13_000_000L
-
-        /** Parts of the work that may be done at the same time. */
-        const val HALVES = 2
     }
 }

@@ -143,14 +143,7 @@ internal class BlindDesign(
     }
 
     /** R [beta], length n. */
-    fun times(beta: DoubleArray): DoubleArray {
-        val columns = columns
-        val out = DoubleArray(n)
-        loops.each(HALVES) { half ->
-            Combination.add(columns, beta, out, size, half * n / HALVES, (half + 1) * n / HALVES)
-        }
-        return out
-    }
+    fun times(beta: DoubleArray): DoubleArray = Combination.of(columns, beta, n, loops)
 
     private companion object {
         const val STRETCH = 64

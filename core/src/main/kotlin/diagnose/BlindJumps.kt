@@ -17,21 +17,14 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
     private val n = z.size
     private val stride = maxOf(n / PLACES, 1)
     private val edge = JumpPlaces.edge(n)
-    private val striking = (edge until n - edge).sortedByDescending { abs(z[it]) }.take(STRIKING)
+    private val striking by lazy { (edge until n - edge).sortedByDescending { abs(z[it]) }.take(STRIKING) }
 
     /**
      * How many places a jump may be at: rows next to each other count as far as they can be told apart. No fewer than
      * the even places, by which a drift is less often taken for the best of many jumps.
      */
     private val count: Double by lazy {
-        val all = n - 2 * edge - 1
-        val looked = minOf(all, LOOKED)
-        if (looked < 1) return@lazy PLACES.toDouble()
-        val steps = DoubleArray(looked) { k ->
-            val row = edge + ((k + 0.5) * all / looked).toInt()
-            JumpScan.angle(column(row), column(row + 1))
-        }
-        val scan = JumpScan(steps, all / looked.toDouble())
+        val scan = JumpScan.of(n, edge, LOOKED, ::column)
         maxOf(scan.single(CLEAR) / Evidence.pValue(CLEAR, 1), minOf(PLACES, n / 10).toDouble())
     }
 

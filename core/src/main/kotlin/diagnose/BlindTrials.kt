@@ -17,6 +17,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private val ownColumns = search.free(state.model).indices.filter { search.free(state.model)[it] }
         .map { BlindDescent.derivative(state.model, base.numbers, it) }
     private val ownBasis = Evidence.orthonormal(ownColumns.map { state.fit.unlike(it) })
+    private val places = BlindJumps(state, z)
     private val asFit = ModelFit(
         state.model,
         base.numbers,
@@ -133,8 +134,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     /** Whether [term] of [number] makes readings late by next to nothing: the smoothed way itself is off by as much. */
     private fun isLittle(term: Term, number: Double): Boolean = when (term.cause) {
-        Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < LEAST_ROWS * series.period
-        Cause.POSITION_OFFSET -> abs(number) < LEAST_ROWS * series.period * scales.ordinarySpeed
+        Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < SmallShifts.LEAST_ROWS * series.period
+        Cause.POSITION_OFFSET -> abs(number) < SmallShifts.LEAST_ROWS * series.period * scales.ordinarySpeed
         else -> false
     }
 
@@ -278,10 +279,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     /** What the best of many places gains by chance, for [count] jumps. */
     fun searched(count: Int): Double = places.searched(count)
 
-    private val places = BlindJumps(state, z)
-
-    /** A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
-     * [floor] what the ratio is divided by at least. */
+    /**
+     * A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
+     * [floor] what the ratio is divided by at least.
+     */
     fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial =
         look(name, columns, searched, floor) { it.white }
 
@@ -335,9 +336,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     val residual: DoubleArray get() = z
 
     private companion object {
-        /** Rows by which readings must be late to be called so. */
-        const val LEAST_ROWS = 0.1
-
         /** Logarithm of how far the ends of an interval may be from the number: a factor of ten. */
         const val MOST_REACH = 2.3
 

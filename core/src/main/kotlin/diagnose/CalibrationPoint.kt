@@ -80,7 +80,6 @@ internal object CalibrationPoint {
     private fun elsewhere(name: String) = when (name) {
         Conditions.TEMPERATURE -> TEMPERATURES
         Conditions.SPEED -> SPEEDS + 0.0
-        Conditions.HEADING -> emptyList()
         in FRESH -> listOf(0.0)
         else -> emptyList()
     }

@@ -7,6 +7,18 @@ package stillwater.diagnose
 internal object Combination {
     private const val STRETCH = 512
 
+    /** Parts of the work that may be done at the same time. */
+    private const val HALVES = 2
+
+    /** The sum of [columns], each [rows] long, times the first of [heights], in halves that [loops] goes through. */
+    fun of(columns: List<DoubleArray>, heights: DoubleArray, rows: Int, loops: Loops): DoubleArray {
+        val out = DoubleArray(rows)
+        loops.each(HALVES) { half ->
+            add(columns, heights, out, columns.size, half * rows / HALVES, (half + 1) * rows / HALVES)
+        }
+        return out
+    }
+
     /** Adds the first [count] of [columns], times [heights], to the rows [from] until [to] of [out]. */
     fun add(
         columns: List<DoubleArray>,

@@ -63,20 +63,26 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
 
         /** The scan of the rows from [edge] to as far from the end, on top of [fit], under its noise. */
         fun of(fit: ModelFit, edge: Int): JumpScan {
-            val n = fit.model.series.size
             val basis = Evidence.orthonormal(fit.jacobian.toList())
-            val all = n - 2 * edge - 1
+            return of(fit.model.series.size, edge, MOST_STEPS) { JumpPlaces.column(fit, it, basis) }
+        }
+
+        /**
+         * The scan of the rows from [edge] to as far from the end of [rows], where [column] is what a jump at a row
+         * adds; [most] of the steps between them are looked at.
+         */
+        fun of(rows: Int, edge: Int, most: Int, column: (Int) -> DoubleArray): JumpScan {
+            val all = rows - 2 * edge - 1
             if (all < 1) return JumpScan(doubleArrayOf(), 0.0)
-            val looked = minOf(all, MOST_STEPS)
+            val looked = minOf(all, most)
             val steps = DoubleArray(looked) { k ->
                 val row = edge + ((k + 0.5) * all / looked).toInt()
-                angle(JumpPlaces.column(fit, row, basis), JumpPlaces.column(fit, row + 1, basis))
+                angle(column(row), column(row + 1))
             }
             return JumpScan(steps, all / looked.toDouble())
         }
 
-        /** The angle, radians, between [a] and [b], of which the shorter may be nothing. */
-        fun angle(a: DoubleArray, b: DoubleArray): Double {
+        private fun angle(a: DoubleArray, b: DoubleArray): Double {
             val lengths = sqrt(squares(a) * squares(b))
             return if (lengths > 0) sqrt(maxOf(0.0, 2 * (1 - dot(a, b) / lengths))) else 0.0
         }

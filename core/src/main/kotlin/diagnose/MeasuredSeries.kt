@@ -117,6 +117,9 @@ public class MeasuredSeries(
     }
 }
 
+/** Whether all of [column] are the same. */
+internal fun isFlat(column: DoubleArray): Boolean = column.all { it == column[0] }
+
 /** The middle of [numbers]; NaN of none. Not modified. */
 internal fun median(numbers: DoubleArray): Double {
     if (numbers.isEmpty()) return Double.NaN

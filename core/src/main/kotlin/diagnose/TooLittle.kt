@@ -15,6 +15,4 @@ internal object TooLittle {
             "the boat never moves, so that no pass comes back to the same water"
         else -> null
     }
-
-    private fun isFlat(column: DoubleArray) = column.all { it == column[0] }
 }

@@ -26,7 +26,8 @@ internal class Weighing(
     private val terms = terms()
     private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings) { told(terms.size) }
 
-    private val water = ChangingWater(series, requireNotNull(series.reference) { "weighing needs a reference" })
+    private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
+    private val water = ChangingWater(series, truth)
 
     /** All that is tried; outliers, changes that last, a change of the water and a late reference included. */
     private val tried = terms.size + 4
@@ -145,7 +146,7 @@ internal class Weighing(
                     "went in between might explain what is left",
             )
             structured && left.ratio > LEFT * least -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
-            all.isEmpty() && isFlat(series.reference) -> Verdict.InsufficientData(
+            all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
             all.isEmpty() -> Verdict.Consistent
@@ -169,7 +170,7 @@ internal class Weighing(
 
     private fun insufficient(): Verdict? {
         if (series.size < FEWEST_ROWS) return Verdict.InsufficientData("there are ${series.size} rows only")
-        if (isFlat(series.values) && isFlat(series.reference)) {
+        if (isFlat(series.values) && isFlat(truth)) {
             return Verdict.InsufficientData("neither the readings nor the truth ever change")
         }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&
@@ -179,8 +180,6 @@ internal class Weighing(
         }
         return null
     }
-
-    private fun isFlat(column: DoubleArray?) = column != null && column.all { it == column[0] }
 
     private fun candidates(size: SpikeSize?, outlierP: Double): List<Candidate> {
         val first = forward.first

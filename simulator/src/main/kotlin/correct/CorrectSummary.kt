@@ -163,7 +163,7 @@ internal class CorrectSummary(
     /** Why the log says nothing about its sensor. */
     private fun silence(): String {
         val series = result.series
-        if (series.values.all { it == series.values[0] }) return "the readings never change"
+        if (isFlat(series.values)) return "the readings never change"
         val count = if (result.agreement.crossings > 0) "too few passes come" else "no pass comes"
         return result.learned.stillBoat ?: "$count near another"
     }
@@ -276,7 +276,7 @@ internal class CorrectSummary(
                 add("the reference does not show how the sensor responds: $fault; $instead")
             }
             result.choice?.hinted?.let { add(hint(it)) }
-            if (result.series.values.all { it == result.series.values[0] }) {
+            if (isFlat(result.series.values)) {
                 add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }
             slowest()?.let(::add)

@@ -84,7 +84,7 @@ internal object SensorLearning {
         hasFixes: Boolean = false,
     ): Learned {
         val series = if (unusable.isNone) all else all.at((0 until all.size).filter(unusable::isUsable))
-        val isStuck = series.size < FEWEST || series.values.all { it == series.values[0] }
+        val isStuck = series.size < FEWEST || isFlat(series.values)
         val stillBoat = StillBoat.why(series, hasFixes)
         if (isStuck || stillBoat != null) return nothing(all.size).copy(stillBoat = stillBoat)
         val rate = series.rateLimit()

@@ -28,8 +28,6 @@ internal object StillBoat {
         else -> null
     }
 
-    private fun isFlat(numbers: DoubleArray) = numbers.all { it == numbers[0] }
-
     private fun isWithin(series: TrackSeries): Boolean {
         val x = series.xs.sorted()[series.size / 2]
         val y = series.ys.sorted()[series.size / 2]
@@ -56,3 +54,6 @@ internal object StillBoat {
         return numbers[(share * (numbers.size - 1)).toInt()]
     }
 }
+
+/** Whether all of [numbers] are the same. */
+internal fun isFlat(numbers: DoubleArray): Boolean = numbers.all { it == numbers[0] }
