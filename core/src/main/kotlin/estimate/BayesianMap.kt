@@ -19,8 +19,9 @@ import kotlin.math.sqrt
  * of it, with a quarter of its bounds' width, about, as standard deviation and independent of the others; so whatever
  * [cells] learns of the sensor (time constant, noise, kind) holds here. A cell's value is its posterior's median, its
  * bounds are credible at 95 %, both cut to the prior. Where [cells] finds that its own model of the sensor does not
- * explain the readings, or gives most visited cells the prior's bounds, nobody knows how sure it is: then its values
- * are taken as they are and all bounds here are the prior's, see [isExplained].
+ * explain the readings, or gives most visited cells the prior's bounds, its errors are not independent: then its values
+ * and bounds are taken as they are, cells not visited are interpolated, and their bounds are as wide as those of the
+ * visited ones near them or wider, see [isExplained].
  *
  * The posterior is worked on when [map] is asked for, not at a reading: ask for it after updates rather than keeping
  * it. When it was asked for before matters a little. A look at every visited cell apart, it does [work] for each
@@ -95,7 +96,7 @@ public class BayesianMap(
         return believed
     }
 
-    /** Whether [cells] knows how sure it is of the cells; where not, all bounds are the prior's. As [map] last had it. */
+    /** Whether errors of [cells] are independent; where not, nothing is pooled with its bounds. As [map] last had it. */
     public var isExplained: Boolean = true
         private set
 
@@ -206,8 +207,7 @@ public class BayesianMap(
     /** Reads what [cells] says of [cell]. */
     private fun read(cell: Int) {
         val value = (source.value(cell) - middle) / scale
-        val reach = maxOf(source.upper(cell) - source.value(cell), source.value(cell) - source.lower(cell))
-        val deviation = reach / scale / TruncatedNormal.NORMAL
+        val deviation = deviation(cell)
         if (!value.isFinite() || !deviation.isFinite()) return
         val scaled = value.coerceIn(-LARGEST, LARGEST)
         val variance = if (!isExplained) 0.0 else minOf(deviation * deviation, LARGEST)
@@ -215,6 +215,12 @@ public class BayesianMap(
         values[cell] = scaled
         variances[cell] = variance
         isWritten[cell] = false
+    }
+
+    /** What the bounds of [cell] by itself have for standard deviation, scaled. */
+    private fun deviation(cell: Int): Double {
+        val reach = maxOf(source.upper(cell) - source.value(cell), source.value(cell) - source.lower(cell))
+        return reach / scale / TruncatedNormal.NORMAL
     }
 
     /** Whether the bounds of [cell] by itself are the prior's. */
@@ -284,11 +290,7 @@ public class BayesianMap(
         val own = variances[cell]
         val other = outerVariances[cell]
         val isPlain = !(abs(values[cell]) < LARGEST) || !(own < LARGEST) || !other.isFinite()
-        if (!isExplained) {
-            isWritten[cell] = false
-            believed.setValue(cell, source.value(cell))
-            believed.setBounds(cell, believed.prior.lower, believed.prior.upper)
-        } else if (isPlain) {
+        if (!isExplained || isPlain) {
             isWritten[cell] = false
             believed.setValue(cell, source.value(cell))
             believed.setBounds(cell, source.lower(cell), source.upper(cell))
@@ -302,17 +304,34 @@ public class BayesianMap(
     private fun write(cell: Int, mean: Double, variance: Double) {
         if (!mean.isFinite() || !variance.isFinite()) return
         val prior = believed.prior
+        val all = if (isExplained) variance else variance + doubt(cell)
         // Of all distributions on the range with this mean and variance the least committed is a cut normal one whose
         // own variance is greater: without end where it is that of the range itself, 1/12, eq. (6).
-        val uncut = variance / maxOf(1 - RANGE * variance, LEAST_PRECISION)
+        val uncut = all / maxOf(1 - RANGE * all, LEAST_PRECISION)
         cut.cut(middle + scale * mean, scale * sqrt(uncut), prior.lower, prior.upper)
         if (!cut.lower.isFinite() || !cut.upper.isFinite()) return
         believed.setValue(cell, cut.median)
-        if (isExplained) {
-            believed.setBounds(cell, cut.lower, cut.upper)
-        } else {
-            believed.setBounds(cell, prior.lower, prior.upper)
+        believed.setBounds(cell, cut.lower, cut.upper)
+    }
+
+    /**
+     * What the bounds of visited cells near [cell] have for variance on average, scaled: an error that all of them share
+     * is the interpolated value's, too. Without any near by that of the whole range.
+     */
+    private fun doubt(cell: Int): Double {
+        val column = cell % grid.columns
+        val row = cell / grid.columns
+        var sum = 0.0
+        var count = 0
+        for (r in maxOf(0, row - AROUND)..minOf(grid.rows - 1, row + AROUND)) {
+            for (c in maxOf(0, column - AROUND)..minOf(grid.columns - 1, column + AROUND)) {
+                val other = r * grid.columns + c
+                if (variances[other].isNaN()) continue
+                sum += deviation(other) * deviation(other)
+                count++
+            }
         }
+        return if (count == 0) 1 / RANGE else sum / count
     }
 
     public companion object {

@@ -34,6 +34,36 @@ internal class EvenCells(private val tape: Recording) {
         }
     }
 
+    /**
+     * Whether the readings of each visit by themselves bear it out, where those of all do not with [fit]: then visits of
+     * a cell had different water. What they disagree spoils a fit to all, and it tells nothing of borders.
+     */
+    suspend fun areBorneOutByEachVisit(fit: SensorFit): Boolean = when (fit) {
+        is LagFit -> areBorneOutByEachVisit(ResponseBankKind.DEAD_TIME, ln(fit.timeConstant), 0.0, fit.noiseVariance)
+        is ResponseBankFit -> areBorneOutByEachVisit(fit.kind, fit.first, fit.second, fit.noiseVariance)
+        else -> false
+    }
+
+    private suspend fun areBorneOutByEachVisit(
+        kind: ResponseBankKind,
+        first: Double,
+        second: Double,
+        noise: Double,
+    ): Boolean {
+        most = Double.POSITIVE_INFINITY
+        var here = Double.POSITIVE_INFINITY
+        var moved = Double.POSITIVE_INFINITY
+        for (stretch in STRETCHES) {
+            bank.resetMiddle(kind, first + stretch, second, noise)
+            play(isMoved = false)
+            here = minOf(here, bank.varianceWithin)
+            bank.resetMiddle(kind, first + stretch, second, noise)
+            play(isMoved = true)
+            moved = minOf(moved, bank.varianceWithin)
+        }
+        return moved > CLEARLY_WORSE * here
+    }
+
     /** Stays that have a border to move: one of a single reading would move to the cell before as a whole. */
     private fun stays(): Int {
         var stays = 0
@@ -136,6 +166,9 @@ internal class EvenCells(private val tape: Recording) {
 
         /** Moved borders are worse if they leave so many times as much. */
         const val WORSE = 1.1
+
+        /** The same with what visits disagree left out, which is what tells uneven cells best. */
+        const val CLEARLY_WORSE = 3.0
 
         /** Second differences have six times the variance of readings, rounding a twelfth of its step squared. */
         const val BEND = 6.0

@@ -76,7 +76,7 @@ public class SelfCalibratingEstimator(
 
     /**
      * Whether the chosen sensor model explains the readings: successive innovations are not clearly alike, and cells
-     * are even as far as can be told, see [SensorBelief.areCellsEven]. Where it does not, the map's bounds need no
+     * are even and their water steady as far as can be told, see [SensorBelief]. Where it does not, the map's bounds need no
      * sensor model, and its values are the nearest model's or need none either. True until there is evidence
      * against it; then false until innovations are clearly unlike.
      */
@@ -233,8 +233,8 @@ public class SelfCalibratingEstimator(
         if (!isExplained) {
             fallback.bring(cell)
             val kept = if (fallback.isPreferred) fallback.map.value(cell) else value.coerceIn(prior.lower, prior.upper)
-            // Bounds of even cells know nothing of water that changes within one, but its readings show some of it.
-            val more = if (choice.areCellsEven) 0.0 else SPREAD * fallback.spread(cell)
+            // Such bounds know nothing of water that changes in a cell, but its readings show some of it.
+            val more = if (choice.areCellsEven && choice.isWaterSteady) 0.0 else SPREAD * fallback.spread(cell)
             written.setValue(cell, kept)
             written.setBounds(
                 cell,
@@ -266,7 +266,7 @@ public class SelfCalibratingEstimator(
         public const val AFLOAT: Double = 16_000.0
         private const val FIRST_CELLS = 128
 
-        /** Standard deviations of a cell's readings that the bounds reach where cells are not even. */
+        /** Standard deviations of a cell's readings that the bounds reach where cells are not even or their water changes. */
         private const val SPREAD = 2.0
     }
 }

@@ -80,11 +80,14 @@ public data class SensorCandidate(
  *   those of the extended bounded filter.
  * @property areCellsEven whether the readings bear out that the water changes at the cells' borders only, or are too
  *   few to say; if not, nothing of the sensor can be learned from them in these cells and [isExplained] is false.
+ * @property isWaterSteady false if the readings bear that out in each visit by itself only: the water of cells changed
+ *   between visits, and then [isExplained] is false, too. Where [areCellsEven] is false nobody can say, and it is true.
  * @property candidates all models, the chosen one first.
  */
 public data class SensorBelief(
     val isExplained: Boolean,
     val areCellsEven: Boolean,
+    val isWaterSteady: Boolean,
     val candidates: List<SensorCandidate>,
 ) {
     /** The model that the map's values rest on. */

@@ -41,8 +41,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         private set
 
     /**
-     * Whether the chosen model explains the readings: what it leaves is white and [areCellsEven]. Once it is not white
-     * it takes innovations that clearly are to say that it is again: a freer model that fits what is not the sensor's
+     * Whether the chosen model explains the readings: what it leaves is white, [areCellsEven] and [isWaterSteady]. Once
+     * it is not white it takes innovations that clearly are to say that it is again: a freer model that fits what is not the sensor's
      * hovers about the limit.
      */
     var isExplained: Boolean = true
@@ -51,6 +51,10 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
 
     /** Whether the readings bear out that the water changes at borders only, or are too few to say; see [EvenCells]. */
     var areCellsEven: Boolean = true
+        private set
+
+    /** Whether that holds of all readings: false if it does of each visit only, because a cell's water changed. */
+    var isWaterSteady: Boolean = true
         private set
 
     /** Whether a reading in a cell tells of that cell and the one before, and of no other, whenever it comes. */
@@ -78,7 +82,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
 
     private fun judge() {
         isWhite = if (isWhite) active.isWhite else active.isClearlyWhite
-        isExplained = isWhite && areCellsEven
+        isExplained = isWhite && areCellsEven && isWaterSteady
     }
 
     override fun leave() {
@@ -95,6 +99,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         isExplained = other.isExplained
         isWhite = other.isWhite
         areCellsEven = other.areCellsEven
+        isWaterSteady = other.isWaterSteady
     }
 
     /** Fits to the first [size] on the tape, and chooses. */
@@ -106,6 +111,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         rival = null
         lag.calibrate(tape)
         areCellsEven = true
+        isWaterSteady = true
         if (lag.freedom < SensorFit.FEWEST_TO_JUDGE) return judge()
         val penalty = ln(lag.freedom)
         criteria.fill(Double.NaN)
@@ -125,7 +131,9 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         }
         if (next >= 0) rival = fits[next]
         // Where borders are heeded, what the sensor looks like without tells even cells; see [SensorLearner].
-        areCellsEven = crossings.areHeeded || cells.areBorneOut(active)
+        val areBorneOut = crossings.areHeeded || cells.areBorneOut(active)
+        areCellsEven = areBorneOut || cells.areBorneOutByEachVisit(active)
+        isWaterSteady = areBorneOut || !areCellsEven
         judge()
     }
 
@@ -163,7 +171,7 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
             val numbers = if (standing == SensorStanding.NOT_TRIED) emptyList() else parameters(k, scale)
             SensorCandidate(kinds[k], standing, odds[k], numbers)
         }
-        return SensorBelief(isExplained, areCellsEven, candidates.sortedBy { it.standing })
+        return SensorBelief(isExplained, areCellsEven, isWaterSteady, candidates.sortedBy { it.standing })
     }
 
     private fun parameters(k: Int, scale: Double): List<SensorParameter> {

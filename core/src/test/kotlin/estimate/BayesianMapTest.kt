@@ -84,10 +84,11 @@ class BayesianMapTest {
         val grid = Grid.unit(4, 4)
         val estimator = BayesianMap(grid, Interval.UNIT, Oracle(grid, 10.0))
         for (cell in listOf(0, 5, 10)) estimator.see(cell, 0.7)
-        assertFalse(estimator.map.width(1) < 1)
+        assertFalse(estimator.map.width(1) < 0.94)
         assertFalse(estimator.isExplained)
         for (cell in 0 until grid.size) {
-            assertEquals(0.0 to 1.0, estimator.map.lower(cell) to estimator.map.upper(cell))
+            // What may be anywhere in the range is in all of it but a fortieth at either end.
+            assertTrue(estimator.map.lower(cell) <= 0.03 && estimator.map.upper(cell) >= 0.97, "$cell")
         }
         assertEquals(0.7, estimator.map.value(5))
     }

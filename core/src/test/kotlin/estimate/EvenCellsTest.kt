@@ -37,21 +37,31 @@ class EvenCellsTest {
         lag: Double,
         change: Double = 0.0,
         still: (x: Double, y: Double) -> Double,
-    ): SelfCalibratingEstimator {
-        val estimator = SelfCalibratingEstimator(grid, Interval(4.0, 12.0))
-        var state = still(0.5, 5.0)
-        for (second in 0 until if (change == 0.0) 960 else 1920) {
-            fun water(x: Double, y: Double) = still(x, y) + if (second < 960) 0.0 else change
-            val row = second % 960 / 120
+    ) = SelfCalibratingEstimator(grid, Interval(4.0, 12.0)).also { estimator ->
+        sail(estimator, random, lag, List(if (change == 0.0) 8 else 16) { it % 8 }) { row, x, y ->
+            still(x, y) + if (row < 8) 0.0 else change
+        }
+    }
+
+    /** The same on [rows] of the grid, one after the other, in water that [still] has during the first, second, ... */
+    private fun sail(
+        estimator: FieldEstimator,
+        random: Random,
+        lag: Double,
+        rows: List<Int>,
+        still: (turn: Int, x: Double, y: Double) -> Double,
+    ) {
+        var state = still(0, 0.5, 5.0)
+        for (second in 0 until 120 * rows.size) {
+            val turn = second / 120
             val along = second % 120 + 0.5
-            val x = if (row % 2 == 0) along else 120 - along
-            val y = 10.0 * row + 5
-            state += (1 - exp(-1 / lag)) * (water(x, y) - state)
+            val x = if (turn % 2 == 0) along else 120 - along
+            val y = 10.0 * rows[turn] + 5
+            state += (1 - exp(-1 / lag)) * (still(turn, x, y) - state)
             val noise = 0.02 * (random.nextDouble() + random.nextDouble() + random.nextDouble() - 1.5) * 2
             val value = floor((state + noise) * 100 + 0.5) / 100
             estimator.update(BoatTime(second.toDouble()), x, y, value, Conditions.NONE)
         }
-        return estimator
     }
 
     @Test
@@ -98,6 +108,55 @@ class EvenCellsTest {
             water(grid.centerX(cell), grid.centerY(cell))
         }
         assertTrue(estimator.sensor().areCellsEven)
+    }
+
+    /** Fifteen times the noise: no sensor is learned, and why is not said of the cells' borders. */
+    @Test
+    fun waterThatChangedBetweenPassesIsToldFromUnevenCells() {
+        var held = 0
+        var all = 0
+        for (seed in 651..654) {
+            val random = Random(seed)
+            val water = smooth(random)
+            val estimator = sail(random, lag = 5.0, change = 0.3) { x, y ->
+                val cell = grid.cellAt(x, y)
+                water(grid.centerX(cell), grid.centerY(cell))
+            }
+            val belief = estimator.sensor()
+            assertEquals(listOf(false, true, false), listOf(belief.isExplained, belief.areCellsEven, belief.isWaterSteady))
+            // What the map is of is the mean of both waters.
+            val map = estimator.map
+            held += (0 until grid.size).count {
+                water(grid.centerX(it), grid.centerY(it)) + 0.15 in map.lower(it)..map.upper(it)
+            }
+            all += grid.size
+        }
+        assertTrue(held >= 0.95 * all, "$held of $all")
+    }
+
+    /** A Gaussian process says no less of visited cells than what reads them, and no more of those between. */
+    @Test
+    fun aMapOfTheWholeFieldHasBoundsWhereCellsAreNotEven() {
+        var held = 0
+        var all = 0
+        var between = 0
+        for (seed in 661..664) {
+            val random = Random(seed)
+            val water = smooth(random)
+            val estimator = BayesianMap(grid, Interval(4.0, 12.0))
+            // Every other row of cells is left out.
+            sail(estimator, random, lag = 6.0, rows = listOf(0, 2, 4, 6)) { _, x, y -> water(x, y) }
+            val map = estimator.map
+            assertFalse(estimator.isExplained, "seed $seed")
+            for (cell in 0 until grid.size) {
+                all++
+                if (water(grid.centerX(cell), grid.centerY(cell)) in map.lower(cell)..map.upper(cell)) held++
+                if (map.upper(cell) - map.lower(cell) < 0.95 * map.prior.width) between++
+                assertTrue(map.value(cell) in map.lower(cell)..map.upper(cell))
+            }
+        }
+        assertTrue(held >= 0.95 * all, "$held of $all")
+        assertTrue(between >= 0.5 * all, "$between of $all")
     }
 
     /** Moved by a cell a way of one reading a cell, always the same, is as good as it was. */

@@ -29,7 +29,7 @@ internal object MapCautions {
     /** One line each; of [mission]'s map as it is now. */
     fun of(mission: Mission): List<String> = listOfNotNull(
         nothing(mission),
-        unexplained(mission.spec.estimator, mission.sensor),
+        unexplained(mission.sensor),
         fewBounds(mission.spec.estimator, mission.map),
         "no cell has a reading".takeIf { visited(mission) == 0 },
         givenUp(mission),
@@ -64,16 +64,15 @@ internal object MapCautions {
     private fun visited(mission: Mission) = (0 until mission.map.grid.size).count { mission.map.readings(it) > 0 }
 
     /** Where no model of a sensor fits; [where] says why that may be, after a comma, unless the readings do. */
-    fun unexplained(estimator: EstimatorName, belief: SensorBelief?, where: String = ""): String? {
+    fun unexplained(belief: SensorBelief?, where: String = ""): String? {
         if (belief?.isExplained != false) return null
         val values = "values where the nearest model's ran away"
-        val then = when {
-            estimator == EstimatorName.BAYESIAN -> "the map has no bounds"
-            belief.areCellsEven -> "bounds, and $values, are those of bounded-extended"
-            else -> "bounds are those of bounded-extended and of the readings' spread, $values bounded-extended's"
+        val unlike = SensorWording.unlikeItsCells(belief)
+        if (unlike == null) {
+            return "no sensor model explains the readings$where: bounds, and $values, are those of bounded-extended"
         }
-        if (belief.areCellsEven) return "no sensor model explains the readings$where: $then"
-        return "no sensor model can be learned in these cells, ${SensorWording.UNEVEN}: $then"
+        return "no sensor model can be learned in these cells, $unlike: bounds are those of bounded-extended and of " +
+            "the readings' spread, $values bounded-extended's"
     }
 
     /** Where a filter that gives bounds gave few. */

@@ -52,6 +52,7 @@ internal object SimulationJson {
             putJsonObject("sensor_learned") {
                 put("explained", belief.isExplained)
                 put("even_cells", belief.areCellsEven)
+                put("steady_water", belief.isWaterSteady)
                 put("response", belief.chosen.kind.label)
                 belief.chosen.parameters.forEach { put(it.name, finite(it.value)) }
             }

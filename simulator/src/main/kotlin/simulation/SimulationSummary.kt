@@ -3,6 +3,7 @@ package stillwater.simulation
 import stillwater.drive.MapCautions
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
+import stillwater.survey.SensorWording
 
 /**
  * A [SimulationResult] in words: facts, and what to beware of.
@@ -47,7 +48,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         MapCautions.nothing(run.mission)?.let { add(it) }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
         val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"
-        MapCautions.unexplained(run.spec.estimator, result.belief, where)?.let { add(it) }
+        MapCautions.unexplained(result.belief, where)?.let { add(it) }
         MapCautions.fewBounds(run.spec.estimator, result.map)?.let { add(it) }
         if (result.againstMeans.mean > result.averagesError.mean) {
             add(
@@ -127,7 +128,7 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         val numbers = chosen.parameters.joinToString { "${it.name} ${number(it.value)} ${it.unit}" }
         val verdict = when {
             belief.isExplained -> ""
-            belief.areCellsEven -> "none explains the readings; the nearest is "
+            SensorWording.unlikeItsCells(belief) == null -> "none explains the readings; the nearest is "
             else -> "none can be learned in these cells; the nearest is "
         }
         return "$verdict${chosen.kind.label}" + if (numbers.isEmpty()) "" else ", $numbers"

@@ -25,6 +25,7 @@ object MapJson {
     private fun sensor(belief: SensorBelief) = buildJsonObject {
         put("explained", belief.isExplained)
         put("even_cells", belief.areCellsEven)
+        put("steady_water", belief.isWaterSteady)
         putJsonObject("models") {
             for (candidate in belief.candidates) {
                 putJsonObject(candidate.kind.label) {

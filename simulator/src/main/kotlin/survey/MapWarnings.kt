@@ -21,13 +21,15 @@ internal class MapWarnings(private val map: SurveyMap) {
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
 
     private fun unevenCells(): String? {
-        if (map.learned?.sensor()?.areCellsEven != false) return null
-        val isBounded = FilterKind.SELF_CALIBRATING in map.maps
-        val filter = if (isBounded) "self-calibrating" else "bayesian"
-        val bounds = if (isBounded) "its bounds are wide" else "it has no bounds"
-        return "nothing shows that the water changes at the cells' borders and not within cells, so $filter " +
-            "cannot learn the sensor: $bounds, and its values may be as late as the readings; " +
-            "`stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
+        val belief = map.learned?.sensor() ?: return null
+        val why = when {
+            !belief.areCellsEven -> "nothing shows that the water changes at the cells' borders and not within cells"
+            !belief.isWaterSteady -> "the water of cells changed between one visit and another"
+            else -> return null
+        }
+        val filter = if (FilterKind.SELF_CALIBRATING in map.maps) "self-calibrating" else "bayesian"
+        return "$why, so $filter cannot learn the sensor: its bounds are wide, and its values may be as late as the " +
+            "readings; `stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
     }
 
     private fun jumps(): String? {

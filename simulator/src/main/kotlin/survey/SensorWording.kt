@@ -8,10 +8,9 @@ import stillwater.survey.Wording.Companion.digits
 /**
  * What a self-calibrating estimator believes of its sensor, in words.
  *
- * @param belief the belief. @param hasBounds whether the map has bounds, as one with filter bayesian that does not
- * hold has not.
+ * @param belief the belief.
  */
-internal class SensorWording(private val belief: SensorBelief, private val hasBounds: Boolean = true) {
+internal class SensorWording(private val belief: SensorBelief) {
     /** Names and sentences: the chosen model, then what the readings say of the others. */
     val facts: List<Pair<String, String>> = buildList {
         add("sensor model" to chosen())
@@ -27,14 +26,10 @@ internal class SensorWording(private val belief: SensorBelief, private val hasBo
         return if (belief.isExplained) {
             "${chosen.kind.label}, ${parameters(chosen)}"
         } else {
-            val then = when {
-                !hasBounds -> "the map has no bounds"
-                belief.areCellsEven -> "bounds are those of bounded-extended"
-                else -> "bounds are those of bounded-extended and of the readings' spread"
-            }
-            val uneven = "none can be learned in these cells, $UNEVEN"
-            val why = if (belief.areCellsEven) "none explains the readings" else uneven
-            "$why: $then; ${chosen.kind.label} comes closest, with " +
+            val unlike = unlikeItsCells(belief)
+            val why = if (unlike == null) "none explains the readings" else "none can be learned in these cells, $unlike"
+            val more = if (unlike == null) "" else " and of the readings' spread"
+            "$why: bounds are those of bounded-extended$more; ${chosen.kind.label} comes closest, with " +
                 chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
         }
     }
@@ -46,7 +41,7 @@ internal class SensorWording(private val belief: SensorBelief, private val hasBo
             val others = undecided.joinToString("; ") { "${it.kind.label}, ${parameters(it)}" }
             return "$others: about as likely; the bounds hold what either says"
         }
-        if (!belief.areCellsEven) return "between a time constant, a dead time and the others: odds mean nothing here"
+        if (unlikeItsCells(belief) != null) return "between a time constant, a dead time and the others: odds mean nothing here"
         val others = undecided.joinToString { "${it.kind.label} ${digits(it.evidence)}" }
         return "between a time constant, a dead time and the others, as long as none explains the readings; log odds " +
             "against them: $others"
@@ -67,6 +62,11 @@ internal class SensorWording(private val belief: SensorBelief, private val hasBo
 
     companion object {
         /** Why nothing of the sensor can be learned where cells are not borne out to be even. */
-        const val UNEVEN = "because nothing shows that the water changes at their borders and not within them"
+        /** Why a sensor cannot be learned from readings in cells that [belief] finds not to be as they should; or null. */
+        fun unlikeItsCells(belief: SensorBelief): String? = when {
+            !belief.areCellsEven -> "because nothing shows that the water changes at their borders and not within them"
+            !belief.isWaterSteady -> "because their water changed between one visit and another"
+            else -> null
+        }
     }
 }

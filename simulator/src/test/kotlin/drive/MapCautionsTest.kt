@@ -1,33 +1,26 @@
 package stillwater.drive
 
 import stillwater.estimate.SensorBelief
-import stillwater.mission.EstimatorName
 import kotlin.test.Test
 import kotlin.test.assertContains
-import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertNull
 
 class MapCautionsTest {
-    private fun caution(estimator: EstimatorName, isExplained: Boolean, areCellsEven: Boolean) =
-        MapCautions.unexplained(estimator, SensorBelief(isExplained, areCellsEven, emptyList()), ", as in a storm")
+    private fun caution(isExplained: Boolean, areCellsEven: Boolean = true, isWaterSteady: Boolean = true) =
+        MapCautions.unexplained(SensorBelief(isExplained, areCellsEven, isWaterSteady, emptyList()), ", as in a storm")
 
     @Test
     fun whyNoSensorIsLearnedIsWhatTheReadingsShow() {
-        val uneven = caution(EstimatorName.SELF_CALIBRATING, isExplained = false, areCellsEven = false).orEmpty()
+        val uneven = caution(isExplained = false, areCellsEven = false).orEmpty()
         assertContains(uneven, "nothing shows that the water changes at their borders and not within them")
         assertContains(uneven, "the readings' spread")
-        val even = caution(EstimatorName.SELF_CALIBRATING, isExplained = false, areCellsEven = true).orEmpty()
+        val even = caution(isExplained = false).orEmpty()
         assertContains(even, "no sensor model explains the readings, as in a storm")
         assertFalse("spread" in even, even)
-        assertNull(caution(EstimatorName.SELF_CALIBRATING, isExplained = true, areCellsEven = true))
-    }
-
-    @Test
-    fun aBayesianMapThatDoesNotHoldHasNoBounds() {
-        for (areCellsEven in listOf(true, false)) {
-            val words = caution(EstimatorName.BAYESIAN, isExplained = false, areCellsEven = areCellsEven).orEmpty()
-            assertEquals("the map has no bounds", words.substringAfterLast(": "))
-        }
+        val changed = caution(isExplained = false, isWaterSteady = false).orEmpty()
+        assertContains(changed, "because their water changed between one visit and another")
+        assertContains(changed, "the readings' spread")
+        assertNull(caution(isExplained = true))
     }
 }
