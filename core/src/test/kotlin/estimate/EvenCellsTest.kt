@@ -123,7 +123,10 @@ class EvenCellsTest {
                 water(grid.centerX(cell), grid.centerY(cell))
             }
             val belief = estimator.sensor()
-            assertEquals(listOf(false, true, false), listOf(belief.isExplained, belief.areCellsEven, belief.isWaterSteady))
+            assertEquals(
+                listOf(false, true, false),
+                listOf(belief.isExplained, belief.areCellsEven, belief.isWaterSteady),
+            )
             // What the map is of is the mean of both waters.
             val map = estimator.map
             held += (0 until grid.size).count {

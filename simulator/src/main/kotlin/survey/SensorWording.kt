@@ -27,7 +27,13 @@ internal class SensorWording(private val belief: SensorBelief) {
             "${chosen.kind.label}, ${parameters(chosen)}"
         } else {
             val unlike = unlikeItsCells(belief)
-            val why = if (unlike == null) "none explains the readings" else "none can be learned in these cells, $unlike"
+            val why = if (unlike ==
+                null
+            ) {
+                "none explains the readings"
+            } else {
+                "none can be learned in these cells, $unlike"
+            }
             val more = if (unlike == null) "" else " and of the readings' spread"
             "$why: bounds are those of bounded-extended$more; ${chosen.kind.label} comes closest, with " +
                 chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
@@ -41,7 +47,11 @@ internal class SensorWording(private val belief: SensorBelief) {
             val others = undecided.joinToString("; ") { "${it.kind.label}, ${parameters(it)}" }
             return "$others: about as likely; the bounds hold what either says"
         }
-        if (unlikeItsCells(belief) != null) return "between a time constant, a dead time and the others: odds mean nothing here"
+        if (unlikeItsCells(belief) !=
+            null
+        ) {
+            return "between a time constant, a dead time and the others: odds mean nothing here"
+        }
         val others = undecided.joinToString { "${it.kind.label} ${digits(it.evidence)}" }
         return "between a time constant, a dead time and the others, as long as none explains the readings; log odds " +
             "against them: $others"
