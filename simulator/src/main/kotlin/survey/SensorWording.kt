@@ -27,13 +27,7 @@ internal class SensorWording(private val belief: SensorBelief) {
             "${chosen.kind.label}, ${parameters(chosen)}"
         } else {
             val unlike = unlikeItsCells(belief)
-            val why = if (unlike ==
-                null
-            ) {
-                "none explains the readings"
-            } else {
-                "none can be learned in these cells, $unlike"
-            }
+            val why = unlike?.let { "none can be learned in these cells, $it" } ?: "none explains the readings"
             val more = if (unlike == null) "" else " and of the readings' spread"
             "$why: bounds are those of bounded-extended$more; ${chosen.kind.label} comes closest, with " +
                 chosen.parameters.joinToString { "${it.name} ${digits(it.value)}" }
@@ -71,7 +65,6 @@ internal class SensorWording(private val belief: SensorBelief) {
     }
 
     companion object {
-        /** Why nothing of the sensor can be learned where cells are not borne out to be even. */
         /** Why a sensor cannot be learned from readings in cells that [belief] finds not to be as they should; or null. */
         fun unlikeItsCells(belief: SensorBelief): String? = when {
             !belief.areCellsEven -> "because nothing shows that the water changes at their borders and not within them"
