@@ -107,7 +107,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), looked, unlike)
+        val p = pValue(term, ratio, trial.degrees, between(unlike, without), looked, unlike)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
@@ -207,7 +207,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, between(what.term, unlike, z), searched, unlike)
+        val p = pValue(what.term, ratio, degrees, between(unlike, z), searched, unlike)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
@@ -215,41 +215,17 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
      * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
      * Student's t, whatever the noise.
      */
-    private fun between(term: Term?, unlike: DoubleArray, z: DoubleArray): Double {
+    private fun between(unlike: DoubleArray, z: DoubleArray): Double {
         val scores = DoubleArray(STRETCHES)
         val weights = DoubleArray(STRETCHES)
-        val stretches = stretches(term, unlike)
         for (i in 0 until n) {
-            scores[stretches[i]] += unlike[i] * z[i]
-            weights[stretches[i]] += unlike[i] * unlike[i]
+            val stretch = (i.toLong() * STRETCHES / n).toInt()
+            scores[stretch] += unlike[i] * z[i]
+            weights[stretch] += unlike[i] * unlike[i]
         }
         val size = scores.sum() / maxOf(weights.sum(), 1e-300)
         val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
         return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
-    }
-
-    /**
-     * To which stretch each row belongs: of as many rows each, or where [term] is an end of the range, which may be
-     * reached once in a log, of as much of the change [unlike] each.
-     */
-    private fun stretches(term: Term?, unlike: DoubleArray): IntArray {
-        if (term?.cause != Cause.SATURATION) return IntArray(n) { (it.toLong() * STRETCHES / n).toInt() }
-        val whole = maxOf(squares(unlike), 1e-300)
-        var before = 0.0
-        return IntArray(n) { i ->
-            val stretch = (STRETCHES * before / whole).toInt().coerceAtMost(STRETCHES - 1)
-            before += unlike[i] * unlike[i]
-            stretch
-        }
-    }
-
-    /** Over how many stretches [unlike] is spread, where a single wrong reading could be taken for [term]. */
-    private fun agreeing(term: Term?, unlike: DoubleArray): Int {
-        if (term?.cause != Cause.SATURATION) return STRETCHES
-        val weights = DoubleArray(STRETCHES)
-        val stretches = stretches(term, unlike)
-        for (i in 0 until n) weights[stretches[i]] += unlike[i] * unlike[i]
-        return (weights.sum() * weights.sum() / maxOf(squares(weights), 1e-300)).toInt().coerceIn(2, STRETCHES)
     }
 
     /** The jumps that serve best, one after the other while each is worth it. */
@@ -332,7 +308,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
-        val p = pValue(null, ratio, degrees, between(null, unlike, without), look.searched, unlike)
+        val p = pValue(null, ratio, degrees, between(unlike, without), look.searched, unlike)
         return BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p).lessSure(look.doubt)
     }
 
@@ -359,10 +335,18 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     ): Double {
         // A jump shows at its own rows alone.
         if (term?.cause == Cause.OFFSET_STEPS) return Evidence.pValue(ratio, degrees)
+        // An end of the range may be reached a few times in a log; one wrong reading or two are none.
+        if (term?.cause == Cause.SATURATION) return Evidence.pValue(ratio * (1 - strongest(unlike)), degrees)
         // Several numbers give the sum of what they change a good look of chance: the t is held against that.
         val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
-        val agreed = if (t > 0) Evidence.student(fewer, agreeing(term, unlike) - 1) else 1.0
+        val agreed = if (t > 0) Evidence.student(fewer, STRETCHES - 1) else 1.0
         return maxOf(Evidence.pValue(ratio, degrees), agreed)
+    }
+
+    /** The share of the squares of [unlike] that the [SINGLE] strongest rows have. */
+    private fun strongest(unlike: DoubleArray): Double {
+        val whole = maxOf(squares(unlike), TINY)
+        return unlike.map { it * it / whole }.sortedDescending().take(SINGLE).sum()
     }
 
     /** The whitened residuals of the base. */
@@ -382,6 +366,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val REFITS = 2
         const val STEPS = 6
         const val STRETCHES = BlindEvidence.STRETCHES
+
+        /** Rows that may be wrong readings. */
+        const val SINGLE = 2
         const val FAR = 1e12
 
         /** Twice the gain in log-likelihood below which a cause is not fitted to the end: far below any level. */
