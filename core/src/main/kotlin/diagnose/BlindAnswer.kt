@@ -31,7 +31,7 @@ internal class BlindAnswer(
     ): DiagnosisResult {
         val left = looks.mapIndexed { i, look ->
             Dependence(look.name, look.ratio, look.degrees, look.pValue, adjustedLooks[i])
-        }.sortedBy { it.pValue }
+        }.sortedWith(compareBy<Dependence> { it.pValue }.thenByDescending { it.ratio })
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
         val all = sets + listOfNotNull(

@@ -79,6 +79,8 @@ internal class BlindDiagnosis(
         private val tries = BlindTrials(search, state)
         private val stillTries = if (still === state) tries else BlindTrials(search, still)
 
+        private val quietTries = quiet?.let { BlindTrials(search, it) }
+
         /** Water that does not change, all else as it is: noise that suits such water may wander as a drift does. */
         private val held = if (still === state) state else search.held(state)
         private val heldTries = if (still === state) tries else BlindTrials(search, held)
@@ -98,9 +100,8 @@ internal class BlindDiagnosis(
          * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:
          * such as make up for much of what these explain.
          */
-        private val onQuiet: Map<String, BlindTrial> = quiet?.let { without ->
-            val tries = BlindTrials(search, without)
-            val least = MADE_UP * (state.score - without.score)
+        private val onQuiet: Map<String, BlindTrial> = quietTries?.let { tries ->
+            val least = MADE_UP * (state.score - checkNotNull(quiet).score)
             terms.filter { it.cause !in SLOW }.map(tries::attempt).filter { it.likelier > maxOf(LIKELY, least) }
                 .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { it.name }
         }.orEmpty()
@@ -240,20 +241,84 @@ internal class BlindDiagnosis(
             return (others + with(without, trial)).maxBy { it.score }
         }
 
-        /** The score of [other] with the noise of [found]. */
+        /**
+         * The score of [other] with the noise of [found], or from where [found] is with all of it but what is new there.
+         */
         private fun likewise(other: BlindState, found: BlindState): Double {
             val noise = found.fit.design.noise
-            return search.improved(
-                search.settled(other.model.terms, other.numbers, noise, other.variances, before = other),
-            ).score
+            val model = other.model
+            val own = search.improved(
+                search.settled(model.terms, other.numbers, noise, other.variances, before = other),
+            )
+            val there = search.settled(
+                model.terms,
+                model.carried(found.model, found.numbers),
+                noise,
+                found.variances,
+                before = found,
+            )
+            return maxOf(own.score, search.climbed(there).score)
         }
 
         /** What no cause explains. */
-        val looks: List<BlindTrial> = BlindLooks(state, tries, !isShapeOpen && !isBlurred).all()
+        val looks: List<BlindTrial> = looks()
         private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
 
         init {
             rounds++
+        }
+
+        /**
+         * What no cause explains, with water and noise of its own where it may be something: both would take it
+         * otherwise, as they take what a cause does.
+         */
+        private fun looks(): List<BlindTrial> {
+            fun on(state: BlindState, tries: BlindTrials) = BlindLooks(state, tries, !isShapeOpen)
+            val here = on(state, tries)
+            val onStill = if (still === state) null else on(still, stillTries)
+            val onQuiet = quietTries?.let { on(checkNotNull(quiet), it) }
+            val deficit = quiet?.let { state.score - it.score } ?: 0.0
+            // What waves of the water that are missing do looks like another response: one counts with which none are.
+            val found = here.list.indices.mapTo(ArrayList()) { i ->
+                here.trials[i].let { if (here.list[i].ofWater && isBlurred) it.atMost(0.0) else it }
+            }
+            val begun = here.list.indices.filter { !here.list[it].isLoose }.map { i ->
+                listOfNotNull(here to 0.0, onStill?.let { it to state.score - still.score })
+                    .map { (looks, lost) -> Begun(looks, i, lost) }.maxBy { it.worth }
+            }.filter { it.worth > LIKELY }.sortedByDescending { it.worth }.take(MOST_LOOKS)
+            val quieter = onQuiet?.list?.indices?.filter { !onQuiet.list[it].isLoose }?.map {
+                Begun(
+                    onQuiet,
+                    it,
+                    MADE_UP * deficit,
+                )
+            }.orEmpty()
+                .filter { it.worth > LIKELY && begun.none { other -> other.index == it.index } }
+                .maxByOrNull { it.worth }
+            for (looked in begun + listOfNotNull(quieter)) {
+                val next = refitted(looked)
+                if (next.pValue < found[looked.index].pValue) found[looked.index] = next
+            }
+            return found
+        }
+
+        /** The [index]-th of [looks], on a model that is less likely than this round's by [lost]. */
+        private inner class Begun(val looks: BlindLooks, val index: Int, lost: Double) {
+            val look = looks.list[index]
+            val trial = looks.trials[index]
+            val worth = trial.likelier - lost
+        }
+
+        private fun refitted(begun: Begun): BlindTrial {
+            val refitted = begun.looks.refitted(begun.index)
+            val isClear = !isBlurred || !begun.look.ofWater || refitted.state.isResolved ||
+                FinerWaves.isNone(refitted.state, search)
+            if (!isClear) return begun.trial.atMost(0.0)
+            val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
+            if (first.pValue > settings.level) return first
+            // The same noise may suit the model without it as well.
+            val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
+            return tries.settled(begun.look, refitted, best)
         }
 
         /** p-values of [causes] for all that was tried. */
@@ -278,15 +343,23 @@ internal class BlindDiagnosis(
             val best = round.causes.filter { it.pValue < settings.level }.maxBy { it.likelier }
             val look = round.looks.indices.filter { round.adjustedLooks[it] < STRICTER * settings.structureLevel }
                 .map { round.looks[it] }.maxByOrNull { it.worth }
-            // What no cause explains comes first where it is the stronger: a cause would be named for its shadow.
-            if (look != null && look.worth > best.worth + settings.separation) break
             val state = added(round.state, best)
+            // What no cause explains comes first where it is the stronger and stays: a cause would be named for its
+            // shadow.
+            val isShadow = look != null && look.worth > best.worth + settings.separation
+            val isLast = chosen.size + 1 == settings.mostCauses
+            val next = if (isShadow || !isLast) Round(state) else null
+            if (isShadow && checkNotNull(next).adjustedLooks.any { it < STRICTER * settings.structureLevel }) break
             chosen += BlindStep(best, round, state)
-            if (chosen.size < settings.mostCauses) round = Round(state).also { ended = it }
+            if (next != null) {
+                round = next
+                ended = next
+            }
         }
-        if (chosen.size == settings.mostCauses) ended = null
+        if (chosen.size == settings.mostCauses && ended?.state !== chosen.last().state) ended = null
         return needed(chosen)
     }
+
 
     /** [chosen] without what the others have made needless; what is left keeps its rounds. */
     private fun needed(chosen: List<BlindStep>): List<BlindStep> {
@@ -360,6 +433,9 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0
         private const val MOST_LIKELY = 5
+
+        /** Looks that are given water and noise of their own. */
+        private const val MOST_LOOKS = 2
 
         /** Share of what noise that wanders and water that changes explain, for which a cause may make up alone. */
         private const val MADE_UP = 0.4

@@ -1,10 +1,13 @@
 package stillwater.diagnose
 
+import java.util.Locale
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
+import kotlin.math.exp
 import kotlin.math.expm1
 import kotlin.math.ln
+import kotlin.math.pow
 import kotlin.math.sin
 import kotlin.math.sqrt
 
@@ -16,11 +19,12 @@ import kotlin.math.sqrt
  */
 internal class BlindLooks(
     private val state: BlindState,
-    private val trials: BlindTrials,
+    private val tries: BlindTrials,
     private val canShowShape: Boolean,
 ) {
     private val series = state.model.series
     private val n = series.size
+    private val tau = maxOf(state.timeConstant, series.period)
     private val prediction = DoubleArray(n) { series.values[it] - state.residuals[it] }
     private val value = standard(prediction)
     private val rate = standard(
@@ -31,42 +35,109 @@ internal class BlindLooks(
         },
     )
 
-    /** All looks. */
-    fun all(): List<BlindTrial> = shapes().map { it.lessSure(DOUBT) } + periodic()
+    /** All looks; of the same kinds in the same order whatever the model of a log is. */
+    val list: List<BlindLook> by lazy { shapes() + periodic() }
 
-    private fun shapes(): List<BlindTrial> = buildList {
+    /** What each of [list] gains. */
+    val trials: List<BlindTrial> by lazy { list.map(tries::looked) }
+
+    /** The [index]-th of [list] with water and noise of its own. */
+    fun refitted(index: Int): RefittedLook = tries.refitted(list[index], trials[index])
+
+    private fun shapes(): List<BlindLook> = buildList {
         val age = standard(series.times)
         add(
-            trials.look(
+            BlindLook(
                 "the value itself (a curved calibration, or water that was not the same on all passes)",
                 listOf(product(value, value), cube(value)),
             ),
         )
-        add(trials.look("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
+        add(BlindLook("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
         val uneven = listOf(followed(product(rate, value)))
-        add(trials.look("the rate of change, more at some values than at others", uneven))
-        add(trials.look("the value, more at some times than at others", listOf(product(value, age))))
-        if (canShowShape) add(trials.lookAtWater("what was there before (the response has another shape)", earlier()))
+        add(BlindLook("the rate of change, more at some values than at others", uneven))
+        add(BlindLook("the value, more at some times than at others", listOf(product(value, age))))
+        if (canShowShape) {
+            add(
+                BlindLook(
+                    "what was there before (the response has another shape)",
+                    earlier(),
+                    ofWater = true,
+                    isLoose = true,
+                ),
+            )
+            add(ringing())
+        }
         if (median(series.speed) > SLOWEST) heading()
     }
 
-    private fun MutableList<BlindTrial>.heading() {
+    private fun MutableList<BlindLook>.heading() {
         val heading = series.heading
         val turns = listOf(1, 2).flatMap { k ->
             listOf(DoubleArray(n) { cos(k * heading[it]) }, DoubleArray(n) { sin(k * heading[it]) })
         }
-        add(trials.look("the heading", turns))
-        add(trials.look("the speed", listOf(standard(series.speed))))
+        add(BlindLook("the heading", turns))
+        add(BlindLook("the speed", listOf(standard(series.speed))))
     }
 
-    /** The water as lags of several times show it: any response is near a sum of these. */
+    /** The period with which the response most likely rings: [PERIODS] from a time constant to twenty. */
+    private fun ringing(): BlindLook {
+        val shortest = maxOf(tau, SHORTEST * series.period)
+        val searched = 2 * ln(PERIODS.toDouble())
+        return (0 until PERIODS).map { k ->
+            val period = shortest * (LONGEST * tau / shortest).pow(k / (PERIODS - 1.0))
+            val said = "%.3g".format(Locale.ROOT, period)
+            BlindLook(
+                "what was there before (the response rings with a period of $said s)",
+                rung(period),
+                searched,
+                ofWater = true,
+            )
+        }.maxBy { tries.looked(it).gain }
+    }
+
+    /**
+     * What a lightly damped mode of [period] s would show of the water, at once and a quarter of a turn later, less
+     * what the lag does of as much.
+     */
+    private fun rung(period: Double): List<DoubleArray> {
+        val turn = 2 * PI / period
+        val fade = DAMPING * turn
+        val size = fade * fade + turn * turn
+        val water = state.water
+        // Between two rows the water is the mean of both: q' = (−fade + i turn) q + u.
+        var re = water[0] * fade / size
+        var im = water[0] * turn / size
+        val own = followed(water)
+        val atOnce = DoubleArray(n)
+        val later = DoubleArray(n)
+        for (i in 0 until n) {
+            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
+            val u = (water[i] + water[maxOf(i - 1, 0)]) / 2
+            val c = exp(-fade * dt) * cos(turn * dt)
+            val s = exp(-fade * dt) * sin(turn * dt)
+            val was = re
+            re = c * was - s * im + u * (s * turn - (c - 1) * fade) / size
+            im = s * was + c * im - u * (s * fade + (c - 1) * turn) / size
+            atOnce[i] = turn * (re - own[i] * fade / size)
+            later[i] = turn * (im - own[i] * turn / size)
+        }
+        return listOf(atOnce, later)
+    }
+
+    /**
+     * What other lags would show of the water less what this one does: any response is near a sum of these, and what is
+     * as large in water that stands still says nothing of the response.
+     */
     private fun earlier(): List<DoubleArray> {
-        val tau = maxOf(state.timeConstant, series.period)
-        return SHARES.map { share -> followed(state.water, share * tau) }
+        val own = followed(state.water)
+        return SHARES.map { share ->
+            val other = followed(state.water, share * tau)
+            DoubleArray(n) { other[it] - own[it] }
+        }
     }
 
     /** [column] as a lag of [tau] s shows it. */
-    private fun followed(column: DoubleArray, tau: Double = state.timeConstant): DoubleArray {
+    private fun followed(column: DoubleArray, tau: Double = this.tau): DoubleArray {
         var s = column[0]
         return DoubleArray(n) { i ->
             val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
@@ -76,36 +147,38 @@ internal class BlindLooks(
     }
 
     /** The strongest of all frequencies that the log can tell apart and the water cannot imitate. */
-    private fun periodic(): BlindTrial {
+    private fun periodic(): BlindLook {
         val highest = 0.4 / series.period
         // Water that changes goes to and fro a few times in a log as well.
         val lowest = FEWEST_TURNS / maxOf(series.duration, 1e-9)
         val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
-        if (count < 2) return trials.look("time, periodically", emptyList())
-        val powers = powers(count, lowest, highest)
+        if (count < 2) return BlindLook("time, periodically", emptyList())
+        val frequencies = DoubleArray(count) { lowest + (highest - lowest) * it / (count - 1) }
+        val powers = DoubleArray(count) { power(tries.residual, frequencies[it]) }
         val best = powers.indices.maxBy { powers[it] / beside(powers, it) }
-        val frequency = lowest + (highest - lowest) * best / (count - 1)
+        val waves = listOf(wave(frequencies[best], ::cos), wave(frequencies[best], ::sin))
+        val period = "%.3g".format(Locale.ROOT, 1 / frequencies[best])
         // Noise has its own colours: a period must stand out of those beside it.
-        val floor = beside(powers, best) / (squares(trials.residual) / 2)
-        val waves = listOf(
-            DoubleArray(n) { cos(2 * PI * frequency * (series.times[it] - series.times[0])) },
-            DoubleArray(n) { sin(2 * PI * frequency * (series.times[it] - series.times[0])) },
+        val near = maxOf(0, best - BESIDE)..minOf(count - 1, best + BESIDE)
+        return BlindLook(
+            "time, with a period of $period s",
+            waves,
+            2 * ln(count.toDouble()),
+            { z ->
+                beside(DoubleArray(near.count()) { power(z, frequencies[near.first + it]) }, best - near.first) /
+                    (squares(z) / 2)
+            },
+            doubt = 1.0,
         )
-        val period = "%.3g".format(java.util.Locale.ROOT, 1 / frequency)
-        return trials.look("time, with a period of $period s", waves, 2 * ln(count.toDouble()), floor)
     }
 
-    private fun powers(count: Int, lowest: Double, highest: Double) = DoubleArray(count) { k ->
-        val f = lowest + (highest - lowest) * k / (count - 1)
-        val z = trials.residual
-        var even = 0.0
-        var odd = 0.0
-        for (i in 0 until n) {
-            val phase = 2 * PI * f * (series.times[i] - series.times[0])
-            even += z[i] * cos(phase)
-            odd += z[i] * sin(phase)
-        }
-        even * even + odd * odd
+    private fun wave(frequency: Double, shape: (Double) -> Double) =
+        DoubleArray(n) { shape(2 * PI * frequency * (series.times[it] - series.times[0])) }
+
+    private fun power(z: DoubleArray, frequency: Double): Double {
+        val even = dot(z, wave(frequency, ::cos))
+        val odd = dot(z, wave(frequency, ::sin))
+        return even * even + odd * odd
     }
 
     /** The mean power of frequencies near the [k]-th, from their median, which what leaks into them hardly moves. */
@@ -127,11 +200,17 @@ internal class BlindLooks(
     private companion object {
         const val SLOWEST = 0.02
 
-        /** How many times too small p-values are where fixes jitter in steep water; a period stands out of its own. */
-        const val DOUBT = 10.0
         const val MOST_FREQUENCIES = 500
         const val BESIDE = 12
         const val FEWEST_TURNS = 10.0
+
+        /** Periods that a response may ring with; the shortest in rows, the longest in time constants. */
+        const val PERIODS = 14
+        const val SHORTEST = 4.0
+        const val LONGEST = 20.0
+
+        /** Damping over the critical one: a ring has faded to a third after a turn and a half. */
+        const val DAMPING = 0.12
         val SHARES = doubleArrayOf(0.1, 0.5, 2.0, 5.0).toList()
     }
 }

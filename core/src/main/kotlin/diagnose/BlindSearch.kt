@@ -10,32 +10,47 @@ import kotlin.math.sqrt
  *
  * @param progress told how much of [best] is done, a share within 0..1 that grows.
  */
-internal class BlindSearch(
+internal class BlindSearch private constructor(
     private val series: MeasuredSeries,
-    private val loops: Loops = Loops.IN_TURN,
-    private val progress: (Double) -> Unit = {},
+    private val loops: Loops,
+    private val progress: (Double) -> Unit,
+    private val ground: Ground,
 ) {
+    constructor(series: MeasuredSeries, loops: Loops = Loops.IN_TURN, progress: (Double) -> Unit = {}) :
+        this(series, loops, progress, Ground(series, loops))
+
     private val n = series.size
+
+    /** Where the boat was. */
+    val track: SmoothTrack get() = ground.track
+
+    /** Quantities of the log. */
+    val scales: Scales get() = ground.scales
+    private val designs get() = ground.designs
+    private val rough get() = ground.rough
 
     /** Rows that are fitted. */
     val used = BooleanArray(n) { true }
-
-    /** Where the boat was. */
-    val track: SmoothTrack = SmoothTrack.of(series)
-
-    /** Quantities of the log. */
-    val scales = Scales(series)
-    private val designs = BlindColumns(series, scales, loops)
 
     private val most = (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES)
 
     /** The water's waves; few until [best] has told which are needed. */
     val modes: WaterModes get() = fine ?: rough
     private var fine: WaterModes? = null
-    private val rough = WaterModes.flat(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
 
     private fun noise(share: Double, steps: Double) =
         CorrelatedNoise(series.times, share, steps * series.period, used.copyOf())
+
+    /** The same search in readings that are less by [change], length n. */
+    fun less(change: DoubleArray): BlindSearch {
+        val values = DoubleArray(n) { series.values[it] - change[it] }
+        val other = BlindSearch(series.withReadings(values), loops, {}, ground)
+        used.copyInto(other.used)
+        other.fine = fine
+        other.held = held
+        other.lastVariance = lastVariance
+        return other
+    }
 
     /** The likeliest model with a lag alone. */
     fun best(): BlindState {
@@ -393,5 +408,13 @@ internal class BlindSearch(
         const val CLIMBS = 3
         const val MOST_CLIMBS = 5
         val UNEVEN = listOf(0.0, 0.3, 1.0, 3.0, 10.0, 100.0)
+    }
+
+    /** What a log has whatever its readings are. */
+    private class Ground(series: MeasuredSeries, loops: Loops) {
+        val track = SmoothTrack.of(series)
+        val scales = Scales(series)
+        val designs = BlindColumns(series, scales, loops)
+        val rough = WaterModes.flat(series, track, (series.size / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
     }
 }

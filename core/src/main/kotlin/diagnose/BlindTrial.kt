@@ -30,11 +30,14 @@ internal class BlindTrial(
     /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
     val worth: Double get() = ratio - 2 * degrees
 
+    /** Twice the gain in log-likelihood, of which nothing was taken off. */
+    val gain: Double get() = ratio * inflation
+
     /**
-     * The same before inflation, by which causes are held against each other: how far each one's scores seem correlated
+     * [worth] before inflation, by which causes are held against each other: how far each one's scores seem correlated
      * differs by chance.
      */
-    val likelier: Double get() = ratio * inflation - 2 * degrees
+    val likelier: Double get() = gain - 2 * degrees
 
     /** This trial where it is on top of a model whose twice log-likelihood is higher by [score] than the base's. */
     fun instead(score: Double): BlindTrial = atMost(ratio + score / inflation)

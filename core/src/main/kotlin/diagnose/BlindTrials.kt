@@ -107,7 +107,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(term, unlike, without), looked, unlike)
+        val p = pValue(term, ratio, trial.degrees, between(unlike, without), looked, unlike)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
@@ -207,7 +207,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, between(what.term, unlike, z), searched, unlike)
+        val p = pValue(what.term, ratio, degrees, between(unlike, z), searched, unlike)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
@@ -215,41 +215,17 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
      * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
      * Student's t, whatever the noise.
      */
-    private fun between(term: Term?, unlike: DoubleArray, z: DoubleArray): Double {
+    private fun between(unlike: DoubleArray, z: DoubleArray): Double {
         val scores = DoubleArray(STRETCHES)
         val weights = DoubleArray(STRETCHES)
-        val stretches = stretches(term, unlike)
         for (i in 0 until n) {
-            scores[stretches[i]] += unlike[i] * z[i]
-            weights[stretches[i]] += unlike[i] * unlike[i]
+            val stretch = (i.toLong() * STRETCHES / n).toInt()
+            scores[stretch] += unlike[i] * z[i]
+            weights[stretch] += unlike[i] * unlike[i]
         }
         val size = scores.sum() / maxOf(weights.sum(), 1e-300)
         val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
         return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
-    }
-
-    /**
-     * To which stretch each row belongs: of as many rows each, or where [term] is an end of the range, which may be
-     * reached once in a log, of as much of the change [unlike] each.
-     */
-    private fun stretches(term: Term?, unlike: DoubleArray): IntArray {
-        if (term?.cause != Cause.SATURATION) return IntArray(n) { (it.toLong() * STRETCHES / n).toInt() }
-        val whole = maxOf(squares(unlike), 1e-300)
-        var before = 0.0
-        return IntArray(n) { i ->
-            val stretch = (STRETCHES * before / whole).toInt().coerceAtMost(STRETCHES - 1)
-            before += unlike[i] * unlike[i]
-            stretch
-        }
-    }
-
-    /** Over how many stretches [unlike] is spread, where a single wrong reading could be taken for [term]. */
-    private fun agreeing(term: Term?, unlike: DoubleArray): Int {
-        if (term?.cause != Cause.SATURATION) return STRETCHES
-        val weights = DoubleArray(STRETCHES)
-        val stretches = stretches(term, unlike)
-        for (i in 0 until n) weights[stretches[i]] += unlike[i] * unlike[i]
-        return (weights.sum() * weights.sum() / maxOf(squares(weights), 1e-300)).toInt().coerceIn(2, STRETCHES)
     }
 
     /** The jumps that serve best, one after the other while each is worth it. */
@@ -280,40 +256,73 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     fun searched(count: Int): Double = places.searched(count)
 
     /**
-     * A look at whether residuals depend on [columns] of readings; [searched] is what looking around has gained,
-     * [floor] what the ratio is divided by at least.
-     */
-    fun look(name: String, columns: List<DoubleArray>, searched: Double = 0.0, floor: Double = 1.0): BlindTrial =
-        look(name, columns, searched, floor) { it.white }
-
-    /**
-     * A look at whether the water is shown as [columns] show it.
+     * What [look] gains, all else as it is.
      *
      * The water found is smaller than the true water where noise hides it, so that columns which show more of it serve
-     * even where there is nothing. Residuals are therefore held against what of them is unlike any water alone.
+     * even where there is nothing. Residuals are therefore held against what of such is unlike any water alone.
      */
-    fun lookAtWater(name: String, columns: List<DoubleArray>): BlindTrial = look(name, columns, 0.0, 1.0) { it.unlike }
-
-    private fun look(
-        name: String,
-        columns: List<DoubleArray>,
-        searched: Double,
-        floor: Double,
-        scored: (Looked.Direction) -> DoubleArray,
-    ): BlindTrial {
-        val looked = Looked(state.fit, n)
-        ownColumns.forEach { looked.add(it) }
-        val known = looked.directions.size
-        columns.forEach { looked.add(it) }
-        val found = looked.directions.drop(known)
-        if (found.isEmpty()) return BlindTrial(null, name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
-        val heights = found.map { dot(scored(it), z) }
-        val change = DoubleArray(n) { i -> found.indices.sumOf { heights[it] * found[it].column[i] } }
+    fun looked(look: BlindLook): BlindTrial {
+        val found = independent(look, state.fit, ownColumns)
+        if (found.isEmpty()) return BlindTrial(null, look.name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
+        val heights = found.map { dot(if (look.ofWater) it.unlike else it.white, z) }
         val after = DoubleArray(n) { i -> z[i] - found.indices.sumOf { heights[it] * found[it].unlike[i] } }
-        val gained = heights.sumOf { it * it }
-        val what = Weighed(null, name, null, null)
-        return weighed(what, found.map { it.unlike }, base.left - gained, change, searched, floor, after)
+        val left = base.left - heights.sumOf { it * it }
+        val what = Weighed(null, look.name, null, null)
+        val columns = found.map { it.unlike }
+        return weighed(
+            what,
+            columns,
+            left,
+            sum(found, heights),
+            look.searched,
+            look.floor(z),
+            after,
+        ).lessSure(look.doubt)
     }
+
+    /** [look] with the water, the noise and the numbers that suit it, begun from what it gains by [trial]. */
+    fun refitted(look: BlindLook, trial: BlindTrial): RefittedLook {
+        var found = RefittedLook(state, trial.change, emptyList(), emptyList())
+        repeat(REFITS) {
+            val less = search.less(found.change)
+            val was = found.state
+            val begun = less.settled(was.model.terms, was.numbers, was.fit.design.noise, was.variances, before = was)
+            val next = less.climbed(less.requieted(less.climbed(begun)))
+            val own = less.free(next.model).let { free -> free.indices.filter { free[it] } }.map(next::derivative)
+            val directions = independent(look, next.fit, own)
+            val whole = DoubleArray(n) { next.residuals[it] + found.change[it] }
+            val z = next.fit.residual(whole)
+            val heights = directions.map { dot(if (look.ofWater) it.unlike else it.white, z) }
+            val basis = Evidence.orthonormal(own.map { next.fit.unlike(it) })
+            found = RefittedLook(next, sum(directions, heights), directions.map { it.unlike }, basis)
+        }
+        return found
+    }
+
+    /** [found], of [look], where the base's twice log-likelihood is [score]. */
+    fun settled(look: BlindLook, found: RefittedLook, score: Double): BlindTrial {
+        val z = found.state.whitened
+        val extra = Evidence.orthonormal(found.columns, found.basis)
+        val inflation = maxOf(BlindEvidence.inflation(extra, z), look.floor(z))
+        val ratio = maxOf((found.state.score - score) / inflation - look.searched, 0.0)
+        val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
+        val without = DoubleArray(n) { z[it] + unlike[it] }
+        val degrees = maxOf(found.columns.size, 1)
+        val p = pValue(null, ratio, degrees, between(unlike, without), look.searched, unlike)
+        return BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p).lessSure(look.doubt)
+    }
+
+    /** What is new in the columns of [look] beside the model's [own]. */
+    private fun independent(look: BlindLook, fit: BlindFit, own: List<DoubleArray>): List<Looked.Direction> {
+        val looked = Looked(fit, n)
+        own.forEach { looked.add(it, isNew = false) }
+        val known = looked.directions.size
+        look.columns.forEach { looked.add(it, isNew = true) }
+        return looked.directions.drop(known)
+    }
+
+    private fun sum(found: List<Looked.Direction>, heights: List<Double>) =
+        DoubleArray(n) { i -> found.indices.sumOf { heights[it] * found[it].new[i] } }
 
     /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], by [t], the larger. */
     private fun pValue(
@@ -326,10 +335,18 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     ): Double {
         // A jump shows at its own rows alone.
         if (term?.cause == Cause.OFFSET_STEPS) return Evidence.pValue(ratio, degrees)
+        // An end of the range may be reached a few times in a log; one wrong reading or two are none.
+        if (term?.cause == Cause.SATURATION) return Evidence.pValue(ratio * (1 - strongest(unlike)), degrees)
         // Several numbers give the sum of what they change a good look of chance: the t is held against that.
         val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
-        val agreed = if (t > 0) Evidence.student(fewer, agreeing(term, unlike) - 1) else 1.0
+        val agreed = if (t > 0) Evidence.student(fewer, STRETCHES - 1) else 1.0
         return maxOf(Evidence.pValue(ratio, degrees), agreed)
+    }
+
+    /** The share of the squares of [unlike] that the [SINGLE] strongest rows have. */
+    private fun strongest(unlike: DoubleArray): Double {
+        val whole = maxOf(squares(unlike), TINY)
+        return unlike.map { it * it / whole }.sortedDescending().take(SINGLE).sum()
     }
 
     /** The whitened residuals of the base. */
@@ -346,8 +363,12 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val TINY = 1e-290
         const val BASE_STEPS = 4
         const val LOOKS = 2
+        const val REFITS = 2
         const val STEPS = 6
         const val STRETCHES = BlindEvidence.STRETCHES
+
+        /** Rows that may be wrong readings. */
+        const val SINGLE = 2
         const val FAR = 1e12
 
         /** Twice the gain in log-likelihood below which a cause is not fitted to the end: far below any level. */

@@ -102,6 +102,10 @@ public class MeasuredSeries(
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
 
+    /** The same log with other readings. */
+    internal fun withReadings(values: DoubleArray) =
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse)
+
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {
         val rows = column.indices.filter { column[it].isFinite() }

@@ -1,0 +1,25 @@
+package stillwater.diagnose
+
+/**
+ * Something that readings may depend on though no cause of the list would make them.
+ *
+ * @property name in words. @property columns of readings that it would add, each as long as the log. @property searched
+ *   what looking around for it has gained by chance. @property floor what its ratio is divided by at least, where
+ *   these whitened residuals are left. @property ofWater whether [columns] are what else the sensor might show of the
+ *   water. @property isLoose whether a sum of [columns] may show the water smoother than it is, which suits any log.
+ *   @property doubt how many times too small its p-value may be, where fixes jitter in steep water; a period stands out
+ *   of its own noise.
+ */
+internal class BlindLook(
+    val name: String,
+    val columns: List<DoubleArray>,
+    val searched: Double = 0.0,
+    val floor: (DoubleArray) -> Double = { 1.0 },
+    val ofWater: Boolean = false,
+    val isLoose: Boolean = false,
+    val doubt: Double = DOUBT,
+) {
+    private companion object {
+        const val DOUBT = 10.0
+    }
+}

@@ -1,0 +1,15 @@
+package stillwater.diagnose
+
+/**
+ * A look with water and noise of its own.
+ *
+ * @property state of the readings less [change]. @property change what is looked at adds to
+ *   readings, length n. @property columns that it is a sum of, whitened and off the water. @property basis of what the
+ *   model's own numbers change, likewise.
+ */
+internal class RefittedLook(
+    val state: BlindState,
+    val change: DoubleArray,
+    val columns: List<DoubleArray>,
+    val basis: List<DoubleArray>,
+)

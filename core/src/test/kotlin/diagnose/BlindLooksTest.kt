@@ -1,0 +1,98 @@
+package stillwater.diagnose
+
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import kotlin.math.PI
+import kotlin.math.cos
+import kotlin.math.sin
+import kotlin.math.sqrt
+import kotlin.random.Random
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertIs
+import kotlin.test.assertTrue
+
+class BlindLooksTest {
+    private val n = 700
+    private val times = DoubleArray(n) { it.toDouble() }
+    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
+    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
+    private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) + sin((x[it] + y[it]) / 7) }
+    private val lagged = run {
+        val sensor = SensorSpec(
+            "hidden",
+            listOf(SensorStage.Lag(LAG), SensorStage.Noise(NOISE)),
+        ).build(truth[0], Random(3))
+        DoubleArray(n) { sensor.step(truth[it], 1.0, Conditions.NONE) }
+    }
+
+    private fun log(more: (Int) -> Double) =
+        MeasuredSeries(times, x, y, DoubleArray(n) { lagged[it] + more(it) }, null)
+
+    private fun rms(column: DoubleArray) = sqrt(squares(column) / column.size)
+
+    /** The lag's own change, of which some would do as well, is none of it: the lag is fitted beside it. */
+    @Test
+    fun whatALookAddsIsASumOfItsOwnColumns() {
+        val series = log { HEADING * cos(headings()[it]) }
+        val search = BlindSearch(series)
+        val state = search.best()
+        val looks = BlindLooks(state, BlindTrials(search, state), canShowShape = true)
+        val at = looks.list.indexOfFirst { it.name == "the heading" }
+        val basis = Evidence.orthonormal(looks.list[at].columns)
+        for (change in listOf(looks.trials[at].change, looks.refitted(at).change)) {
+            assertTrue(rms(change) > 0)
+            assertEquals(0.0, rms(Evidence.without(change, basis)), 1e-6 * rms(change))
+        }
+    }
+
+    @Test
+    fun aLookWithWaterAndNoiseOfItsOwnFindsWhatNoiseHadTaken() {
+        val effect = DoubleArray(n) { HEADING * cos(headings()[it]) }
+        val search = BlindSearch(log { effect[it] })
+        // Noise that wanders, as a model without the effect makes of it.
+        val wandering = CorrelatedNoise(times, 0.95, 10.0, BooleanArray(n) { true })
+        val best = search.best()
+        val noise = BlindNoise(wandering, best.fit.design.noise.spread)
+        val state = search.settled(emptyList(), best.numbers, noise, best.variances, before = best)
+        val looks = BlindLooks(state, BlindTrials(search, state), canShowShape = true)
+        val at = looks.list.indexOfFirst { it.name == "the heading" }
+        val refitted = looks.refitted(at)
+        val gained = refitted.state.score - state.score
+        assertTrue(gained > 2 * looks.trials[at].gain, "$gained of ${looks.trials[at].gain}")
+        val off = DoubleArray(n) { refitted.change[it] - effect[it] }
+        // The mean of a heading's cosine is an offset, which the water takes.
+        val mean = off.average()
+        assertEquals(0.0, rms(DoubleArray(n) { off[it] - mean }), 0.25 * rms(effect))
+    }
+
+    @Test
+    fun aResponseThatRingsIsUnexplainedAndNoCause() {
+        var velocity = 0.0
+        var ringing = 0.0
+        val turn = 2 * PI / (4 * LAG)
+        val steps = 20
+        val rung = DoubleArray(n) { i ->
+            repeat(steps) {
+                velocity += (turn * turn * (truth[i] - ringing) - 0.3 * turn * velocity) / steps
+                ringing += velocity / steps
+            }
+            ringing
+        }
+        val verdict = Diagnosis(log { 0.008 * rung[it] }).run().verdict
+        assertIs<Verdict.Unexplained>(verdict)
+        assertContains(verdict.what, "rings")
+    }
+
+    private fun headings() = log.heading
+
+    private val log = MeasuredSeries(times, x, y, lagged, null)
+
+    private companion object {
+        const val LAG = 4.0
+        const val NOISE = 0.004
+        const val HEADING = 0.006
+    }
+}
