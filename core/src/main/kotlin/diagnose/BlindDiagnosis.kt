@@ -45,8 +45,9 @@ internal class BlindDiagnosis(
             base = search.improved(search.evened(base))
         }
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
-        val still = search.still(base)
-        val lags = listOf(base, still).filter { it.score > base.score - FAR_CHANGE }.distinct()
+        val found = base
+        val still = search.still(found)
+        val lags = listOf(found, still).filter { it.score > found.score - FAR_CHANGE }.distinct()
             .map { BlindLag(search, it) }
         val lag = lags.maxBy { it.likeliest }
         base = lag.timeConstant
@@ -54,7 +55,7 @@ internal class BlindDiagnosis(
         isLagSeen = lag.isSeen
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (isShapeOpen) lag.both else base
-        val first = Round(start)
+        val first = if (start === found) Round(start, still) else Round(start)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: Round(last)
@@ -65,9 +66,7 @@ internal class BlindDiagnosis(
     }
 
     /** All causes and looks on top of one model. */
-    inner class Round(model: BlindState) {
-        private val settledStill = search.still(model)
-
+    inner class Round(model: BlindState, private val settledStill: BlindState = search.still(model)) {
         /** Still water under noise that hardly wanders; null where it does not anyway. */
         private val quiet = search.quiet(settledStill)
         private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })

@@ -165,12 +165,18 @@ internal class BlindSearch(
         var time = TIMES.indices.minBy { abs(ln(TIMES[it] * series.period / now.time)) }
         if (share == 0) time = TIMES.size / 2
         var best = state
+        val asked = HashSet<Pair<Int, Int>>()
         fun climbed(toShare: Int, toTime: Int): Boolean {
             if (toShare !in SHARES.indices || toTime !in TIMES.indices || (share == 0 && toShare == 0)) return false
             val noise = noise(SHARES[toShare], TIMES[toTime])
+            if (!asked.add(toShare to toTime) || best.isFarBehind(noise)) return false
             val next = again(best, BlindNoise(noise, best.fit.design.noise.spread))
-            if (next.score <= best.score) return false
+            if (next.score <= best.score) {
+                best.learn(noise, best.score - next.score)
+                return false
+            }
             best = next
+            asked.clear()
             share = toShare
             time = toTime
             return true
@@ -237,9 +243,10 @@ internal class BlindSearch(
     fun climbed(state: BlindState): BlindState {
         var best = state
         repeat(MOST_CLIMBS) {
+            if (best.isAtEnd) return best
             val next = improved(best)
             val gain = next.score - best.score
-            if (gain > 0) best = next
+            if (gain > 0) best = next else best.isAtEnd = true
             if (!(gain > ENOUGH)) return best
         }
         return best
@@ -285,20 +292,20 @@ internal class BlindSearch(
         rounds: Int = ROUNDS,
         modes: WaterModes? = null,
         before: BlindState? = null,
-    ): BlindState = settled(terms, numbers, noise, variances, rounds, modes ?: before?.modes ?: this.modes, before?.fit)
+    ): BlindState = watered(terms, numbers, noise, variances, rounds, modes ?: before?.modes ?: this.modes, before)
 
-    private fun settled(
+    private fun watered(
         terms: List<Term>,
         numbers: DoubleArray,
         noise: BlindNoise,
         variances: DoubleArray,
         rounds: Int,
         modes: WaterModes,
-        before: BlindFit?,
+        before: BlindState?,
     ): BlindState {
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
         val columns = designs.shown(terms, own, modes, held)
-        var heights = before?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
+        var heights = before?.fit?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
             variances.takeIf { it.size == modes.bands } ?: modes.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
@@ -318,7 +325,7 @@ internal class BlindSearch(
             }
         }
         val residuals = residuals(model, at)
-        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), modes)
+        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), modes, before?.behind.orEmpty())
     }
 
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
