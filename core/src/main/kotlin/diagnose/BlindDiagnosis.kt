@@ -12,7 +12,7 @@ import java.util.Locale
 internal class BlindDiagnosis(
     private val series: MeasuredSeries,
     private val settings: DiagnosisSettings,
-    loops: Loops = Loops.IN_TURN,
+    private val loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
     private val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
@@ -48,7 +48,7 @@ internal class BlindDiagnosis(
         val found = base
         val still = search.still(found)
         val lags = listOf(found, still).filter { it.score > found.score - FAR_CHANGE }.distinct()
-            .map { BlindLag(search, it) }
+            .let { all -> loops.all(all) { state -> BlindLag(search, state).also { it.likeliest } } }
         val lag = lags.maxBy { it.likeliest }
         base = lag.timeConstant
         isShapeOpen = lag.isOpen(settings.separation)
@@ -100,28 +100,26 @@ internal class BlindDiagnosis(
         private val onQuiet: Map<String, BlindTrial> = quiet?.let { without ->
             val tries = BlindTrials(search, without)
             val least = MADE_UP * (state.score - without.score)
-            terms.filter { it.cause !in SLOW }.map(tries::attempt).filter { it.likelier > maxOf(LIKELY, least) }
+            loops.all(terms.filter { it.cause !in SLOW }, tries::attempt).filter { it.likelier > maxOf(LIKELY, least) }
                 .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { it.name }
         }.orEmpty()
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> = run {
-            val all = terms.mapIndexed { i, term ->
-                tell(i.toDouble() / terms.size)
-                tries.attempt(term)
-            }
+            tell(0.0)
+            val all = loops.all(terms, tries::attempt)
+            tell(TRIED)
             // Water that changes in time may have taken what the sensor does.
             val isOther = still !== state && changing > NO_CHANGE
             val both = terms.filter { isOther && (it.cause in SLOW || changing < FAR_CHANGE) }
-            val others = both.associate {
-                it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
-            }
+            val others = both.map { it.key }
+                .zip(loops.all(both) { (if (it.cause in SLOW) heldTries else stillTries).attempt(it) }).toMap()
             fun other(trial: BlindTrial) = others[trial.term?.key]
             fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
             val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
                 .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
                 all.filter { it.name in onQuiet }
-            all.map {
+            loops.all(all) {
                 val other = other(it)
                 when {
                     isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
@@ -355,6 +353,9 @@ internal class BlindDiagnosis(
 
         /** Share of the work that the search for the lag is. */
         private const val SEARCH = 0.5
+
+        /** Share of a round that all causes' first tries are. */
+        private const val TRIED = 0.3
 
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0

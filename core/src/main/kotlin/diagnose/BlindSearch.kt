@@ -8,11 +8,12 @@ import kotlin.math.sqrt
 /**
  * Finds the likeliest numbers of models of a log without a reference.
  *
- * @param progress told how much of [best] is done, a share within 0..1 that grows.
+ * @property loops how fits that do not wait for each other are done. @param progress told how much of [best] is done, a
+ *   share within 0..1 that grows.
  */
 internal class BlindSearch(
     private val series: MeasuredSeries,
-    private val loops: Loops = Loops.IN_TURN,
+    val loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
     private val n = series.size
@@ -32,7 +33,8 @@ internal class BlindSearch(
     /** The water's waves; few until [best] has told which are needed. */
     val modes: WaterModes get() = fine ?: rough
     private var fine: WaterModes? = null
-    private val rough = WaterModes.flat(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
+    private val rough = 
+        WaterModes.flat(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2), loops = loops)
 
     private fun noise(share: Double, steps: Double) =
         CorrelatedNoise(series.times, share, steps * series.period, used.copyOf())
@@ -73,7 +75,7 @@ internal class BlindSearch(
      */
     private fun restarted(state: BlindState): BlindState {
         val quiet = hardlyWandering(state)
-        val begun = LONGER.map { times ->
+        val begun = loops.all(LONGER) { times ->
             val lag = minOf(times * state.timeConstant, series.duration)
             settled(state.model.terms, base(lag), quiet, state.variances, before = state)
         }
@@ -148,14 +150,10 @@ internal class BlindSearch(
 
     /** [state] with the noise that suits it best; never a less likely one. */
     fun quieted(state: BlindState): BlindState {
-        var best = state
-        for (share in SHARES) {
-            for (steps in TIMES.filter { share > 0 || it == TIMES[0] }) {
-                val next = again(state, spread(state, noise(share, steps)))
-                if (next.score > best.score) best = next
-            }
+        val noises = SHARES.flatMap { share ->
+            TIMES.filter { share > 0 || it == TIMES[0] }.map { steps -> noise(share, steps) }
         }
-        return best
+        return (listOf(state) + loops.all(noises) { again(state, spread(state, it)) }).maxBy { it.score }
     }
 
     /** [state] with noise that wanders less or more, and sooner or later, as long as that suits it better. */
