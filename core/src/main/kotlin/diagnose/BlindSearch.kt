@@ -33,7 +33,7 @@ internal class BlindSearch(
     /** The water's waves; few until [best] has told which are needed. */
     val modes: WaterModes get() = fine ?: rough
     private var fine: WaterModes? = null
-    private val rough = 
+    private val rough =
         WaterModes.flat(series, track, (n / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2), loops = loops)
 
     private fun noise(share: Double, steps: Double) =

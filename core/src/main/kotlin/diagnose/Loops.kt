@@ -2,7 +2,9 @@ package stillwater.diagnose
 
 /**
  * How a task is done for each of some numbers: one after the other, or at once on threads of the caller; core has none.
- * Tasks may have loops of their own, so that a loop must end where no other thread is free.
+ *
+ * Tasks may have loops of their own and wait for each other: a loop must end where no other thread is free, and a thread
+ * that waits for its end may do tasks of that loop alone.
  */
 public fun interface Loops {
     /** Does [task] for each number below [count], in any order, and returns when all is done. Tasks share nothing written. */

@@ -52,7 +52,14 @@ internal class PivotedCholesky private constructor(val columns: List<DoubleArray
                 // Few columns are done before another thread has begun.
                 val parts = if (columns.size * count > LEAST_PART) 2 else 1
                 loops.each(parts) { part ->
-                    Combination.add(columns, heights, column, columns.size, part * count / parts, (part + 1) * count / parts)
+                    Combination.add(
+                        columns,
+                        heights,
+                        column,
+                        columns.size,
+                        part * count / parts,
+                        (part + 1) * count / parts,
+                    )
                 }
                 for (i in 0 until count) {
                     column[i] *= scale

@@ -95,7 +95,14 @@ internal class WaterRings(
             for (a in 0 until r) {
                 val row = lower[a]
                 val own = rows[a]
-                Combination.add(rows.asList(), DoubleArray(a) { -row[it] }, own, a, half * r / HALVES, (half + 1) * r / HALVES)
+                Combination.add(
+                    rows.asList(),
+                    DoubleArray(a) { -row[it] },
+                    own,
+                    a,
+                    half * r / HALVES,
+                    (half + 1) * r / HALVES,
+                )
                 for (i in half * r / HALVES until (half + 1) * r / HALVES) own[i] /= row[a]
             }
         }
