@@ -4,53 +4,50 @@ package stillwater.diagnose
  * The waves as the sensor shows them, whitened, and their normal equations: all that is needed to integrate the water
  * out.
  *
+ * May be used on several threads at once.
+ *
  * @property size number of columns. @property noise what whitens. @property loops how the columns and the halves of the
- *   sums are gone through. @param used is told when the columns are needed, and returns space for them where there is
- *   some. @param shown finds each wave as the sensor shows it, not whitened, flat-prior columns last; the same each
- *   time.
+ *   sums are gone through. @param memory keeps the columns for as long as there is room. @param write writes the
+ *   columns of R, flat-prior columns last; the same each time.
  */
 internal class BlindDesign(
     val size: Int,
     val noise: BlindNoise,
     val loops: Loops,
-    private val used: (BlindDesign) -> List<DoubleArray>?,
-    private val shown: () -> Array<DoubleArray>,
+    private val memory: BlindMemory,
+    private val write: (List<DoubleArray>) -> Unit,
 ) {
     private val n = noise.spread.size
-    private var known: List<DoubleArray>? = null
 
-    /** The columns of R. */
-    private val columns: List<DoubleArray>
-        get() {
-            val space = used(this)
-            return known ?: whitened(space ?: List(size) { DoubleArray(n) }).also { known = it }
+    /** What [task] makes of the columns of R, which are found again where they are not in memory. */
+    private inline fun <T> ofColumns(task: (List<DoubleArray>) -> T): T {
+        val columns = columns()
+        try {
+            return task(columns)
+        } finally {
+            memory.left(this)
         }
-
-    /** Takes the columns out of memory, which is returned: they are found again when they are needed. */
-    fun forget(): List<DoubleArray>? = known.also { known = null }
-
-    private fun whitened(out: List<DoubleArray>): List<DoubleArray> {
-        val given = shown()
-        loops.each((size + 1) / 2) { pair ->
-            val k = 2 * pair
-            val other = minOf(k + 1, size - 1)
-            if (k == other) noise.whiten(given[k], out[k])
-            if (k != other) noise.whiten(given[k], out[k], given[other], out[other])
-        }
-        return out
     }
+
+    @Synchronized
+    private fun columns(): List<DoubleArray> =
+        memory.taken(this) ?: memory.space(this).also {
+            write(it)
+            memory.keep(this, it)
+        }
 
     /** The lower half of RᵀR, row by row. */
     val gram: Array<DoubleArray> = Array(size) { DoubleArray(it + 1) }
 
     init {
-        val columns = columns
         val count = (n + STRETCH - 1) / STRETCH
         val halves = arrayOf(0 until count / 2, count / 2 until count)
         val parts = arrayOf(gram, Array(size) { DoubleArray(it + 1) })
-        loops.each(halves.size) { half ->
-            val rows = Array(STRETCH) { DoubleArray(size) }
-            for (stretch in halves[half]) add(columns, rows, stretch * STRETCH, parts[half])
+        ofColumns { columns ->
+            loops.each(halves.size) { half ->
+                val rows = Array(STRETCH) { DoubleArray(size) }
+                for (stretch in halves[half]) add(columns, rows, stretch * STRETCH, parts[half])
+            }
         }
         for (a in 0 until size) for (b in 0..a) gram[a][b] += parts[1][a][b]
     }
@@ -74,27 +71,27 @@ internal class BlindDesign(
     }
 
     /** Row [i] of R, length [size]; new. */
-    fun row(i: Int): DoubleArray = columns.let { all -> DoubleArray(size) { all[it][i] } }
+    fun row(i: Int): DoubleArray = ofColumns { all -> DoubleArray(size) { all[it][i] } }
 
-    private var lastRight = DoubleArray(0)
-    private var lastTransposed = DoubleArray(0)
+    private class Product(val right: DoubleArray, val transposed: DoubleArray)
+
+    @Volatile
+    private var last: Product? = null
 
     /** Rᵀ [z], length [size]; new. Of what was asked for last it is known: often the same residuals come again. */
     fun transposed(z: DoubleArray): DoubleArray {
-        if (!z.contentEquals(lastRight)) {
-            lastTransposed = products(z)
-            lastRight = z.copyOf()
-        }
-        return lastTransposed.copyOf()
+        val known = last?.takeIf { z.contentEquals(it.right) } ?: Product(z.copyOf(), products(z)).also { last = it }
+        return known.transposed.copyOf()
     }
 
     private fun products(z: DoubleArray): DoubleArray {
-        val columns = columns
         val out = DoubleArray(size)
         val groups = (size + TOGETHER - 1) / TOGETHER
-        loops.each(HALVES) { half ->
-            val own = half * groups / HALVES until (half + 1) * groups / HALVES
-            for (group in own) dots(columns, group * TOGETHER, z, out)
+        ofColumns { columns ->
+            loops.each(HALVES) { half ->
+                val own = half * groups / HALVES until (half + 1) * groups / HALVES
+                for (group in own) dots(columns, group * TOGETHER, z, out)
+            }
         }
         return out
     }
@@ -143,7 +140,7 @@ internal class BlindDesign(
     }
 
     /** R [beta], length n. */
-    fun times(beta: DoubleArray): DoubleArray = Combination.of(columns, beta, n, loops)
+    fun times(beta: DoubleArray): DoubleArray = ofColumns { Combination.of(it, beta, n, loops) }
 
     private companion object {
         const val STRETCH = 64

@@ -12,7 +12,7 @@ import java.util.Locale
 internal class BlindDiagnosis(
     private val series: MeasuredSeries,
     private val settings: DiagnosisSettings,
-    loops: Loops = Loops.IN_TURN,
+    private val loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
     private val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
@@ -45,16 +45,17 @@ internal class BlindDiagnosis(
             base = search.improved(search.evened(base))
         }
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
-        val still = search.still(base)
-        val lags = listOf(base, still).filter { it.score > base.score - FAR_CHANGE }.distinct()
-            .map { BlindLag(search, it) }
+        val found = base
+        val still = search.still(found)
+        val lags = listOf(found, still).filter { it.score > found.score - FAR_CHANGE }.distinct()
+            .let { all -> loops.all(all) { state -> BlindLag(search, state).also { it.likeliest } } }
         val lag = lags.maxBy { it.likeliest }
         base = lag.timeConstant
         isShapeOpen = lag.isOpen(settings.separation)
         isLagSeen = lag.isSeen
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (isShapeOpen) lag.both else base
-        val first = Round(start)
+        val first = if (start === found) Round(start, still) else Round(start)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: Round(last)
@@ -65,9 +66,7 @@ internal class BlindDiagnosis(
     }
 
     /** All causes and looks on top of one model. */
-    inner class Round(model: BlindState) {
-        private val settledStill = search.still(model)
-
+    inner class Round(model: BlindState, private val settledStill: BlindState = search.still(model)) {
         /** Still water under noise that hardly wanders; null where it does not anyway. */
         private val quiet = search.quiet(settledStill)
         private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })
@@ -102,28 +101,26 @@ internal class BlindDiagnosis(
          */
         private val onQuiet: Map<String, BlindTrial> = quietTries?.let { tries ->
             val least = MADE_UP * (state.score - checkNotNull(quiet).score)
-            terms.filter { it.cause !in SLOW }.map(tries::attempt).filter { it.likelier > maxOf(LIKELY, least) }
+            loops.all(terms.filter { it.cause !in SLOW }, tries::attempt).filter { it.likelier > maxOf(LIKELY, least) }
                 .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { it.name }
         }.orEmpty()
 
         /** The causes that are not in the model yet. */
         val causes: List<BlindTrial> = run {
-            val all = terms.mapIndexed { i, term ->
-                tell(i.toDouble() / terms.size)
-                tries.attempt(term)
-            }
+            tell(0.0)
+            val all = loops.all(terms, tries::attempt)
+            tell(TRIED)
             // Water that changes in time may have taken what the sensor does.
             val isOther = still !== state && changing > NO_CHANGE
             val both = terms.filter { isOther && (it.cause in SLOW || changing < FAR_CHANGE) }
-            val others = both.associate {
-                it.key to (if (it.cause in SLOW) heldTries else stillTries).attempt(it)
-            }
+            val others = both.map { it.key }
+                .zip(loops.all(both) { (if (it.cause in SLOW) heldTries else stillTries).attempt(it) }).toMap()
             fun other(trial: BlindTrial) = others[trial.term?.key]
             fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
             val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
                 .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
                 all.filter { it.name in onQuiet }
-            all.map {
+            loops.all(all) {
                 val other = other(it)
                 when {
                     isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
@@ -295,9 +292,10 @@ internal class BlindDiagnosis(
             }.orEmpty()
                 .filter { it.worth > LIKELY && begun.none { other -> other.index == it.index } }
                 .maxByOrNull { it.worth }
-            for (looked in begun + listOfNotNull(quieter)) {
-                val next = refitted(looked)
-                if (next.pValue < found[looked.index].pValue) found[looked.index] = next
+            val looked = begun + listOfNotNull(quieter)
+            loops.all(looked, ::refitted).forEachIndexed { i, next ->
+                val index = looked[i].index
+                if (next.pValue < found[index].pValue) found[index] = next
             }
             return found
         }
@@ -429,6 +427,9 @@ internal class BlindDiagnosis(
 
         /** Share of the work that the search for the lag is. */
         private const val SEARCH = 0.5
+
+        /** Share of a round that all causes' first tries are. */
+        private const val TRIED = 0.3
 
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         private const val LIKELY = 4.0

@@ -14,13 +14,18 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
         noise.whiten(out, out)
     }
 
-    /** Whitens [one] into [out] and [two] into [outTwo], together: each waits for its own row before. */
-    fun whiten(one: DoubleArray, out: DoubleArray, two: DoubleArray, outTwo: DoubleArray) {
-        for (i in one.indices) {
-            out[i] = one[i] / spread[i]
-            outTwo[i] = two[i] / spread[i]
+    /** Whitens [columns] from [from] until [to] where they are, two together: each waits for its own row before. */
+    fun whiten(columns: List<DoubleArray>, from: Int, to: Int) {
+        for (k in from until to step 2) {
+            val one = columns[k]
+            if (k + 1 == to) return whiten(one, one)
+            val two = columns[k + 1]
+            for (i in one.indices) {
+                one[i] /= spread[i]
+                two[i] /= spread[i]
+            }
+            noise.whitenBoth(one, two)
         }
-        noise.whitenBoth(out, outTwo)
     }
 
     /** Whether [other] whitens in the same way. */

@@ -26,21 +26,34 @@ internal object BlindHeldOut {
         var errors = 0.0
         var twice = 0.0
         var spread = fit.design.noise.logDeterminant
-        for (stretch in 0 until STRETCHES) {
-            val from = (stretch.toLong() * z.size / STRETCHES).toInt()
-            val to = ((stretch + 1).toLong() * z.size / STRETCHES).toInt()
-            val halves = Array(to - from) { fit.halfRow(from + it) }
-            val count = halves.size
-            val left = Array(count) { a ->
-                DoubleArray(a + 1) { b -> (if (a == b) 1.0 else 0.0) - dot(halves[a], halves[b]) }
-            }
-            val factor = Cholesky(left)
-            val half = factor.half(DoubleArray(count) { z[from + it] })
-            errors += squares(half)
-            twice += squares(half) / variance + count * ln(2 * PI * variance)
-            spread -= factor.logDeterminant
+        for (stretch in fit.design.loops.all((0 until STRETCHES).toList()) { Stretch(fit, z, it) }) {
+            errors += stretch.squares
+            twice += stretch.squares / variance + stretch.count * ln(2 * PI * variance)
+            spread -= stretch.logDeterminant
         }
         val rows = maxOf(fit.rows, 1)
         return HeldOutScore(sqrt(errors / rows) * exp(spread / (2 * rows)), -(twice + spread) / 2)
+    }
+
+    /** The forecast of the [index]-th stretch of the whitened residuals [z]. */
+    private class Stretch(fit: BlindFit, z: DoubleArray, index: Int) {
+        private val from = (index.toLong() * z.size / STRETCHES).toInt()
+        private val to = ((index + 1).toLong() * z.size / STRETCHES).toInt()
+
+        /** Number of rows. */
+        val count = to - from
+        private val factor = Array(count) { fit.halfRow(from + it) }.let { halves ->
+            Cholesky(
+                Array(count) { a ->
+                    DoubleArray(a + 1) { b -> (if (a == b) 1.0 else 0.0) - dot(halves[a], halves[b]) }
+                },
+            )
+        }
+
+        /** ln det of what the errors are multiplied by. */
+        val logDeterminant = factor.logDeterminant
+
+        /** Square sum of the errors, each over how well it could be foretold. */
+        val squares = squares(factor.half(DoubleArray(count) { z[from + it] }))
     }
 }

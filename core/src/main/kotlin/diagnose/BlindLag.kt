@@ -15,7 +15,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     val none: BlindState = settled(emptyList(), period / 50, null)
 
     /** The model with a dead time in place of the lag. */
-    val deadTime: BlindState = STARTS.map { share ->
+    val deadTime: BlindState = search.loops.all(STARTS) { share ->
         settled(listOf(Term(Cause.DEAD_TIME)), period / 50, share * timeConstant.timeConstant)
     }.maxBy { it.score }.let { search.requieted(refined(it)) }.let { refined(it) }
 

@@ -8,11 +8,12 @@ import kotlin.math.sqrt
 /**
  * Finds the likeliest numbers of models of a log without a reference.
  *
- * @param progress told how much of [best] is done, a share within 0..1 that grows.
+ * @property loops how fits that do not wait for each other are done. @param progress told how much of [best] is done, a
+ *   share within 0..1 that grows.
  */
 internal class BlindSearch private constructor(
     private val series: MeasuredSeries,
-    private val loops: Loops,
+    val loops: Loops,
     private val progress: (Double) -> Unit,
     private val ground: Ground,
 ) {
@@ -88,7 +89,7 @@ internal class BlindSearch private constructor(
      */
     private fun restarted(state: BlindState): BlindState {
         val quiet = hardlyWandering(state)
-        val begun = LONGER.map { times ->
+        val begun = loops.all(LONGER) { times ->
             val lag = minOf(times * state.timeConstant, series.duration)
             settled(state.model.terms, base(lag), quiet, state.variances, before = state)
         }
@@ -163,14 +164,10 @@ internal class BlindSearch private constructor(
 
     /** [state] with the noise that suits it best; never a less likely one. */
     fun quieted(state: BlindState): BlindState {
-        var best = state
-        for (share in SHARES) {
-            for (steps in TIMES.filter { share > 0 || it == TIMES[0] }) {
-                val next = again(state, spread(state, noise(share, steps)))
-                if (next.score > best.score) best = next
-            }
+        val noises = SHARES.flatMap { share ->
+            TIMES.filter { share > 0 || it == TIMES[0] }.map { steps -> noise(share, steps) }
         }
-        return best
+        return (listOf(state) + loops.all(noises) { again(state, spread(state, it)) }).maxBy { it.score }
     }
 
     /** [state] with noise that wanders less or more, and sooner or later, as long as that suits it better. */
@@ -180,12 +177,18 @@ internal class BlindSearch private constructor(
         var time = TIMES.indices.minBy { abs(ln(TIMES[it] * series.period / now.time)) }
         if (share == 0) time = TIMES.size / 2
         var best = state
+        val asked = HashSet<Pair<Int, Int>>()
         fun climbed(toShare: Int, toTime: Int): Boolean {
             if (toShare !in SHARES.indices || toTime !in TIMES.indices || (share == 0 && toShare == 0)) return false
             val noise = noise(SHARES[toShare], TIMES[toTime])
+            if (!asked.add(toShare to toTime) || best.isFarBehind(noise)) return false
             val next = again(best, BlindNoise(noise, best.fit.design.noise.spread))
-            if (next.score <= best.score) return false
+            if (next.score <= best.score) {
+                best.learn(noise, best.score - next.score)
+                return false
+            }
             best = next
+            asked.clear()
             share = toShare
             time = toTime
             return true
@@ -252,9 +255,10 @@ internal class BlindSearch private constructor(
     fun climbed(state: BlindState): BlindState {
         var best = state
         repeat(MOST_CLIMBS) {
+            if (best.isAtEnd) return best
             val next = improved(best)
             val gain = next.score - best.score
-            if (gain > 0) best = next
+            if (gain > 0) best = next else best.isAtEnd = true
             if (!(gain > ENOUGH)) return best
         }
         return best
@@ -300,20 +304,20 @@ internal class BlindSearch private constructor(
         rounds: Int = ROUNDS,
         modes: WaterModes? = null,
         before: BlindState? = null,
-    ): BlindState = settled(terms, numbers, noise, variances, rounds, modes ?: before?.modes ?: this.modes, before?.fit)
+    ): BlindState = watered(terms, numbers, noise, variances, rounds, modes ?: before?.modes ?: this.modes, before)
 
-    private fun settled(
+    private fun watered(
         terms: List<Term>,
         numbers: DoubleArray,
         noise: BlindNoise,
         variances: DoubleArray,
         rounds: Int,
         modes: WaterModes,
-        before: BlindFit?,
+        before: BlindState?,
     ): BlindState {
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
         val columns = designs.shown(terms, own, modes, held)
-        var heights = before?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
+        var heights = before?.fit?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
             variances.takeIf { it.size == modes.bands } ?: modes.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
@@ -333,7 +337,7 @@ internal class BlindSearch private constructor(
             }
         }
         val residuals = residuals(model, at)
-        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), modes)
+        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), modes, before?.behind.orEmpty())
     }
 
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
@@ -415,6 +419,7 @@ internal class BlindSearch private constructor(
         val track = SmoothTrack.of(series)
         val scales = Scales(series)
         val designs = BlindColumns(series, scales, loops)
-        val rough = WaterModes.flat(series, track, (series.size / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2))
+        private val few = (series.size / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2)
+        val rough = WaterModes.flat(series, track, few, loops = loops)
     }
 }

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.ln
 
 /**
@@ -8,7 +9,7 @@ import kotlin.math.ln
  * @property model the sensor's model, whose truth is the water along the track. @property numbers its parameters.
  * @property fit the water's part. @property variances of the waves in each band over the noise's.
  * @property residuals readings less what the model shows, length n. @property left their square sum once the water has
- *   taken what it can.
+ *   taken what it can. @param known how far other noises were behind, seen from this one's or from one before it.
  */
 internal class BlindState(
     val model: ResponseModel,
@@ -18,6 +19,7 @@ internal class BlindState(
     val residuals: DoubleArray,
     val left: Double,
     val modes: WaterModes,
+    known: Map<NoiseStep, NoiseLoss> = emptyMap(),
 ) {
     /** Twice the log-likelihood, less a constant. */
     val score: Double = fit.score(left)
@@ -49,8 +51,41 @@ internal class BlindState(
     /** How fast what the model shows goes down with parameter [i] on the scale it is fitted on, length n. */
     fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, numbers, i)
 
+    /** How far other noises were behind, for this or a state that it was found from. */
+    var behind: Map<NoiseStep, NoiseLoss> = known
+        private set
+
+    /** Keeps that with [noise] in place of its own this is less likely, by [loss] in twice the log-likelihood. */
+    fun learn(noise: CorrelatedNoise, loss: Double) {
+        behind = behind + (step(noise) to NoiseLoss(loss, score))
+    }
+
+    /**
+     * Whether [noise] in place of the own one was far behind, by more than has become likelier or less likely since:
+     * a model that is as good as the one it was found from is no better under it.
+     */
+    fun isFarBehind(noise: CorrelatedNoise): Boolean {
+        val then = behind[step(noise)] ?: return false
+        return then.loss - abs(score - then.score) > FAR_BEHIND
+    }
+
+    private fun step(noise: CorrelatedNoise) =
+        fit.design.noise.noise.let { NoiseStep(it.share, it.time, noise.share, noise.time) }
+
+    /** Whether it was found that other numbers do not make this likelier. */
+    var isAtEnd: Boolean = false
+
     private companion object {
+        /** Twice the log-likelihood, below the noise at hand, that one cause or number does not turn round. */
+        const val FAR_BEHIND = 100.0
+
         /** Mean square of the finest waves over the noise's, above which there must be finer ones. */
         const val MOST_FINEST = 10.0
     }
 }
+
+/** From noise of a [share] that wanders over [time] s to one [toShare] and [toTime]. */
+internal data class NoiseStep(val share: Double, val time: Double, val toShare: Double, val toTime: Double)
+
+/** A [loss] of twice the log-likelihood, of a state that had [score]. */
+internal class NoiseLoss(val loss: Double, val score: Double)

@@ -28,8 +28,16 @@ internal class LinearResponse(
         val spare = DoubleArray(spline.size)
     }
 
-    /** Writes what is shown of each of [truths], length n, into the first of [shown]. */
-    fun of(truths: Array<DoubleArray>, loops: Loops, shown: Array<DoubleArray>) {
+    /**
+     * Writes what is shown of each of [truths], length n, into the first of [shown]. Whenever some are there, [then] is
+     * told the first of them and the one behind the last, so that they are done with while they are in the cache.
+     */
+    fun of(
+        truths: Array<DoubleArray>,
+        loops: Loops,
+        shown: List<DoubleArray>,
+        then: (Int, Int) -> Unit = { _, _ -> },
+    ) {
         val groups = (truths.size + AT_ONCE - 1) / AT_ONCE
         loops.each(PARTS) { part ->
             val work = Work()
@@ -38,6 +46,7 @@ internal class LinearResponse(
                 // Where columns are no multiple of four the last is done more than once, for nobody.
                 val own = Array(AT_ONCE) { truths[minOf(from + it, truths.size - 1)] }
                 show(own, Array(AT_ONCE) { if (from + it < truths.size) shown[from + it] else work.spare }, work)
+                then(from, minOf(from + AT_ONCE, truths.size))
             }
         }
     }

@@ -24,10 +24,21 @@ internal class PivotedCholesky private constructor(val columns: List<DoubleArray
         /** So many rows tell how many columns all of them take. */
         const val THINNED = 1200
 
+        /** Products of a column from which on it is found in parts: some fifty microseconds. */
+        private const val LEAST_PART = 250_000
+
         /**
-         * As many columns as leave less than [left] of the [variance] of any of [count] rows; [most] at most.
+         * As many columns as leave less than [left] of the [variance] of any of [count] rows; [most] at most. Each is
+         * found in parts that [loops] goes through.
          */
-        fun of(count: Int, variance: Double, left: Double, most: Int, covariance: Covariance): PivotedCholesky {
+        fun of(
+            count: Int,
+            variance: Double,
+            left: Double,
+            most: Int,
+            loops: Loops = Loops.IN_TURN,
+            covariance: Covariance,
+        ): PivotedCholesky {
             val columns = ArrayList<DoubleArray>()
             val pivots = ArrayList<Int>()
             val rest = DoubleArray(count) { variance }
@@ -37,7 +48,19 @@ internal class PivotedCholesky private constructor(val columns: List<DoubleArray
                 if (rest[pivot] < left) break
                 val scale = 1 / sqrt(rest[pivot])
                 val column = DoubleArray(count) { covariance.of(it, pivot) }
-                Combination.add(columns, DoubleArray(columns.size) { -columns[it][pivot] }, column)
+                val heights = DoubleArray(columns.size) { -columns[it][pivot] }
+                // Few columns are done before another thread has begun.
+                val parts = if (columns.size * count > LEAST_PART) 2 else 1
+                loops.each(parts) { part ->
+                    Combination.add(
+                        columns,
+                        heights,
+                        column,
+                        columns.size,
+                        part * count / parts,
+                        (part + 1) * count / parts,
+                    )
+                }
                 for (i in 0 until count) {
                     column[i] *= scale
                     rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)

@@ -69,6 +69,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
      * Writes the reading without noise for [p], in the order of [parameters], into [out], length n; before its rounding
      * unless [isRounded].
      */
+    @Synchronized
     fun predict(p: DoubleArray, out: DoubleArray, isRounded: Boolean = true) {
         delay(p)
         timeConstants(p)
@@ -96,6 +97,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     /**
      * The parts that are linear in the truth, for [p]: gain, offset, first state and all that is not linear left out.
      */
+    @Synchronized
     fun linear(p: DoubleArray): LinearResponse {
         val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
         val distance = if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0

@@ -184,9 +184,15 @@ internal class WaterModes private constructor(
     companion object {
         /**
          * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to
-         * waves of [shortest] m.
+         * waves of [shortest] m; found in parts that [loops] goes through.
          */
-        fun flat(series: MeasuredSeries, track: SmoothTrack, most: Int, shortest: Double = 0.0): WaterModes {
+        fun flat(
+            series: MeasuredSeries,
+            track: SmoothTrack,
+            most: Int,
+            shortest: Double = 0.0,
+            loops: Loops = Loops.IN_TURN,
+        ): WaterModes {
             // A line gone to and fro, as a float's casts: it comes back often, to changed water.
             if (isLine(track)) return WaterModes(series, track, most, null, DoubleArray(0), 0.0, null)
             val step = median(
@@ -194,7 +200,7 @@ internal class WaterModes private constructor(
             )
             val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
             val least = maxOf(STEPS_A_WAVE * step, extent / MOST_WAVES_ACROSS, shortest)
-            return flatRings(series, track, most, WaterRings(track.x, track.y, least))
+            return flatRings(series, track, most, WaterRings(track.x, track.y, least, loops))
         }
 
         /** Whether the way is a line, in whatever direction: as wide as a thousandth of its length. */

@@ -1,7 +1,5 @@
 package stillwater.diagnose
 
-import org.hipparchus.linear.EigenDecompositionSymmetric
-import org.hipparchus.linear.MatrixUtils
 import kotlin.math.PI
 import kotlin.math.hypot
 import kotlin.math.roundToInt
@@ -20,9 +18,15 @@ import kotlin.math.sqrt
  * Source: Slepian 1983, Some comments on Fourier analysis, uncertainty and modeling, doi:10.1137/1025078, for how many
  * columns that takes.
  *
- * @param x metres east. @param y metres north. @param least the shortest length allowed, m.
+ * @param x metres east. @param y metres north. @param least the shortest length allowed, m. @param loops how columns are
+ *   gone through.
  */
-internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray, least: Double) {
+internal class WaterRings(
+    private val x: DoubleArray,
+    private val y: DoubleArray,
+    least: Double,
+    private val loops: Loops = Loops.IN_TURN,
+) {
     private val n = x.size
     private val extent = hypot(x.max() - x.min(), y.max() - y.min())
     private val kernel = DiscKernel()
@@ -68,21 +72,40 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         // In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue.
         val orders = DistanceCurve(step) { ordered(spectrum, it) }
         val order = Array(r) { a -> DoubleArray(r) { b -> orders.at(distance(places[a], places[b])) } }
-        for (column in 0 until r) {
-            val solved = solved(lower, DoubleArray(r) { order[it][column] })
-            for (a in 0 until r) order[a][column] = solved[a]
-        }
-        for (a in 0 until r) solved(lower, order[a]).copyInto(order[a])
-        for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a]
-        val turned = EigenDecompositionSymmetric(MatrixUtils.createRealMatrix(order), 1e-12, false)
-        val rings = List(r) { turned.getEigenvalue(it).roundToInt().coerceIn(0, size - 1) }
-        val heights = List(r) { turned.getEigenvector(it).toArray() }
+        solve(lower, order)
+        for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a].also { order[b][a] = order[a][b] }
+        solve(lower, order)
+        for (a in 0 until r) for (b in 0 until a) order[b][a] = order[a][b]
+        val turned = SymmetricEigen(order, loops)
+        val rings = List(r) { turned.values[it].roundToInt().coerceIn(0, size - 1) }
+        val heights = turned.vectors
         val out = List(r) { DoubleArray(n) }
         // So many rows of all columns stay in the processor's cache.
-        for (from in 0 until n step AT_ONCE) {
+        loops.each((n + AT_ONCE - 1) / AT_ONCE) { part ->
+            val from = part * AT_ONCE
             for (k in 0 until r) Combination.add(factor.columns, heights[k], out[k], r, from, minOf(from + AT_ONCE, n))
         }
         return rings.zip(out).sortedBy { it.first }
+    }
+
+    /** Replaces [rows] by L⁻¹ of them, with L = [lower]; whole rows are taken off each other. */
+    private fun solve(lower: Array<DoubleArray>, rows: Array<DoubleArray>) {
+        val r = rows.size
+        loops.each(HALVES) { half ->
+            for (a in 0 until r) {
+                val row = lower[a]
+                val own = rows[a]
+                Combination.add(
+                    rows.asList(),
+                    DoubleArray(a) { -row[it] },
+                    own,
+                    a,
+                    half * r / HALVES,
+                    (half + 1) * r / HALVES,
+                )
+                for (i in half * r / HALVES until (half + 1) * r / HALVES) own[i] /= row[a]
+            }
+        }
     }
 
     private fun ring(ring: Int, d: Double, spectrum: DoubleArray): Double {
@@ -113,25 +136,17 @@ internal class WaterRings(private val x: DoubleArray, private val y: DoubleArray
         val variance = spectrum.sum()
         val curve = DistanceCurve(step) { covariance(spectrum, it) }
         // The first column is there however little may be left.
-        return PivotedCholesky.of((n + thin - 1) / thin, variance, minOf(left, variance), most) { a, b ->
+        return PivotedCholesky.of((n + thin - 1) / thin, variance, minOf(left, variance), most, loops) { a, b ->
             curve.at(distance(a * thin, b * thin))
         }
-    }
-
-    private fun solved(lower: Array<DoubleArray>, column: DoubleArray): DoubleArray {
-        val out = column.copyOf()
-        for (a in out.indices) {
-            var sum = out[a]
-            val row = lower[a]
-            for (b in 0 until a) sum -= row[b] * out[b]
-            out[a] = sum / row[a]
-        }
-        return out
     }
 
     private companion object {
         const val FACTOR = 1.3
         const val FINE = 0.01
         const val AT_ONCE = 128
+
+        /** Parts of the work that may be done at the same time. */
+        const val HALVES = 2
     }
 }

@@ -3,6 +3,7 @@ package stillwater.diagnose
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import java.util.stream.IntStream
 import kotlin.math.PI
 import kotlin.math.sin
 import kotlin.math.tanh
@@ -10,6 +11,7 @@ import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertIs
 import kotlin.test.assertTrue
 
@@ -45,6 +47,48 @@ class BlindDiagnosisTest {
     fun anAsymmetryIsNamedWithoutAReference() {
         val verdict = Diagnosis(log(SensorStage.Asymmetric(7.0, 4.0))).run().verdict
         assertContains(causes(verdict), Cause.ASYMMETRIC_RESPONSE)
+    }
+
+    /** Threads share designs, models and their columns; what is found first must not matter. */
+    @Test
+    fun theAnswerIsTheSameWhateverIsDoneAtOnce() {
+        val series = log(SensorStage.Asymmetric(7.0, 4.0))
+        val inTurn = Diagnosis(series).run()
+        val atOnce = Diagnosis(series, loops = AT_ONCE).run()
+        assertEquals(inTurn.verdict, atOnce.verdict)
+        assertEquals(inTurn.dependences, atOnce.dependences)
+        assertEquals(inTurn.candidates.size, atOnce.candidates.size)
+        for ((one, other) in inTurn.candidates.zip(atOnce.candidates)) {
+            assertEquals(one.parameters, other.parameters, "${one.cause}")
+            assertEquals(one.pValue, other.pValue, "${one.cause}")
+        }
+        assertEquals(inTurn.baseline.heldOutRmse, atOnce.baseline.heldOutRmse)
+    }
+
+    @Test
+    fun noiseThatWasFarBehindIsNotAskedAgainNearBy() {
+        var loops = 0
+        val counted = Loops { count, task ->
+            loops++
+            repeat(count, task)
+        }
+        val series = log(SensorStage.Lag(5.0))
+        val search = BlindSearch(series, counted)
+        fun noise(share: Double, rows: Double) = CorrelatedNoise(series.times, share, rows * series.period, search.used)
+        val own = BlindNoise(noise(0.5, 10.0), DoubleArray(n) { 1.0 })
+        fun state(lag: Double, before: BlindState?) =
+            search.settled(emptyList(), doubleArrayOf(lag, 1.0, 0.0, 0.0), own, DoubleArray(0), before = before)
+        val state = state(5.0, before = null)
+        val others = listOf(noise(0.2, 10.0), noise(0.8, 10.0), noise(0.5, 3.0), noise(0.5, 35.0))
+        others.forEach { state.learn(it, 150.0) }
+        loops = 0
+        search.requieted(state)
+        assertEquals(0, loops)
+        assertTrue(others.all(state(5.01, before = state)::isFarBehind))
+        // Twice that lag is less likely by far: it may be at home under another noise.
+        assertFalse(others.any(state(10.0, before = state)::isFarBehind))
+        others.forEach { state.learn(it, 90.0) }
+        assertFalse(others.any(state::isFarBehind))
     }
 
     @Test
@@ -184,5 +228,6 @@ class BlindDiagnosisTest {
     private companion object {
         const val CASTS = 10
         val LAG = listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
+        val AT_ONCE = Loops { count, task -> IntStream.range(0, count).parallel().forEach(task) }
     }
 }

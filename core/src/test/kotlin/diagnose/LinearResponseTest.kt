@@ -39,7 +39,7 @@ class LinearResponseTest {
 
     private fun check(terms: List<Term>, p: DoubleArray, held: Boolean) {
         fun model(water: DoubleArray) = ResponseModel(series.withReference(water), terms, held, scales)
-        val shown = Array(waters.size) { DoubleArray(60) }
+        val shown = List(waters.size) { DoubleArray(60) }
         model(waters[0]).linear(p).of(waters, Loops.IN_TURN, shown)
         for ((k, water) in waters.withIndex()) {
             val one = DoubleArray(60).also { model(water).predict(p, it) }
