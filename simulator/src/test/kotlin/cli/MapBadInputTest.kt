@@ -355,6 +355,54 @@ class MapBadInputTest {
 
         @JvmStatic
         fun badFlags() = listOf(
+            flag(
+                "crossing of no filter",
+                "--filter bounded to go with it, found --filter averaging",
+                "--crossing",
+                "soft",
+                "--filter",
+                "averaging",
+            ),
+            flag(
+                "median of no filter",
+                "--median: expected --filter bounded or bounded-ex",
+                "--median",
+                "5",
+                "--filter",
+                "averaging",
+            ),
+            flag(
+                "calibrate without bounded",
+                "--calibrate: expected --filter bounded to go",
+                "--calibrate",
+                "0:9",
+                "--filter",
+                "averaging",
+            ),
+            flag(
+                "slowest without interval",
+                "--slowest: expected --filter interval to go with it, found --filter averaging,bounded",
+                "--slowest",
+                "9",
+            ),
+            flag(
+                "condition without sensor",
+                "--condition: expected --sensor to go with it, found none",
+                "--condition",
+                "speed=do_mg_l",
+            ),
+            flag(
+                "pose age of a table",
+                "expected a Platypus log for --max-pose-age, found a table",
+                "--max-pose-age",
+                "9",
+            ),
+            flag(
+                "order of dates without dates",
+                "column time_s: expected a date such as 05/06/2025, as --date-order says",
+                "--date-order",
+                "dmy",
+            ),
             flag("cell of 0", "--cell: expected a length in metres above 0, found '0'", "--cell", "0"),
             flag("cell NaN", "--cell: expected", "--cell", "NaN"),
             flag("cell too small", "--cell: cells of 1.0E-7 m would make a grid", "--cell", "0.0000001"),
