@@ -59,7 +59,8 @@ class DriveCommand : WorkCommand("drive") {
     private val declination by option(
         "--declination",
         metavar = "DEG",
-        help = "of the magnetic from the true north where the boat is, degrees, east positive; without --phone only; 0 unless given",
+        help = "of the magnetic from the true north where the boat is, degrees, east positive; " +
+            "without --phone only; 0 unless given",
     ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }
     private val vectored by vectoredFlag()
     private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
