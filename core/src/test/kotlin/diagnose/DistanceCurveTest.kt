@@ -47,7 +47,7 @@ class DistanceCurveTest {
             asked += d
             1 / (1 + d * d)
         }
-        for (round in 0 until 2) {
+        repeat(2) {
             for (i in listOf(0, 3, 1021, 1022, 5000)) assertEquals(1 / (1 + 0.25 * i * i), curve.at(0.5 * i), 1e-16)
         }
         assertEquals(asked.distinct(), asked)
