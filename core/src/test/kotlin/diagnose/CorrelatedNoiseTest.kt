@@ -1,10 +1,17 @@
 package stillwater.diagnose
 
+import io.kotest.property.Arb
+import io.kotest.property.PropTestConfig
+import io.kotest.property.arbitrary.boolean
+import io.kotest.property.arbitrary.int
+import io.kotest.property.checkAll
+import kotlinx.coroutines.runBlocking
 import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
+import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
@@ -52,5 +59,57 @@ class CorrelatedNoiseTest {
         val z = DoubleArray(times.size)
         CorrelatedNoise(times, 0.5, 8.0, half).whiten(noise(0.5, 8.0), z)
         assertTrue(z.indices.all { half[it] || z[it] == 0.0 })
+    }
+
+    /** Rows at uneven times, some not in use, a truth in doubt or not: both at once are to the bit what each is alone. */
+    @Test
+    fun whiteningTwoAtOnceIsWhiteningEach() = runBlocking<Unit> {
+        checkAll(PropTestConfig(seed = 20_263, iterations = 200), Arb.int(), Arb.int(0, 40), Arb.boolean()) {
+                seed,
+                n,
+                isShaken,
+            ->
+            val random = Random(seed)
+            var now = 0.0
+            val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
+            val shocks = UnknownTruth.Shocks(
+                DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
+                DoubleArray(n) { random.nextDouble(0.0, 1.0) },
+            )
+            val some = BooleanArray(n) { random.nextInt(5) > 0 }
+            val share = random.nextDouble(0.0, 1.0)
+            val noise = CorrelatedNoise(times, share, random.nextDouble(0.1, 50.0), some, shocks.takeIf { isShaken })
+            val columns = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
+            val alone = columns.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }
+            noise.whitenBoth(columns[0], columns[1])
+            for (k in 0..1) assertContentEquals(alone[k], columns[k], "column $k, seed $seed")
+        }
+    }
+
+    /** r' C⁻¹ r and ln |C| of the covariance that the class states, worked out with the whole matrix. */
+    @Test
+    fun whitenedSquaresAndDeterminantAreThoseOfTheCovariance() = runBlocking<Unit> {
+        checkAll(PropTestConfig(seed = 20_264, iterations = 200), Arb.int(), Arb.int(1, 20)) { seed, n ->
+            val random = Random(seed)
+            var now = 0.0
+            val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
+            val share = random.nextDouble(0.0, 0.99)
+            val time = random.nextDouble(0.1, 50.0)
+            val some = BooleanArray(n) { random.nextInt(5) > 0 }
+            val rows = times.indices.filter { some[it] }
+            val lower = Array(rows.size) { a ->
+                DoubleArray(a + 1) { b ->
+                    share * exp(-(times[rows[a]] - times[rows[b]]) / time) + if (a == b) 1 - share else 0.0
+                }
+            }
+            val column = DoubleArray(n) { random.nextDouble(-3.0, 3.0) }
+            val noise = CorrelatedNoise(times, share, time, some)
+            val out = DoubleArray(n).also { noise.whiten(column, it) }
+            val factor = Cholesky(lower)
+            val half = factor.half(DoubleArray(rows.size) { column[rows[it]] })
+            // A billionth of the variance is added to each innovation, which is a hundredth at least.
+            assertEquals(squares(half), squares(out), 1e-6 * squares(half) + 1e-12, "seed $seed")
+            assertEquals(factor.logDeterminant, noise.logDeterminant, 1e-5, "seed $seed")
+        }
     }
 }

@@ -215,7 +215,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         ) {
             throw BadFlag("--boats", "at most ${cells.size}, one a cell", "${chosenBoats.max()}")
         }
-        return try {
+        val settings = try {
             base.copy(
                 fields = fields?.associateWith { base.fields.getValue(it) } ?: base.fields,
                 filters = filters ?: base.filters,
@@ -241,6 +241,17 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         } catch (unfit: IllegalArgumentException) {
             throw failure(unfit.message.orEmpty())
         }
+        requireUsed(settings)
+        return settings
+    }
+
+    private fun requireUsed(settings: ExperimentSettings) {
+        val users = filterOptions.users + lagOptions.users + plannerOptions.users + fleetOptions.users
+        val water = if (fleetOptions.hasArea) OptionUser.option("--area") else emptyList()
+        users.require(
+            listOf("--epsilon" to epsilon) + groupedFlags(),
+            OptionUser.filters(settings.running) + OptionUser.planners(settings.planners) + water,
+        )
     }
 
     private fun grid(area: WaterArea?): Grid? {
@@ -270,10 +281,11 @@ class BenchmarkCommand : WorkCommand("benchmark") {
             "--period" to period,
             "--seed" to seed,
         )
-        val grouped = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() + plannerOptions.flags() +
-            fleetOptions.flags()
-        return commandLineText("stillwater benchmark", null, own + grouped)
+        return commandLineText("stillwater benchmark", null, own + groupedFlags())
     }
+
+    private fun groupedFlags() = sensorOptions.flags() + filterOptions.flags() + lagOptions.flags() +
+        plannerOptions.flags() + fleetOptions.flags()
 
     private companion object {
         const val MILLION = 1_000_000

@@ -5,6 +5,7 @@ import com.github.ajalt.clikt.parameters.options.nullableFlag
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.CrossingPolicy
+import stillwater.run.FilterKind
 
 /** The options of the bounded filter besides epsilon; the same for every command that runs it. */
 class BoundedFilterOptions : OptionGroup(name = "Bounded filter") {
@@ -28,6 +29,19 @@ class BoundedFilterOptions : OptionGroup(name = "Bounded filter") {
         clearOnEntry = keepWindows?.not() ?: settings.clearOnEntry,
     )
 
+    /** What uses them. */
+    internal val users = OptionUsers(
+        mapOf(
+            "--median" to OptionUser.filters(WINDOWED),
+            "--slope" to OptionUser.filters(WINDOWED),
+            "--crossing" to OptionUser.filters(BOUNDED),
+            "--keep-windows" to OptionUser.filters(BOUNDED),
+            "--clear-windows" to OptionUser.filters(BOUNDED),
+            // An option of the commands, as its default is theirs.
+            "--epsilon" to OptionUser.filters(BOUNDED),
+        ),
+    )
+
     /** The flags given, with their values, for writing the command down. */
     fun flags(): List<Pair<String, Any?>> = listOf(
         "--median" to medianWindow,
@@ -39,5 +53,7 @@ class BoundedFilterOptions : OptionGroup(name = "Bounded filter") {
 
     private companion object {
         const val LONGEST_WINDOW = 999
+        val BOUNDED = listOf(FilterKind.BOUNDED)
+        val WINDOWED = BOUNDED + FilterKind.BOUNDED_EXTENDED
     }
 }

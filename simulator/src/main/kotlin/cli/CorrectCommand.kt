@@ -92,7 +92,7 @@ class CorrectCommand : WorkCommand("correct") {
         requireUsed()
         val choices = logOptions.choices()
         requireFitting(choices.size)
-        val spec = sensor?.let(SensorFile::read)
+        val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
         val file = Path.of(log)
         val logs = choices.map { open(file, it) }
         if (logs.size > 1 && logs[0].format.startsWith("Platypus")) {
@@ -127,7 +127,10 @@ class CorrectCommand : WorkCommand("correct") {
 
     /** Refuses what would change nothing. */
     private fun requireUsed() {
-        if (sensor == null && conditions.isNotEmpty()) throw failure("--condition: expected --sensor beside it")
+        OptionUsers(mapOf("--condition" to OptionUser.option("--sensor"))).require(
+            listOf("--condition" to conditions.ifEmpty { null }),
+            if (sensor == null) emptyList() else OptionUser.option("--sensor"),
+        )
         if (heldOut && (sensor != null || reference != null)) {
             val other = if (sensor != null) "--sensor" else "--reference"
             throw failure("--held-out: expected a sensor learned from passes through the same water, found $other")

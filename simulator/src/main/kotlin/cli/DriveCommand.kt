@@ -48,8 +48,8 @@ class DriveCommand : WorkCommand("drive") {
         metavar = "PORT",
         help = "the board: /dev/ttyACM0, COM3 or tcp:HOST:PORT",
     ).required()
-    private val baud by option("--baud", metavar = "N", help = "of a serial port, bits/s")
-        .wholeNumber("a whole number within 300..4000000") { it in SLOWEST_BAUD..FASTEST_BAUD }.default(USUAL_BAUD)
+    private val baud by option("--baud", metavar = "N", help = "of a serial port, bits/s; $USUAL_BAUD unless given")
+        .wholeNumber("a whole number within 300..4000000") { it in SLOWEST_BAUD..FASTEST_BAUD }
     private val phoneAddress by option(
         "--phone",
         metavar = "tcp:HOST:PORT",
@@ -59,8 +59,9 @@ class DriveCommand : WorkCommand("drive") {
     private val declination by option(
         "--declination",
         metavar = "DEG",
-        help = "of the magnetic from the true north where the boat is, degrees, east positive; without --phone only",
-    ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }.default(0.0)
+        help = "of the magnetic from the true north where the boat is, degrees, east positive; " +
+            "without --phone only; 0 unless given",
+    ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }
     private val vectored by vectoredFlag()
     private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
         .default("stillwater-drive")
@@ -86,9 +87,18 @@ class DriveCommand : WorkCommand("drive") {
 
     override fun work() {
         val spec = MissionFile.read(Path.of(missionFile)).vectoredWhere(vectored)
-        val address = WireAddress.parse(port, baud) ?: throw BadFlag("--port", WireAddress.EXPECTED, "'$port'")
+        val address =
+            WireAddress.parse(port, baud ?: USUAL_BAUD) ?: throw BadFlag("--port", WireAddress.EXPECTED, "'$port'")
         val channel = phoneAddress?.let {
-            WireAddress.parse(it, baud) as? WireAddress.Tcp ?: throw BadFlag("--phone", "tcp:HOST:PORT", "'$it'")
+            WireAddress.parse(it, USUAL_BAUD) as? WireAddress.Tcp ?: throw BadFlag("--phone", "tcp:HOST:PORT", "'$it'")
+        }
+        if (baud != null &&
+            address is WireAddress.Tcp
+        ) {
+            throw BadFlag("--baud", "a serial --port to go with it", "$address")
+        }
+        if (declination != null && channel != null) {
+            throw BadFlag("--declination", "either --declination or --phone, whose compass needs none", "both")
         }
         val directory = Path.of(out)
         refuseOtherLogs(directory)
@@ -96,7 +106,7 @@ class DriveCommand : WorkCommand("drive") {
         try {
             ReconnectingWire(address.opener(), address.opener().open()).use { wire ->
                 // A virtual boat's time begins with its phone: the wire is open by then.
-                val phone = channel?.let { PhoneChannel.open(it) } ?: BoardPhone(declination)
+                val phone = channel?.let { PhoneChannel.open(it) } ?: BoardPhone(declination ?: 0.0)
                 phone.use { sail(spec, wire, it, directory, signals) }
             }
         } catch (problem: WireProblem) {

@@ -11,6 +11,7 @@ import stillwater.model.Position
 import stillwater.model.WaterArea
 import stillwater.run.Budget
 import stillwater.run.BudgetKind
+import stillwater.run.PlannerKind
 import java.nio.file.Path
 import kotlin.math.ceil
 
@@ -55,7 +56,7 @@ class FleetOptions : OptionGroup(name = "Boats and water") {
     private val speed by option(
         "--speed",
         metavar = "M/S",
-        help = "speed of boats that go along waypoints in the plane; a cell's length a move unless given",
+        help = "with --area, and polygon-rrt: speed of the boats; a cell's length a move unless given",
     ).number("a number above 0") { it > 0 }
 
     /** Numbers of boats, or null where none was given. */
@@ -82,13 +83,7 @@ class FleetOptions : OptionGroup(name = "Boats and water") {
 
     /** The water, or null where none was given. */
     fun area(): WaterArea? {
-        val path = area
-        if (path == null) {
-            for ((flag, value) in listOf("--area-units" to areaUnits, "--cell" to cell)) {
-                if (value != null) throw BadFlag(flag, "an --area to go with it", "none")
-            }
-            return null
-        }
+        val path = area ?: return null
         return try {
             AreaFile.read(Path.of(path), areaUnits ?: AreaUnits.DEGREES)
         } catch (wrong: JsonFileProblem) {
@@ -118,6 +113,15 @@ class FleetOptions : OptionGroup(name = "Boats and water") {
             side,
         )
     }
+
+    /** What uses them. */
+    internal val users = OptionUsers(
+        mapOf(
+            "--area-units" to OptionUser.option("--area"),
+            "--cell" to OptionUser.option("--area"),
+            "--speed" to OptionUser.option("--area") + OptionUser.planners(PlannerKind.entries.filter { it.inPlane }),
+        ),
+    )
 
     /** The flags given, with their values, for writing the command down. */
     fun flags(): List<Pair<String, Any?>> = listOf(

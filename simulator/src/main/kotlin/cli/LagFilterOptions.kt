@@ -2,6 +2,7 @@ package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
 import com.github.ajalt.clikt.parameters.options.option
+import stillwater.run.FilterKind
 import stillwater.run.LagFilterSettings
 import stillwater.sensor.SensorSpec
 
@@ -20,12 +21,12 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
     private val timeConstant by option(
         "--time-constant",
         metavar = "SECONDS",
-        help = "self-calibrating: a first guess at the sensor's time constant",
+        help = "self-calibrating and bayesian: a first guess at the sensor's time constant",
     ).number(TIME) { it > 0 && it <= SensorSpec.LONGEST_TIME }
     private val factor by option(
         "--factor",
         metavar = "NUMBER",
-        help = "self-calibrating: the factor by which that guess may be wrong",
+        help = "self-calibrating and bayesian: the factor by which that guess may be wrong",
     ).number("a number above 1") { it > 1 }
 
     private val response by option(
@@ -53,6 +54,17 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
         learnsResponse = response ?: settings.learnsResponse,
     )
 
+    /** What uses them. */
+    internal val users = OptionUsers(
+        mapOf(
+            "--slowest" to OptionUser.filters(listOf(FilterKind.INTERVAL)),
+            "--reading-error" to OptionUser.filters(listOf(FilterKind.INTERVAL)),
+            "--time-constant" to OptionUser.filters(LEARNING),
+            "--factor" to OptionUser.filters(LEARNING),
+            "--response" to OptionUser.filters(listOf(FilterKind.BOUNDED_EXTENDED)),
+        ),
+    )
+
     /** The flags given, with their values, for writing the command down. */
     fun flags(): List<Pair<String, Any?>> = listOf(
         "--slowest" to slowest,
@@ -64,6 +76,7 @@ class LagFilterOptions : OptionGroup(name = "Interval filter, self-calibrating e
 
     private companion object {
         const val TIME = "a time in seconds above 0, and at most ${SensorSpec.LONGEST_TIME} (32 years)"
+        val LEARNING = listOf(FilterKind.SELF_CALIBRATING, FilterKind.BAYESIAN)
         val RESPONSES = mapOf("learned" to true, "none" to false)
     }
 }

@@ -1,7 +1,6 @@
 package stillwater.cli
 
 import com.github.ajalt.clikt.parameters.groups.OptionGroup
-import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.multiple
 import com.github.ajalt.clikt.parameters.options.option
@@ -64,8 +63,9 @@ class LogOptions : OptionGroup(
     private val maxPoseAge by option(
         "--max-pose-age",
         metavar = "SECONDS",
-        help = "Platypus logs: longest time between a reading and the poses it is placed by",
-    ).number("a number of seconds above 0") { it > 0 }.default(LogChoice().maxPoseAge)
+        help = "Platypus logs: longest time between a reading and the poses it is placed by; " +
+            "${LogChoice.USUAL_POSE_AGE} unless given",
+    ).number("a number of seconds above 0") { it > 0 }
 
     /** The flags given, with their values, for writing the command down. */
     fun flags(): List<Pair<String, Any?>> = listOf(
@@ -80,7 +80,7 @@ class LogOptions : OptionGroup(
         "--y" to y,
     ) + values.map { "--value" to it } + listOf(
         "--skip-bad-rows" to skipBadRows,
-        "--max-pose-age" to maxPoseAge.takeIf { it != LogChoice().maxPoseAge },
+        "--max-pose-age" to maxPoseAge,
     )
 
     /** The options as the readers take them. */

@@ -107,9 +107,9 @@ class MapCommand : WorkCommand("map") {
     override fun work() {
         if (cell != null && gridSize != null) throw failure("--grid: expected either --grid or --cell, found both")
         if (calibrate != null && !epsilon.isNaN()) throw failure("--calibrate: expected --epsilon auto, found a number")
+        requireUsed()
         val file = Path.of(log)
-        if (sensor == null && conditions.isNotEmpty()) throw failure("--condition: expected --sensor beside it")
-        val spec = sensor?.let(SensorFile::read)
+        val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
         OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
@@ -127,6 +127,22 @@ class MapCommand : WorkCommand("map") {
                 }
             }
         }
+    }
+
+    private fun requireUsed() {
+        val own = listOf(
+            "--epsilon" to epsilon.takeIf { !it.isNaN() },
+            "--calibrate" to calibrate,
+            "--condition" to conditions.ifEmpty { null },
+        )
+        val users = filterOptions.users + lagOptions.users + OptionUsers(
+            mapOf(
+                "--calibrate" to OptionUser.filters(listOf(FilterKind.BOUNDED)),
+                "--condition" to OptionUser.option("--sensor"),
+            ),
+        )
+        val sensors = if (sensor == null) emptyList() else OptionUser.option("--sensor")
+        users.require(own + filterOptions.flags() + lagOptions.flags(), OptionUser.filters(filters) + sensors)
     }
 
     private fun correction(opened: SurveyLog, spec: SensorSpec): GivenCorrection = try {

@@ -11,6 +11,7 @@ import stillwater.plan.PathChoice
 import stillwater.plan.PolygonRrtSettings
 import stillwater.plan.Priority
 import stillwater.plan.WalkSteps
+import stillwater.run.PlannerKind
 import stillwater.run.PlannerSettings
 
 /** The options of the planners. */
@@ -23,7 +24,11 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         metavar = "NAME",
         help = "lawnmower: ${PATTERNS.keys.joinToString(", ")}",
     ).oneOf(PATTERNS)
-    private val horizon by option("--horizon", metavar = "N", help = "planners with a map: moves in the longest path")
+    private val horizon by option(
+        "--horizon",
+        metavar = "N",
+        help = "bounded planners and information: moves in the longest path",
+    )
         .wholeNumber("a whole number within 1..$LONGEST_HORIZON") { it in 1..LONGEST_HORIZON }
     private val expansions by option(
         "--expansions",
@@ -76,12 +81,12 @@ class PlannerOptions : OptionGroup(name = "Planners") {
     private val margin by option(
         "--margin",
         metavar = "METRES",
-        help = "with --area, and polygon-rrt: smallest distance from land and keep-outs",
+        help = "with --area: smallest distance from land and keep-outs",
     ).number("a number of metres of at least 0") { it >= 0 }
     private val resolution by option(
         "--resolution",
         metavar = "METRES",
-        help = "with --area, and polygon-rrt: distance of the points among which ways through narrow water are " +
+        help = "with --area: distance of the points among which ways through narrow water are " +
             "sought; half a cell unless given",
     ).number("a number of metres above 0") { it > 0 }
     private val settling by option(
@@ -121,6 +126,29 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         ),
     )
 
+    /** What uses them. */
+    internal val users = OptionUsers(
+        mapOf("--walk" to OptionUser.planners(listOf(PlannerKind.RANDOM_WALK))) +
+            listOf("--pattern").associateWith { OptionUser.planners(MOWING) } +
+            listOf("--horizon").associateWith { OptionUser.planners(LOOKING_AHEAD) } +
+            listOf("--expansions").associateWith { OptionUser.planners(EXPANDING) } +
+            listOf(
+                "--max-change",
+                "--discount-visits",
+                "--no-discount-visits",
+                "--execution",
+                "--choice",
+                "--neighbours",
+                "--priority",
+            ).associateWith { OptionUser.planners(listOf(PlannerKind.BOUNDED)) } +
+            listOf("--rrt-iterations", "--rrt-horizon", "--rrt-reach").associateWith {
+                OptionUser.planners(listOf(PlannerKind.POLYGON_RRT))
+            } +
+            // Without an area all is water, as far as one likes from land.
+            listOf("--margin", "--resolution").associateWith { OptionUser.option("--area") } +
+            mapOf("--settling" to OptionUser.planners(listOf(PlannerKind.INFORMATION))),
+    )
+
     /** The flags given, with their values, for writing the command down. */
     fun flags(): List<Pair<String, Any?>> = listOf(
         "--walk" to WALKS.nameOf(walk),
@@ -149,6 +177,9 @@ class PlannerOptions : OptionGroup(name = "Planners") {
 
         /** A tree of eight million nodes, 300 MB in each thread. */
         const val MOST_EXPANSIONS = 1_000_000
+        val MOWING = listOf(PlannerKind.LAWNMOWER, PlannerKind.SETTLING_LAWNMOWER)
+        val EXPANDING = listOf(PlannerKind.BOUNDED, PlannerKind.BOUNDED_EXTENDED)
+        val LOOKING_AHEAD = EXPANDING + PlannerKind.INFORMATION
         val WALKS = mapOf("edge" to WalkSteps.EDGE, "diagonal" to WalkSteps.DIAGONAL_CLAMPED)
         val PATTERNS = mapOf(
             "hamiltonian-cycle" to LawnmowerPattern.HAMILTONIAN_CYCLE,

@@ -53,6 +53,7 @@ class SimulateCommand : WorkCommand("simulate") {
     )
 
     override fun work() {
+        if (speed != null) requireShown()
         val mission = boat.mission(MissionFile.read(Path.of(missionFile)))
         requireVirtualProbe(mission)
         val most = longest ?: MissionRun.longest(mission)
@@ -88,6 +89,12 @@ class SimulateCommand : WorkCommand("simulate") {
                 }
             }
         }
+    }
+
+    /** Refuses a speed of what is not shown. */
+    private fun requireShown() {
+        val hides = listOf("--headless" to headless, "--quiet" to quiet, "--json" to json).firstOrNull { it.second }
+        if (hides != null) throw BadFlag("--speed", "a mission that is shown as it runs", hides.first)
     }
 
     private fun requireVirtualProbe(mission: MissionSpec) {

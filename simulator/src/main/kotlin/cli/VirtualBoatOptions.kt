@@ -59,7 +59,7 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
     private val currentTurn by option(
         "--current-turn",
         metavar = "S",
-        help = "time in which the current turns once round, s; without it it does not",
+        help = "time in which the --current turns once round, s; without it it does not",
     ).number("a number above 0") { it > 0 }
     private val fixError by option("--fix-error", metavar = "M", help = "standard deviation of a position fix, m (1.5)")
         .number("a number within 0..1000") { it in 0.0..FARTHEST }
@@ -94,15 +94,19 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
     ).number("a number above 0") { it > 0 }
     private val vectored by vectoredFlag()
 
+    /** What uses them. */
+    internal val users = OptionUsers(mapOf("--current-turn" to OptionUser.option("--current")))
+
     /** The [mission] with the boat that the options ask for. */
     fun mission(mission: MissionSpec): MissionSpec = mission.vectoredWhere(vectored)
 
     /**
      * What the virtual world is made of.
      *
-     * @throws BadFlag if the sensor's file cannot be used.
+     * @throws BadFlag if the sensor's file cannot be used, or nothing uses an option.
      */
     fun settings(): WorldSettings {
+        users.require(flags(), if (current == null) emptyList() else OptionUser.option("--current"))
         val pose = PoseSpec()
         val link = LinkSpec()
         val board = BoardSpec(firmware ?: Firmware.V4_2)

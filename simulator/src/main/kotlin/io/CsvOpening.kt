@@ -36,6 +36,10 @@ internal object CsvOpening {
     }
 
     private fun ofTable(content: LogContent, choice: LogChoice): CsvSurvey {
+        if (choice.maxPoseAge != null) {
+            val found = "a table, in which each reading has its place"
+            throw LogProblem(content.file, null, null, "a Platypus log for --max-pose-age", found)
+        }
         val layout = CsvLayout.of(content, choice.named)
         val line = content.head[layout.headerLine - 1]
         fun problem(column: String?, expected: String, found: String) =

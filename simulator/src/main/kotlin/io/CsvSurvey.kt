@@ -218,8 +218,12 @@ internal class CsvSurvey internal constructor(
             quoteProblem(row)?.let { return it }
             if (row.fields != columns.names.size) {
                 val expected = "${columns.names.size} fields as in the header"
-                val found =
-                    "${row.fields}" + if (splitsDecimals(row)) " (decimal commas need another separator)" else ""
+                val why = when {
+                    splitsDecimals(row) -> " (decimal commas need another separator)"
+                    row.fields == 1 && content.zeroTail > 0 -> " (the file ends in ${content.zeroTail} zero bytes)"
+                    else -> ""
+                }
+                val found = "${row.fields}$why"
                 return problem(row.line, null, expected, found, "rows with a wrong number of fields")
             }
             return numberProblem(row, TIME, columns.time)

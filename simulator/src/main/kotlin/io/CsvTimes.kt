@@ -41,9 +41,15 @@ internal class CsvTimes(
                 val found = quoted(text) + if (columns.date == CsvColumns.NONE) "" else " and a date beside it"
                 throw problem(content, layout, name, "a time of day without a date, as --overnight says", found)
             }
+            val isIso = !IsoTime.seconds(text).isNaN()
+            val isUndated = columns.date == CsvColumns.NONE && !DateText.ofDay(text).isNaN()
+            val isOrdered = isIso && choice.dateOrder != DateOrder.YEAR_FIRST
+            if (choice.dateOrder != null && (!number.isNaN() || isUndated || isOrdered)) {
+                throw problem(content, layout, name, "a date such as 05/06/2025, as --date-order says", quoted(text))
+            }
             return when {
                 !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number, choice.timeUnit)
-                !IsoTime.seconds(text).isNaN() -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
+                isIso -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
                 columns.date != CsvColumns.NONE -> {
                     val date = columns.names[columns.date]
                     val found = DateDecision.of(content, layout, columns.date, date, choice.dateOrder)

@@ -20,7 +20,8 @@ package stillwater.io
  * @property conditions column of each further quantity, by the name it is to have.
  * @property skipBadRows whether rows that cannot be used are counted and left out rather than an error.
  * @property needsPlace whether a log without places is an error; else all its readings are at 0, 0.
- * @property maxPoseAge longest time between a reading and a pose it is placed by, s, above 0.
+ * @property maxPoseAge longest time between a reading and a pose it is placed by, s, above 0; null for [USUAL_POSE_AGE].
+ *   Platypus logs only: in a table each reading has its place.
  * @throws IllegalArgumentException if [maxPoseAge] or [overnight] is out of its range.
  */
 data class LogChoice(
@@ -33,14 +34,16 @@ data class LogChoice(
     val conditions: Map<String, String> = emptyMap(),
     val skipBadRows: Boolean = false,
     val needsPlace: Boolean = true,
-    val maxPoseAge: Double = 2.0,
+    val maxPoseAge: Double? = null,
     val date: String? = null,
     val dateOrder: DateOrder? = null,
     val timeUnit: TimeUnit? = null,
     val overnight: Double? = null,
 ) {
     init {
-        require(maxPoseAge > 0 && maxPoseAge.isFinite()) { "maxPoseAge ($maxPoseAge s) must be above 0 and finite" }
+        require(maxPoseAge == null || (maxPoseAge > 0 && maxPoseAge.isFinite())) {
+            "maxPoseAge ($maxPoseAge s) must be above 0 and finite"
+        }
         require(overnight == null || (overnight > 0 && overnight < DAY)) {
             "overnight ($overnight s) must be above 0 and below a day"
         }
@@ -50,7 +53,15 @@ data class LogChoice(
     internal val named: Set<String>
         get() = listOfNotNull(time, date, latitude, longitude, x, y, value).toSet() + conditions.values
 
-    private companion object {
-        const val DAY = 86_400.0
+    /** The first flag given that says how a column's times are to be read, or null. */
+    internal val timing: String?
+        get() = listOf("--date-order" to dateOrder, "--time-unit" to timeUnit, "--overnight" to overnight)
+            .firstOrNull { it.second != null }?.first
+
+    companion object {
+        /** Longest time between a reading and a pose it is placed by, unless said otherwise, s. */
+        const val USUAL_POSE_AGE: Double = 2.0
+
+        private const val DAY = 86_400.0
     }
 }

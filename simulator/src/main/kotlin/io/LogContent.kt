@@ -48,6 +48,17 @@ internal class LogContent private constructor(
         return BufferedReader(text).apply { repeat(skippedLines) { readLine() } }
     }
 
+    /** The number of zero bytes that the file ends in, at most [HEAD_BYTES]; 0 where they are part of the encoding. */
+    val zeroTail: Int by lazy {
+        if (markLength == 2) return@lazy 0
+        val size = Files.size(file)
+        val last = Files.newInputStream(file).use {
+            it.skipNBytes(maxOf(0, size - HEAD_BYTES))
+            it.readNBytes(HEAD_BYTES)
+        }
+        last.size - 1 - last.indexOfLast { it != 0.toByte() }
+    }
+
     /** Hands on the byte order mark, empty without one, and the bytes after it; the stream is closed in the end. */
     fun <T> raw(use: (mark: ByteArray, text: InputStream) -> T): T =
         Files.newInputStream(file).buffered().use { use(it.readNBytes(markLength), table(it)) }
@@ -84,8 +95,9 @@ internal class LogContent private constructor(
                 bytes.startsWith(byteArrayOf(0xFE.toByte(), 0xFF.toByte())) -> Charsets.UTF_16BE to 2
                 else -> (if (bytes.isUtf8()) Charsets.UTF_8 else WINDOWS_1252) to 0
             }
-            if (mark != 2 && 0.toByte() in bytes) throw problem("a text log", "binary data" + remedy(bytes))
-            val text = String(bytes, mark, bytes.size - mark, charset)
+            val end = if (mark == 2) bytes.size else bytes.beforeZeroTail()
+            if (mark != 2 && 0.toByte() in bytes.take(end)) throw problem("a text log", "binary data" + remedy(bytes))
+            val text = String(bytes, mark, end - mark, charset)
             val lines = text.lineSequence().map { it.trimEnd('\r') }.toList()
             // The last line of the head may be cut.
             val head = if (lines.size > 1 && bytes.size == HEAD_BYTES) lines.dropLast(1) else lines
@@ -95,6 +107,15 @@ internal class LogContent private constructor(
             }
             if (head.all { it.isBlank() }) throw problem("a log", "nothing but blank lines")
             return LogContent(file, charset, mark, head, seaBird(file, charset, head))
+        }
+
+        /**
+         * Where the zeros begin that the head ends in, as a file does whose last block never reached the disk; its size
+         * where none or nothing else is there. Rows say that they are bad.
+         */
+        private fun ByteArray.beforeZeroTail(): Int {
+            val end = indexOfLast { it != 0.toByte() } + 1
+            return if (end > 0 && '\n'.code.toByte() in take(end)) end else size
         }
 
         private fun remedy(bytes: ByteArray) =

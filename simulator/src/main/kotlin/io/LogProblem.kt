@@ -1,5 +1,6 @@
 package stillwater.io
 
+import stillwater.report.counted
 import java.nio.file.Path
 
 /**
@@ -33,6 +34,7 @@ class LogProblem(
 /** [text] fit for a one-line message: in quotes, without control characters, cut to a readable length. */
 internal fun quoted(text: String): String {
     if (text.isBlank()) return "nothing"
+    if (text.all { it == '\u0000' }) return counted(text.length.toLong(), "zero byte")
     val clean = text.trim().map { if (it.isISOControl()) '?' else it }.joinToString("")
     return if (clean.length <= LONGEST_QUOTE) "'$clean'" else "'${clean.take(LONGEST_QUOTE)}...'"
 }

@@ -36,13 +36,15 @@ internal class PlatypusLog private constructor(
         return pass.end()
     }
 
+    private val poseAge = choice.maxPoseAge ?: LogChoice.USUAL_POSE_AGE
+
     private data class Pending(val seconds: Double, val value: Double)
 
     /** One reading of the file from its beginning. */
     private inner class Pass(private val sink: ReadingSink) {
         private val lines = PlatypusLine(version)
         private val clock = PlatypusClock()
-        private val track = PoseTrack(choice.maxPoseAge)
+        private val track = PoseTrack(poseAge)
         private val catalogue = SensorCatalogue()
         private val skips = SkipCounts()
         private val pending = ArrayDeque<Pending>()
@@ -82,7 +84,7 @@ internal class PlatypusLog private constructor(
                 else -> Unit
             }
             // A pose that comes later than this is of no use to the readings that wait for one.
-            emit(seconds - choice.maxPoseAge)
+            emit(seconds - poseAge)
         }
 
         /** Whether the line's stamp alone is ahead; where lines have a time of day, that one says how time goes on. */
@@ -200,6 +202,7 @@ internal class PlatypusLog private constructor(
             if (columns.isNotEmpty()) {
                 throw problem("a survey CSV for column ${columns.first()}", "a Platypus log, which has no columns")
             }
+            choice.timing?.let { throw problem("a survey CSV for $it", "a Platypus log, whose times need none") }
             val sensor = if (choice.value == null) {
                 onlySensor(content, version, ::problem)
             } else {

@@ -85,7 +85,7 @@ class Experiment(val settings: ExperimentSettings) {
         for (planner in settings.planners) {
             for (boats in settings.boats) {
                 val ofFilter = HashMap<FilterKind, Pair<TrialErrors, BudgetUse?>>()
-                for (group in pathGroups(planner)) {
+                for (group in PathGroup.of(planner, settings.filters)) {
                     val order = FleetBuilder.Order(name, environment, planner, group.leader, group.filters, boats)
                     val outcome = fleets.run(order, field, extremes)
                     group.filters.zip(outcome.errors) { filter, error -> ofFilter[filter] = error to outcome.budget }
@@ -102,16 +102,5 @@ class Experiment(val settings: ExperimentSettings) {
             extremes.indices.count { extremes[it] && (counted == null || counted[it]) },
             voyages,
         )
-    }
-
-    /** Filters that share a path, drawn from the stream of [leader]; a planner plans on the map of the first. */
-    private class PathGroup(val leader: FilterKind, val filters: List<FilterKind>)
-
-    private fun pathGroups(planner: PlannerKind): List<PathGroup> {
-        if (!planner.usesMap) return listOf(PathGroup(FilterKind.BOUNDED, settings.filters))
-        val (bounding, others) = settings.filters.partition { it.givesBounds }
-        val alone = (bounding - FilterKind.BOUNDED).map { PathGroup(it, listOf(it)) }
-        if (others.isEmpty() && FilterKind.BOUNDED !in bounding) return alone
-        return listOf(PathGroup(FilterKind.BOUNDED, listOf(FilterKind.BOUNDED) + others)) + alone
     }
 }

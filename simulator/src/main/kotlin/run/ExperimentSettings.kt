@@ -54,6 +54,10 @@ data class ExperimentSettings(
     val area: WaterArea? = null,
     val speed: Double? = null,
 ) {
+    /** All filters that run: [filters], and what planners plan on beside them. */
+    internal val running: List<FilterKind>
+        get() = planners.flatMap { PathGroup.of(it, filters) }.flatMap { it.filters }.distinct()
+
     init {
         require(fields.isNotEmpty()) { "fields must not be empty" }
         require(filters.isNotEmpty()) { "filters must not be empty" }

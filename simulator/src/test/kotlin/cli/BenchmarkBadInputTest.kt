@@ -27,7 +27,7 @@ class BenchmarkBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badFlags", "badModelFlags", "badFleets", "badSensors")
+    @MethodSource("badFlags", "badModelFlags", "badFleets", "badSensors", "unusedFlags")
     fun isRefusedInOneLineAndWritesNothing(case: Case) {
         assertEquals(case.message, refusal(case))
         val left = Files.list(directory).use { files -> files.map { it.fileName.toString() }.toList() }
@@ -35,7 +35,7 @@ class BenchmarkBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badFlags", "badModelFlags", "badFleets", "badSensors")
+    @MethodSource("badFlags", "badModelFlags", "badFleets", "badSensors", "unusedFlags")
     fun leavesEarlierResultsAsTheyWere(case: Case) {
         val out = directory.out().createDirectory()
         val earlier = out.resolve("results.csv").apply { writeText("earlier") }
@@ -228,7 +228,7 @@ class BenchmarkBadInputTest {
                 "--budget-distance",
                 "5",
             ),
-            flag("--cell: expected an --area to go with it, found none", "--cell", "5"),
+            flag("--cell: expected --area to go with it, found none", "--cell", "5"),
             flag("--area: DIR/none.json: expected GeoJSON, found no such file", "--area", "DIR/none.json"),
             flag("--speed: expected a number above 0, found '0'", "--speed", "0"),
             flag("--margin: expected a number of metres of at least 0, found '-1'", "--margin", "-1"),
@@ -257,6 +257,84 @@ class BenchmarkBadInputTest {
                 "--grid: expected --cell with --area, found --grid",
                 listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt", "--grid", "4x4"),
                 """{"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 4]]]}""".toByteArray(),
+            ),
+        )
+
+        private const val BOUNDED_ONLY =
+            "expected --planner bounded to go with it, found --planner random-walk,information"
+
+        /** What the runs that are asked for would not look at. */
+        @JvmStatic
+        fun unusedFlags() = listOf(
+            flag(
+                "--median: expected --filter bounded or bounded-extended to go with it, found --filter averaging,interval",
+                "--filter",
+                "averaging,interval",
+                "--planner",
+                "lawnmower",
+                "--median",
+                "5",
+            ),
+            flag(
+                "--epsilon: expected --filter bounded to go with it, found --filter interval",
+                "--filter",
+                "interval",
+                "--epsilon",
+                "0.1",
+            ),
+            flag(
+                "--clear-windows: expected --filter bounded to go with it, found --filter interval",
+                "--filter",
+                "interval",
+                "--clear-windows",
+            ),
+            flag(
+                "--slowest: expected --filter interval to go with it, found --filter bounded,averaging",
+                "--slowest",
+                "9",
+            ),
+            flag(
+                "--factor: expected --filter self-calibrating or bayesian to go with it, found --filter bounded,averaging",
+                "--factor",
+                "2",
+            ),
+            flag(
+                "--rrt-iterations: expected --planner polygon-rrt to go with it, found --planner " +
+                    "random-walk,lawnmower,bounded",
+                "--rrt-iterations",
+                "9",
+            ),
+            flag(
+                "--settling: expected --planner information to go with it, found --planner lawnmower",
+                "--planner",
+                "lawnmower",
+                "--settling",
+                "1",
+            ),
+            flag("--choice: $BOUNDED_ONLY", "--planner", "random-walk,information", "--choice", "best"),
+            flag("--discount-visits: $BOUNDED_ONLY", "--planner", "random-walk,information", "--discount-visits"),
+            flag("--no-discount-visits: $BOUNDED_ONLY", "--planner", "random-walk,information", "--no-discount-visits"),
+            flag(
+                "--walk: expected --planner random-walk to go with it, found --planner bounded",
+                "--planner",
+                "bounded",
+                "--walk",
+                "edge",
+            ),
+            flag(
+                "--pattern: expected --planner lawnmower or settling-lawnmower to go with it, found --planner bounded",
+                "--planner",
+                "bounded",
+                "--lawnmower",
+                "raster",
+            ),
+            flag("--margin: expected --area to go with it, found none", "--planner", "polygon-rrt", "--margin", "3"),
+            flag(
+                "--speed: expected --area or --planner polygon-rrt to go with it, found --planner bounded",
+                "--planner",
+                "bounded",
+                "--speed",
+                "3",
             ),
         )
 

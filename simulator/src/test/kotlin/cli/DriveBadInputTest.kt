@@ -45,6 +45,8 @@ class DriveBadInputTest {
         "'--baud: expected a whole number within 300..4000000', --port /dev/no-such-port --baud 12",
         "'/dev/no-such-port: expected a serial port, found none', --port /dev/no-such-port",
         "'--declination: expected an angle within -180..180 degrees', --port /dev/no-such-port --declination 200",
+        "'--declination: expected either --declination or --phone', --port COM3 --phone tcp:a:1 --declination 2",
+        "'--baud: expected a serial --port to go with it, found tcp:a:1', --port tcp:a:1 --baud 9600",
         "'--resume: expected an unfinished mission', --port /dev/no-such-port --resume",
     )
     fun flagsThatCannotBeUsed(message: String, flags: String) {

@@ -229,6 +229,19 @@ class MapBadInputTest {
             csv("x as y", "time_s,x_m,v\n0,1,2\n1,2,3\n", "column x_m", null, "--x", "x_m", "--y", "x_m"),
             csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
+            csv(
+                "power cut after a row",
+                HEAD + GOOD + "\u0000".repeat(500),
+                "found 1 (the file ends in 500 zero bytes)",
+                WRONG_COUNT,
+            ),
+            csv(
+                "power cut in a row",
+                HEAD + GOOD + "3,45" + "\u0000".repeat(7),
+                "log.csv:5: expected 4 fields",
+                WRONG_COUNT,
+            ),
+            csv("zeros among rows", HEAD + "\u0000\u0000" + GOOD, "expected a text log, found binary data"),
             Case("gzip", byteArrayOf(0x1f, 0x8b.toByte(), 8, 0, 0), "found a gzip archive: unpack it first"),
             Case("workbook", byteArrayOf(0x50, 0x4b, 3, 4, 20, 0), "or a workbook: save its sheet as CSV"),
             Case("PDF", "%PDF-1.4\n".toByteArray(), "expected a text log, found a PDF document"),
@@ -308,6 +321,7 @@ class MapBadInputTest {
                 "log.txt:20: expected a UTM zone 1North to 60South, found '99North'",
                 "poses in no UTM zone",
             ),
+            platypus("power cut", "\u0000".repeat(300), "found 300 zero bytes", "unreadable lines"),
             platypus("another zone", pose(2000, "56North"), "log.txt:20: $FAR", FAR_REASON),
             platypus("endless value", reading(2000, "1e301"), WITHIN, "readings out of all bounds"),
             platypus(
@@ -355,6 +369,54 @@ class MapBadInputTest {
 
         @JvmStatic
         fun badFlags() = listOf(
+            flag(
+                "crossing of no filter",
+                "--filter bounded to go with it, found --filter averaging",
+                "--crossing",
+                "soft",
+                "--filter",
+                "averaging",
+            ),
+            flag(
+                "median of no filter",
+                "--median: expected --filter bounded or bounded-ex",
+                "--median",
+                "5",
+                "--filter",
+                "averaging",
+            ),
+            flag(
+                "calibrate without bounded",
+                "--calibrate: expected --filter bounded to go",
+                "--calibrate",
+                "0:9",
+                "--filter",
+                "averaging",
+            ),
+            flag(
+                "slowest without interval",
+                "--slowest: expected --filter interval to go with it, found --filter averaging,bounded",
+                "--slowest",
+                "9",
+            ),
+            flag(
+                "condition without sensor",
+                "--condition: expected --sensor to go with it, found none",
+                "--condition",
+                "speed=do_mg_l",
+            ),
+            flag(
+                "pose age of a table",
+                "expected a Platypus log for --max-pose-age, found a table",
+                "--max-pose-age",
+                "9",
+            ),
+            flag(
+                "order of dates without dates",
+                "column time_s: expected a date such as 05/06/2025, as --date-order says",
+                "--date-order",
+                "dmy",
+            ),
             flag("cell of 0", "--cell: expected a length in metres above 0, found '0'", "--cell", "0"),
             flag("cell NaN", "--cell: expected", "--cell", "NaN"),
             flag("cell too small", "--cell: cells of 1.0E-7 m would make a grid", "--cell", "0.0000001"),

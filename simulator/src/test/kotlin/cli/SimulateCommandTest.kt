@@ -149,6 +149,12 @@ class SimulateCommandTest {
             listOf("$mission", "--field", "calm") to "--field: expected one of uniform, gaussian, smooth",
             listOf("$mission", "--field-range", "5,2") to "--field-range: expected two numbers, the first below",
             listOf("$mission", "--wind", "strong") to "--wind: expected velocities east and north",
+            listOf(
+                "$mission",
+                "--current-turn",
+                "60",
+            ) to "--current-turn: expected --current to go with it, found none",
+            listOf("$mission", "--headless", "--speed", "9") to "--speed: expected a mission that is shown as it runs",
             listOf("$mission", "--current", "0.3") to "--current: expected velocities east and north",
             listOf("$mission", "--current", "0.3,inf") to "--current: expected velocities east and north",
             listOf("$mission", "--link-loss", "1.5") to "--link-loss: expected a number within 0..1",

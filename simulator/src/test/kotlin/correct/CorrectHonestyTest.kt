@@ -61,7 +61,7 @@ class CorrectHonestyTest {
     fun optionsThatWouldChangeNothingAreRefused() {
         val alone = correct(pond(60, referenceEvery = 1), "--condition", "temperature=fast")
         assertEquals(2, alone.statusCode)
-        assertContains(alone.stderr, "--condition: expected --sensor beside it")
+        assertContains(alone.stderr, "--condition: expected --sensor to go with it, found none")
         val known = correct(pond(60, referenceEvery = 1), "--reference", "fast", "--held-out")
         assertEquals(2, known.statusCode)
         assertContains(known.stderr, "--held-out: expected a sensor learned from passes through the same water, found")

@@ -122,6 +122,28 @@ class GivenSensorTest {
         }
     }
 
+    @Test
+    fun aConditionThatTheSensorDoesNotDependOnIsRefused() {
+        val warm = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
+        val log = file("log.csv", survey(warm))
+        val cases = mapOf<SensorStage, String>(
+            warm to "--condition: expected temperature, on which the sensor given depends, found speed",
+            SensorStage.Lag(8.0) to
+                "--condition: expected none, for the sensor given depends on none, found temperature",
+        )
+        for ((stage, message) in cases) {
+            for (command in listOf("correct", "map")) {
+                val more = listOf("temperature=temp_c", "speed=temp_c").take(if (stage == warm) 2 else 1)
+                val arguments = listOf(command, log, "--value", "do_mg_l", "--sensor", spec(stage)) +
+                    more.flatMap { listOf("--condition", it) }
+                val result = run(*arguments.toTypedArray())
+                assertEquals(2, result.statusCode, "$arguments: ${result.output}")
+                assertContains(result.stderr, message)
+                assertFalse(out.exists(), "$arguments")
+            }
+        }
+    }
+
     /** As the diagnosis writes it: what cannot be had back does not keep the lag from being undone. */
     @Test
     fun aSensorOfWhichSomethingIsLostIsUndoneButForThat() {

@@ -113,6 +113,23 @@ class PlatypusLogTest {
     }
 
     @Test
+    fun howATablesTimesAreReadIsNothingToIt() {
+        val text = listOf(pose(0, 592_300.0), sensor(100, 1.0), pose(200, 592_300.0)).joinToString("\n")
+        val choices = mapOf(
+            "--time-unit" to LogChoice(timeUnit = TimeUnit.HOURS),
+            "--date-order" to LogChoice(dateOrder = DateOrder.DAY_FIRST),
+            "--overnight" to LogChoice(overnight = 3600.0),
+        )
+        for ((flag, choice) in choices) {
+            val problem = assertFailsWith<LogProblem> { read(text, choice) }
+            assertTrue(
+                "expected a survey CSV for $flag, found a Platypus log" in problem.message.orEmpty(),
+                problem.message,
+            )
+        }
+    }
+
+    @Test
     fun forgivesACutLastLineOfAnUnfinishedLogOnly() {
         val text = listOf(
             pose(0, 592_300.0),
