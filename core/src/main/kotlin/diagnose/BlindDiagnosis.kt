@@ -358,7 +358,6 @@ internal class BlindDiagnosis(
         return needed(chosen)
     }
 
-
     /** [chosen] without what the others have made needless; what is left keeps its rounds. */
     private fun needed(chosen: List<BlindStep>): List<BlindStep> {
         if (chosen.size < 2) return chosen

@@ -395,7 +395,12 @@ internal class BlindSearch private constructor(
         /** Variance over the noise's of water that changes, to begin with. */
         const val OPENED = 10.0
         const val ROUNDS = 2
-        const val HELD = 6.0
+
+        /**
+         * Twice the gain in log-likelihood from which steps are held: water in the field is not, and a response of another
+         * shape looks like it.
+         */
+        const val HELD = 15.0
         const val STEPS = 8
         const val EVENINGS = 4
 
