@@ -26,19 +26,21 @@ internal class BlindAnswer(
         first: BlindDiagnosis.Round,
         chosen: List<BlindStep>,
         sets: List<List<Cause>>,
-        looks: List<BlindTrial>,
-        adjustedLooks: List<Double>,
+        end: BlindDiagnosis.Round,
     ): DiagnosisResult {
-        val left = looks.mapIndexed { i, look ->
-            Dependence(look.name, look.ratio, look.degrees, look.pValue, adjustedLooks[i])
-        }.sortedWith(compareBy<Dependence> { it.pValue }.thenByDescending { it.ratio })
+        val looks = end.looks
+        val adjustedLooks = end.adjustedLooks
+        val order = looks.indices.sortedWith(compareBy<Int> { looks[it].pValue }.thenByDescending { looks[it].ratio })
+        val left = order.map { i ->
+            Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, adjustedLooks[i])
+        }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
         val all = sets + listOfNotNull(
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
         )
-        val verdict = verdict(all, left.first(), chosen)
+        val verdict = verdict(all, left.first(), end.looksAsIs[order.first()].ratio, chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
@@ -66,10 +68,13 @@ internal class BlindAnswer(
         )
     }
 
-    private fun verdict(all: List<List<Cause>>, left: Dependence, chosen: List<BlindStep>): Verdict {
-        val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel
+    /** Where [left] is the strongest of what is left, and [asIs] what it is worth on the last model as that is. */
+    private fun verdict(all: List<List<Cause>>, left: Dependence, asIs: Double, chosen: List<BlindStep>): Verdict {
         val isOpen = lag.isOpen(settings.separation)
-        val least = (chosen.map { it.trial.ratio } + listOfNotNull(lag.seen.takeIf { isOpen })).minOrNull() ?: 0.0
+        // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
+        val outweighs = left.ratio > LEFT * (chosen.minOfOrNull { it.trial.ratio } ?: if (isOpen) FAR else 0.0) ||
+            (isOpen && asIs > LEFT * lag.seen)
+        val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel && outweighs
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }
             .firstOrNull { it.isContradicted && it.term?.cause !in BlindDiagnosis.SLOW }
@@ -78,7 +83,7 @@ internal class BlindAnswer(
                 "the halves of the log contradict each other about the ${contradicted.name}",
                 listOfNotNull(openLag(isOpen)),
             )
-            isStructured && left.ratio > LEFT * least ->
+            isStructured ->
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
                 Verdict.InsufficientData("passes over the same water do not agree for certain that there is a lag")
@@ -276,6 +281,7 @@ internal class BlindAnswer(
 
     companion object {
         private const val LEFT = 0.25
+        private const val FAR = 1e300
         private const val MOST_STEPS = 3
         private const val NORMAL_95 = 1.96
 

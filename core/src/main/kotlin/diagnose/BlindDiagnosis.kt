@@ -62,7 +62,7 @@ internal class BlindDiagnosis(
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
-            .of(first, chosen, sets, end.looks, end.adjustedLooks)
+            .of(first, chosen, sets, end)
     }
 
     /** All causes and looks on top of one model. */
@@ -257,6 +257,10 @@ internal class BlindDiagnosis(
             return maxOf(own.score, search.climbed(there).score)
         }
 
+        /** What no cause explains, with the water and the noise of [state]. */
+        val looksAsIs: List<BlindTrial> get() = here.trials
+        private val here = looksOn(state, tries)
+
         /** What no cause explains. */
         val looks: List<BlindTrial> = looks()
         private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
@@ -270,10 +274,8 @@ internal class BlindDiagnosis(
          * otherwise, as they take what a cause does.
          */
         private fun looks(): List<BlindTrial> {
-            fun on(state: BlindState, tries: BlindTrials) = BlindLooks(state, tries, !isShapeOpen)
-            val here = on(state, tries)
-            val onStill = if (still === state) null else on(still, stillTries)
-            val onQuiet = quietTries?.let { on(checkNotNull(quiet), it) }
+            val onStill = if (still === state) null else looksOn(still, stillTries)
+            val onQuiet = quietTries?.let { looksOn(checkNotNull(quiet), it) }
             val deficit = quiet?.let { state.score - it.score } ?: 0.0
             // What waves of the water that are missing do looks like another response: one counts with which none are.
             val found = here.list.indices.mapTo(ArrayList()) { i ->
@@ -299,6 +301,8 @@ internal class BlindDiagnosis(
             }
             return found
         }
+
+        private fun looksOn(state: BlindState, tries: BlindTrials) = BlindLooks(state, tries, !isShapeOpen)
 
         /** The [index]-th of [looks], on a model that is less likely than this round's by [lost]. */
         private inner class Begun(val looks: BlindLooks, val index: Int, lost: Double) {
