@@ -317,6 +317,7 @@ internal class BlindDiagnosis(
                 FinerWaves.isNone(refitted.state, search)
             if (!isClear) return begun.trial.atMost(0.0)
             val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
+            if (isBlurred && begun.look.ofWater && first.ratio < BEYOND_BLUR) return first.atMost(0.0)
             if (first.pValue > settings.level) return first
             // The same noise may suit the model without it as well.
             val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
@@ -458,6 +459,9 @@ internal class BlindDiagnosis(
 
         /** The same that water finer than was resolved does not give a response of another shape. */
         private const val BEYOND_WAVES = 100.0
+
+        /** The same that waves which are missing do not give a look at the response: twice what they gave one (191070). */
+        private const val BEYOND_BLUR = 60.0
 
         /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
         private val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)
