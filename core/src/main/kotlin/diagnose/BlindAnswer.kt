@@ -72,8 +72,12 @@ internal class BlindAnswer(
     private fun verdict(all: List<List<Cause>>, left: Dependence, asIs: Double, chosen: List<BlindStep>): Verdict {
         val isOpen = lag.isOpen(settings.separation)
         // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
-        val outweighs = left.ratio > LEFT * (chosen.minOfOrNull { it.trial.ratio } ?: if (isOpen) FAR else 0.0) ||
-            (isOpen && asIs > LEFT * lag.seen)
+        val weakest = chosen.minOfOrNull { it.trial.ratio }
+        val outweighs = when {
+            isOpen && asIs > LEFT * lag.seen -> true
+            weakest != null -> left.ratio > LEFT * weakest
+            else -> !isOpen
+        }
         val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel && outweighs
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }
@@ -281,7 +285,6 @@ internal class BlindAnswer(
 
     companion object {
         private const val LEFT = 0.25
-        private const val FAR = 1e300
         private const val MOST_STEPS = 3
         private const val NORMAL_95 = 1.96
 

@@ -25,7 +25,7 @@ internal class BlindDesign(
         try {
             return task(columns)
         } finally {
-            memory.left(this)
+            memory.left(this, columns)
         }
     }
 

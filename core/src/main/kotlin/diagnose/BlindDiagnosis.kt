@@ -259,11 +259,11 @@ internal class BlindDiagnosis(
 
         /** What no cause explains, with the water and the noise of [state]. */
         val looksAsIs: List<BlindTrial> get() = here.trials
-        private val here = looksOn(state, tries)
+        private val here by lazy { looksOn(state, tries) }
 
         /** What no cause explains. */
-        val looks: List<BlindTrial> = looks()
-        private val adjusted = Evidence.holm((causes + looks).map { it.pValue })
+        val looks: List<BlindTrial> by lazy { looks() }
+        private val adjusted by lazy { Evidence.holm((causes + looks).map { it.pValue }) }
 
         init {
             rounds++
@@ -325,10 +325,10 @@ internal class BlindDiagnosis(
         }
 
         /** p-values of [causes] for all that was tried. */
-        val adjustedCauses: List<Double> = adjusted.take(causes.size)
+        val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
 
         /** p-values of [looks] for all that was tried. */
-        val adjustedLooks: List<Double> = adjusted.drop(causes.size)
+        val adjustedLooks: List<Double> get() = adjusted.drop(causes.size)
     }
 
     /** Whether not even a time constant and a dead time can be told apart: then nothing between them can be named. */

@@ -15,7 +15,7 @@ import kotlin.math.sqrt
  * Looks for what no cause of the list explains in a log without a reference.
  *
  * @param canShowShape whether the log can show the response's shape at all: not where not even a time constant and a
- *   dead time can be told apart, nor where waves of the water are missing.
+ *   dead time can be told apart.
  */
 internal class BlindLooks(
     private val state: BlindState,

@@ -43,10 +43,10 @@ internal class BlindMemory(private val rows: Int) {
         held[design] = Held(columns)
     }
 
-    /** Says that one who used the columns of [design] does not any more. */
+    /** Says that one who used [columns] of [design] does not any more; others may have been made since these were forgotten. */
     @Synchronized
-    fun left(design: BlindDesign) {
-        held[design]?.let { it.users-- }
+    fun left(design: BlindDesign, columns: List<DoubleArray>) {
+        held[design]?.takeIf { it.columns === columns }?.let { it.users-- }
     }
 
     private companion object {

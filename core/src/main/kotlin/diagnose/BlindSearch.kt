@@ -398,9 +398,9 @@ internal class BlindSearch private constructor(
 
         /**
          * Twice the gain in log-likelihood from which steps are held: water in the field is not, and a response of another
-         * shape looks like it.
+         * shape looks like it somewhat.
          */
-        const val HELD = 15.0
+        const val HELD = 8.0
         const val STEPS = 8
         const val EVENINGS = 4
 

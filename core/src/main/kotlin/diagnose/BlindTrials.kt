@@ -343,10 +343,18 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return maxOf(Evidence.pValue(ratio, degrees), agreed)
     }
 
-    /** The share of the squares of [unlike] that the [SINGLE] strongest rows have. */
+    /** The share of the squares of [unlike] that the [SINGLE] strongest readings have: whitened, each is in the row behind, too. */
     private fun strongest(unlike: DoubleArray): Double {
-        val whole = maxOf(squares(unlike), TINY)
-        return unlike.map { it * it / whole }.sortedDescending().take(SINGLE).sum()
+        val shares = squares(unlike).let { all -> DoubleArray(n) { unlike[it] * unlike[it] / maxOf(all, TINY) } }
+        var taken = 0.0
+        repeat(SINGLE) {
+            val first = (0 until n).maxBy { shares[it] }
+            for (row in first..minOf(first + 1, n - 1)) {
+                taken += shares[row]
+                shares[row] = 0.0
+            }
+        }
+        return taken
     }
 
     /** The whitened residuals of the base. */
@@ -367,7 +375,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val STEPS = 6
         const val STRETCHES = BlindEvidence.STRETCHES
 
-        /** Rows that may be wrong readings. */
+        /** Readings that may be wrong. */
         const val SINGLE = 2
         const val FAR = 1e12
 

@@ -7,7 +7,7 @@ package stillwater.diagnose
  * that waits for its end may do tasks of that loop alone.
  */
 public fun interface Loops {
-    /** Does [task] for each number below [count], in any order, and returns when all is done. Tasks share nothing written. */
+    /** Does [task] for each number below [count], in any order, and returns when all is done. Tasks write nothing shared unguarded. */
     public fun each(count: Int, task: (Int) -> Unit)
 
     public companion object {

@@ -3,7 +3,7 @@ package stillwater.diagnose
 /**
  * A look with water and noise of its own.
  *
- * @property state of the readings less [change]. @property change what is looked at adds to
+ * @property state of the readings less what was taken for [change] before. @property change what is looked at adds to
  *   readings, length n. @property columns that it is a sum of, whitened and off the water. @property basis of what the
  *   model's own numbers change, likewise.
  */

@@ -43,6 +43,32 @@ class BlindLimitsTest {
         assertEquals(1.2, upper.value, 0.01)
     }
 
+    /** Rows at an end say little of how stretches of a log agree, and all of one another. */
+    @Test
+    fun anEndOfTheRangeThatFewRowsReachIsNamed() {
+        val free = readings(SensorStage.Lag(4.0), SensorStage.Noise(0.01))
+        val end = free.sortedArray()[n - 1 - AT_END] - 0.05
+        val values = readings(SensorStage.Lag(4.0), SensorStage.Range(null, end), SensorStage.Noise(0.01))
+        val reached = free.count { it > end }
+        assertTrue(reached < 3 * AT_END, "$reached rows")
+        val verdict = Diagnosis(MeasuredSeries(times, x, y, values, null)).run().verdict
+        assertTrue(listOf(Cause.SATURATION) in sets(verdict), "$verdict")
+    }
+
+    @Test
+    fun twoWrongReadingsAtCrestsAreNoEnd() {
+        val values = readings(SensorStage.Lag(4.0), SensorStage.Noise(0.01))
+        val crests = (1 until n - 1).filter { values[it] > values[it - 1] && values[it] > values[it + 1] }
+            .sortedByDescending { values[it] }
+        val first = crests.first()
+        val second = crests.first { kotlin.math.abs(it - first) > 50 }
+        val end = minOf(values[first], values[second]) - 0.1
+        values[first] = end
+        values[second] = end
+        val verdict = Diagnosis(MeasuredSeries(times, x, y, values, null)).run().verdict
+        assertTrue(sets(verdict).none { Cause.SATURATION in it }, "$verdict")
+    }
+
     @Test
     fun aDeadTimeBesideALagIsTold() {
         val values = readings(SensorStage.Delay(6.0), SensorStage.Lag(4.0), SensorStage.Noise(0.03))
@@ -86,5 +112,9 @@ class BlindLimitsTest {
         assertEquals(0.25, rounding(2.0).share, 0.04)
         assertFalse(rounding(2.0).isCoarse(spread = 1.2))
         assertEquals(0.0, CoarseRounding(MeasuredSeries(times, x, y, noise, null), BooleanArray(n) { true }, 0.0).share)
+    }
+
+    private companion object {
+        const val AT_END = 4
     }
 }
