@@ -23,10 +23,10 @@ internal class BlindAnswer(
 
     /** The result. */
     fun of(
-        first: BlindDiagnosis.Round,
+        first: BlindRound,
         chosen: List<BlindStep>,
         sets: List<List<Cause>>,
-        end: BlindDiagnosis.Round,
+        end: BlindRound,
     ): DiagnosisResult {
         val looks = end.looks
         val adjustedLooks = end.adjustedLooks
@@ -243,7 +243,7 @@ internal class BlindAnswer(
 
     private fun heldOut(state: BlindState) = scores.getOrPut(state) { BlindHeldOut.score(state) }
 
-    private fun candidates(first: BlindDiagnosis.Round): List<Candidate> {
+    private fun candidates(first: BlindRound): List<Candidate> {
         val state = first.state
         val predicted = DoubleArray(n) { series.values[it] - state.residuals[it] }
         val list = first.causes.mapIndexed { i, trial ->

@@ -56,21 +56,27 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
      * the water.
      */
     fun designed(shown: Shown, hidden: BooleanArray?, noise: BlindNoise): BlindDesign {
-        synchronized(kept) {
-            val known = kept.indexOfLast { it.isOf(shown, hidden, noise) }
-            if (known >= 0) return kept.removeAt(known).also { kept += it }.design
-        }
+        known(shown, hidden, noise)?.let { return it }
         val design = BlindDesign(shown.size, noise, loops, memory) { out ->
             shown.write(out) { from, to ->
                 if (hidden != null) for (k in from until to) for (i in 0 until n) if (hidden[i]) out[k][i] = 0.0
                 noise.whiten(out, from, to)
             }
         }
-        synchronized(kept) {
-            kept += Kept(design, shown, hidden)
-            if (kept.size > KEPT) kept.removeAt(0)
-        }
+        keep(Kept(design, shown, hidden))
         return design
+    }
+
+    @Synchronized
+    private fun known(shown: Shown, hidden: BooleanArray?, noise: BlindNoise): BlindDesign? {
+        val known = kept.indexOfLast { it.isOf(shown, hidden, noise) }
+        return if (known < 0) null else kept.removeAt(known).also { kept += it }.design
+    }
+
+    @Synchronized
+    private fun keep(newest: Kept) {
+        kept += newest
+        if (kept.size > KEPT) kept.removeAt(0)
     }
 
     /** The water of [modes] with [heights] along the track. */

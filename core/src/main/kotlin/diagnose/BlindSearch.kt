@@ -1,9 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.abs
-import kotlin.math.exp
 import kotlin.math.ln
-import kotlin.math.sqrt
 
 /**
  * Finds the likeliest numbers of models of a log without a reference.
@@ -148,15 +146,11 @@ internal class BlindSearch private constructor(
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
     private fun stepped(state: BlindState): BlindState {
         val margin = if (held) -HELD else HELD
-        turn()
+        held = !held
         val other = improved(again(state, state.fit.design.noise))
         if (other.score > state.score + margin) return other
-        turn()
-        return state
-    }
-
-    private fun turn() {
         held = !held
+        return state
     }
 
     /** Numbers of a lag of [timeConstant] s. */
@@ -167,7 +161,7 @@ internal class BlindSearch private constructor(
         val noises = SHARES.flatMap { share ->
             TIMES.filter { share > 0 || it == TIMES[0] }.map { steps -> noise(share, steps) }
         }
-        return (listOf(state) + loops.all(noises) { again(state, spread(state, it)) }).maxBy { it.score }
+        return (listOf(state) + loops.all(noises) { again(state, SteepNoise.of(state, it)) }).maxBy { it.score }
     }
 
     /** [state] with noise that wanders less or more, and sooner or later, as long as that suits it better. */
@@ -207,10 +201,10 @@ internal class BlindSearch private constructor(
     /** [state] with each row's spread of noise as its residuals say, as long as that suits it better. */
     fun evened(state: BlindState): BlindState {
         val now = state.fit.design.noise
-        val noise = now.noise.with(series, used)
+        val noise = CorrelatedNoise(series.times, now.noise.share, now.noise.time, used.copyOf())
         var best = if (now.noise.rows == noise.rows) state else again(state, BlindNoise(noise, now.spread))
         repeat(EVENINGS) {
-            val next = again(best, spread(best, noise))
+            val next = again(best, SteepNoise.of(best, noise))
             val gain = next.score - best.score
             if (gain > 0) best = next
             if (!(gain > ENOUGH)) return best
@@ -218,32 +212,8 @@ internal class BlindSearch private constructor(
         return best
     }
 
-    private fun CorrelatedNoise.with(series: MeasuredSeries, used: BooleanArray) =
-        CorrelatedNoise(series.times, share, time, used.copyOf())
-
     private fun again(state: BlindState, noise: BlindNoise) =
         settled(state.model.terms, state.numbers, noise, state.variances, before = state)
-
-    /**
-     * [noise] with the relative spread of each row that suits the residuals of [state] best: fixes that are off do more
-     * harm where the water is steep.
-     */
-    private fun spread(state: BlindState, noise: CorrelatedNoise): BlindNoise {
-        val steep = state.modes.steepness(state.fit.heights)
-        val tau = maxOf(state.timeConstant, series.period)
-        var felt = 0.0
-        for (i in 0 until n) {
-            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
-            felt += (1 - exp(-dt / tau)) * (steep[i] * steep[i] - felt)
-            steep[i] = felt
-        }
-        val usual = maxOf(steep.average(), 1e-290)
-        val z = DoubleArray(n)
-        return UNEVEN.map { share -> BlindNoise(noise, DoubleArray(n) { sqrt(1 + share * steep[it] / usual) }) }.maxBy {
-            it.whiten(state.residuals, z)
-            -noise.rows * ln(squares(z) / noise.rows) - it.logDeterminant
-        }
-    }
 
     /** [state] with the numbers that fit better, and the water for them. */
     fun improved(state: BlindState): BlindState {
@@ -416,7 +386,6 @@ internal class BlindSearch private constructor(
         val TIMES = doubleArrayOf(3.0, 10.0, 35.0)
         const val CLIMBS = 3
         const val MOST_CLIMBS = 5
-        val UNEVEN = listOf(0.0, 0.3, 1.0, 3.0, 10.0, 100.0)
     }
 
     /** What a log has whatever its readings are. */

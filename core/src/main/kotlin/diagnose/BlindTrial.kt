@@ -64,3 +64,10 @@ internal class BlindTrial(
         const val NORMAL_99 = 2.576
     }
 }
+
+/** [state] with the numbers of [trial], and the water for them. */
+internal fun BlindSearch.with(state: BlindState, trial: BlindTrial): BlindState {
+    val model = checkNotNull(trial.model)
+    val numbers = checkNotNull(trial.point).numbers
+    return settled(model.terms, numbers, state.fit.design.noise, state.variances, before = state)
+}

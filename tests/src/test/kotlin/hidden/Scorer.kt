@@ -111,6 +111,9 @@ internal class ScoredCase(
 /** Least gain in held-out mean square, over the noise's variance, that is asked for: a fifth of 1x in a long log. */
 private const val LEAST_POSSIBLE = 0.01
 
+/** Verdicts that name nothing and do not say that all is well. */
+private val UNNAMED = setOf("unexplained", "insufficient-data")
+
 /** Counts over many cases, as text for docs/diagnosis.md. */
 internal class Scores(private val cases: List<ScoredCase>) {
     private fun share(of: List<ScoredCase>, holds: (ScoredCase) -> Boolean): String {
@@ -152,7 +155,7 @@ internal class Scores(private val cases: List<ScoredCase>) {
         val outside = cases.filter { it.isOutside && it.multiple >= 1 }
         appendLine(
             "| outside the list, 1x and above: unexplained or insufficient | ${share(outside) {
-                !it.named && it.answer.verdict != "consistent"
+                !it.named && it.answer.verdict in UNNAMED
             }} |",
         )
         appendLine("| outside the list, 1x and above: a wrong name | ${share(outside) { it.named }} |")

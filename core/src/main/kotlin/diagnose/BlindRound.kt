@@ -1,0 +1,326 @@
+package stillwater.diagnose
+
+/**
+ * All causes and looks on top of one model of a log without a reference.
+ *
+ * @param isShapeOpen whether not even a time constant and a dead time can be told apart: then nothing between them can be
+ *   named. @param isLagSeen whether there is a lag at all, for certain. @param settledStill the model on water that does
+ *   not change. @param tell told how much of the round is done, 0..1.
+ */
+internal class BlindRound(
+    private val search: BlindSearch,
+    private val settings: DiagnosisSettings,
+    private val isShapeOpen: Boolean,
+    private val isLagSeen: Boolean,
+    model: BlindState,
+    private val settledStill: BlindState = search.still(model),
+    private val tell: (Double) -> Unit,
+) {
+    private val loops get() = search.loops
+
+    /** Still water under noise that hardly wanders; null where it does not anyway. */
+    private val quiet = search.quiet(settledStill)
+    private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })
+        .maxBy { it.score }
+    private val open = search.opened(model)
+
+    /** The model, with water that changes in time or does not. */
+    val state = if (open.score > still.score) open else still
+    private val tries = BlindTrials(search, state)
+    private val stillTries = if (still === state) tries else BlindTrials(search, still)
+
+    private val quietTries = quiet?.let { BlindTrials(search, it) }
+
+    /** Water that does not change, all else as it is: noise that suits such water may wander as a drift does. */
+    private val held = if (still === state) state else search.held(state)
+    private val heldTries = if (still === state) tries else BlindTrials(search, held)
+
+    /**
+     * Whether the finest waves are strong: the water may have finer ones, or the response is wrong, and other
+     * responses are then begun far from what the wrong water makes of them.
+     */
+    private val isBlurred = !state.isResolved
+
+    /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
+    val changing = maxOf(open.score - still.score, 0.0)
+
+    private val terms = BlindTerms.of(search, !isShapeOpen && isLagSeen).filter(::isNew)
+
+    /**
+     * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:
+     * such as make up for much of what these explain.
+     */
+    private val onQuiet: Map<String, BlindTrial> = quietTries?.let { tries ->
+        val least = MADE_UP * (state.score - checkNotNull(quiet).score)
+        val tried = loops.all(terms.filter { it.cause !in BlindDiagnosis.SLOW }, tries::attempt)
+        tried.filter { it.likelier > maxOf(LIKELY, least) }
+            .sortedByDescending { it.likelier }.take(MOST_QUIET).associateBy { it.name }
+    }.orEmpty()
+
+    /** The causes that are not in the model yet. */
+    val causes: List<BlindTrial> = run {
+        tell(0.0)
+        val all = loops.all(terms, tries::attempt)
+        tell(TRIED)
+        // Water that changes in time may have taken what the sensor does.
+        val isOther = still !== state && changing > NO_CHANGE
+        val both = terms.filter { isOther && (it.cause in BlindDiagnosis.SLOW || changing < BlindDiagnosis.FAR_CHANGE) }
+        val others = both.map { it.key }
+            .zip(
+                loops.all(both) {
+                    (
+                        if (it.cause in
+                            BlindDiagnosis.SLOW
+                        ) {
+                            heldTries
+                        } else {
+                            stillTries
+                        }
+                        ).attempt(it)
+                },
+            ).toMap()
+        fun other(trial: BlindTrial) = others[trial.term?.key]
+        fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
+        val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
+            .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
+            all.filter { it.name in onQuiet }
+        loops.all(all) {
+            val other = other(it)
+            when {
+                isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
+                it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
+                else -> it
+            }
+        }
+    }
+
+    private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
+
+    /** Whether [trial], on water that does not change, may be worth water and noise of its own. */
+    private fun isLikelyOnStill(trial: BlindTrial): Boolean {
+        val isSlow = trial.term?.cause in BlindDiagnosis.SLOW
+        return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
+    }
+
+    /**
+     * [trial] on top of a model whose finest waves are strong. It counts where no finer ones are missing beside it:
+     * what they would do, passes over the same water that contradict each other, a wrong response does, too. Else
+     * it counts where it explains more than missing waves could be taken for.
+     */
+    private fun resolved(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+        val settled = settled(trial, other)
+        val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
+        val isClear = goesWithMore || settled.state?.let { it.isResolved || FinerWaves.isNone(it, search) } == true
+        return if (isClear) settled else settled.atMost(0.0)
+    }
+
+    /**
+     * [trial] with the water and the noise that suit it.
+     *
+     * Water that changes in time can imitate a drift or a jump. Those are held against water that stays the same
+     * where they explain more than such water, and against such water where they do not: something changed either
+     * way.
+     */
+    private fun settled(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+        val first = settledAsIs(trial, other)
+        return if (first.term?.cause == Cause.OFFSET_STEPS && first.pValue < settings.level) grown(first) else first
+    }
+
+    /** [trial], of jumps, with more of them: what the first leave shows others. */
+    private fun grown(trial: BlindTrial): BlindTrial {
+        val before = trial.state ?: return trial
+        val term = checkNotNull(trial.term)
+        val more = BlindTrials(search, before).oneMoreJump(term) ?: return trial
+        val after = search.improved(search.requieted(search.with(before, more)))
+        val gain = after.score - before.score - 2 * (tries.searched(2) - tries.searched(1))
+        if (gain < LIKELY) return trial
+        val base = if (search.isStill(after)) still else state
+        val next = tries.settled(more, after, maxOf(base.score, likewise(base, after)), searched(more))
+        if (next.pValue >= settings.level) return trial
+        return grown(if (base === state) next else next.among(base.score - state.score))
+    }
+
+    private fun settledAsIs(trial: BlindTrial, other: BlindTrial?): BlindTrial {
+        val isSlow = trial.term?.cause in BlindDiagnosis.SLOW
+        val onState = if (isSlow && other != null && !(trial.ratio > LIKELY)) null else found(state, trial)
+        val onStill = other?.takeIf { !isSlow || isLikelyOnStill(it) }
+            ?.let { found(if (isSlow) held else still, it) }
+        if (isSlow && onStill != null && (onState == null || onState.score < onStill.score + CHANGING_TOO)) {
+            return heldAgainstChange(checkNotNull(other), onStill)
+        }
+        val quieter = onQuiet[trial.name]?.let { search.climbed(found(checkNotNull(quiet), it)) }
+        val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, quieter).maxBy { it.score }
+        val searched = searched(trial)
+        val first = tries.settled(trial, found, state.score, searched)
+        if (first.pValue > settings.level) return first
+        // The same noise may suit the model without it as well.
+        val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, found)) }
+        return tries.settled(trial, found, best, searched)
+    }
+
+    private fun searched(trial: BlindTrial): Double = tries.searched(trial.term?.times.orEmpty().size)
+
+    /** [trial], a drift or a jump in water that does not change, as [found] has it. */
+    private fun heldAgainstChange(trial: BlindTrial, found: BlindState): BlindTrial {
+        val searched = searched(trial)
+        val first = tries.settled(trial, found, still.score, searched)
+        if (first.pValue > settings.level) return first.instead(-maxOf(state.score - still.score, 0.0))
+        // The same noise may suit the models without it as well.
+        val best = maxOf(still.score, likewise(still, found))
+        val rest = if (still === state) best else maxOf(state.score, likewise(state, found))
+        val trying = tries.settled(trial, found, best, searched)
+        return when {
+            found.score > rest -> trying.among(best - rest)
+            // It explains most of what water that changes does: something changed, and both are in the answer.
+            still !== state && found.score - best > (rest - best) / 2 && trying.pValue < settings.level ->
+                trying.beside(search.climbed(search.with(state, trying)))
+            else -> trying.instead(best - rest)
+        }
+    }
+
+    /** The model of [trial] on top of [without] with the water and the noise that suit it. */
+    private fun found(without: BlindState, trial: BlindTrial): BlindState {
+        val term = checkNotNull(trial.term)
+        val begun = when {
+            term.cause == Cause.SATURATION -> tries.ended(term, trial, without)
+            isFar(term) -> begun(without, term, trial)
+            else -> search.with(without, trial)
+        }
+        return search.improved(search.requieted(if (isFar(term)) search.improved(begun) else begun))
+    }
+
+    /** Whether a fit of [term] may have to begin far from what the water makes of it: a slow path is like long waves. */
+    private fun isFar(term: Term) = isBlurred || term.cause == Cause.TWO_PATH_RESPONSE
+
+    /** The likeliest of [trial] and of other beginnings of [term], far from what the wrong water makes of it. */
+    private fun begun(without: BlindState, term: Term, trial: BlindTrial): BlindState {
+        val model = checkNotNull(trial.model)
+        val starts = if (term.cause in BlindSearch.LINEAR) tries.starts(model, term) else emptyList()
+        val others = starts.map {
+            search.settled(model.terms, it, without.fit.design.noise, without.variances, before = without)
+        }
+        return (others + search.with(without, trial)).maxBy { it.score }
+    }
+
+    /**
+     * The score of [other] with the noise of [found], or from where [found] is with all of it but what is new there.
+     */
+    private fun likewise(other: BlindState, found: BlindState): Double {
+        val noise = found.fit.design.noise
+        val model = other.model
+        val own = search.improved(
+            search.settled(model.terms, other.numbers, noise, other.variances, before = other),
+        )
+        val there = search.settled(
+            model.terms,
+            model.carried(found.model, found.numbers),
+            noise,
+            found.variances,
+            before = found,
+        )
+        return maxOf(own.score, search.climbed(there).score)
+    }
+
+    /** What no cause explains, with the water and the noise of [state]. */
+    val looksAsIs: List<BlindTrial> get() = here.trials
+    private val here by lazy { looksOn(state, tries) }
+
+    /** What no cause explains. */
+    val looks: List<BlindTrial> by lazy { looks() }
+    private val adjusted by lazy { Evidence.holm((causes + looks).map { it.pValue }) }
+
+    /**
+     * What no cause explains, with water and noise of its own where it may be something: both would take it
+     * otherwise, as they take what a cause does.
+     */
+    private fun looks(): List<BlindTrial> {
+        val onStill = if (still === state) null else looksOn(still, stillTries)
+        val onQuiet = quietTries?.let { looksOn(checkNotNull(quiet), it) }
+        val deficit = quiet?.let { state.score - it.score } ?: 0.0
+        // What waves of the water that are missing do looks like another response: one counts with which none are.
+        val found = here.list.indices.mapTo(ArrayList()) { i ->
+            here.trials[i].let { if (here.list[i].ofWater && isBlurred) it.atMost(0.0) else it }
+        }
+        val begun = here.list.indices.filter { !here.list[it].isLoose }.map { i ->
+            listOfNotNull(here to 0.0, onStill?.let { it to state.score - still.score })
+                .map { (looks, lost) -> Begun(looks, i, lost) }.maxBy { it.worth }
+        }.filter { it.worth > LIKELY }.sortedByDescending { it.worth }.take(MOST_LOOKS)
+        val quieter = onQuiet?.list?.indices?.filter { !onQuiet.list[it].isLoose }?.map {
+            Begun(
+                onQuiet,
+                it,
+                MADE_UP * deficit,
+            )
+        }.orEmpty()
+            .filter { it.worth > LIKELY && begun.none { other -> other.index == it.index } }
+            .maxByOrNull { it.worth }
+        val looked = begun + listOfNotNull(quieter)
+        loops.all(looked, ::refitted).forEachIndexed { i, next ->
+            val index = looked[i].index
+            if (next.pValue < found[index].pValue) found[index] = next
+        }
+        return found
+    }
+
+    private fun looksOn(state: BlindState, tries: BlindTrials) = BlindLooks(state, tries, !isShapeOpen)
+
+    /** The [index]-th of [looks], on a model that is less likely than this round's by [lost]. */
+    private inner class Begun(val looks: BlindLooks, val index: Int, lost: Double) {
+        val look = looks.list[index]
+        val trial = looks.trials[index]
+        val worth = trial.likelier - lost
+    }
+
+    private fun refitted(begun: Begun): BlindTrial {
+        val refitted = begun.looks.refitted(begun.index)
+        val isClear = !isBlurred || !begun.look.ofWater || refitted.state.isResolved ||
+            FinerWaves.isNone(refitted.state, search)
+        if (!isClear) return begun.trial.atMost(0.0)
+        val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
+        if (isBlurred && begun.look.ofWater && first.ratio < BEYOND_BLUR) return first.atMost(0.0)
+        if (first.pValue > settings.level) return first
+        // The same noise may suit the model without it as well.
+        val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
+        return tries.settled(begun.look, refitted, best)
+    }
+
+    /** p-values of [causes] for all that was tried. */
+    val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
+
+    /** p-values of [looks] for all that was tried. */
+    val adjustedLooks: List<Double> get() = adjusted.drop(causes.size)
+
+    private companion object {
+        /** Share of a round that all causes' first tries are. */
+        const val TRIED = 0.3
+
+        /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
+        const val LIKELY = 4.0
+
+        const val MOST_LIKELY = 5
+
+        /** Looks that are given water and noise of their own. */
+        const val MOST_LOOKS = 2
+
+        /** Share of what noise that wanders and water that changes explain, for which a cause may make up alone. */
+        const val MADE_UP = 0.4
+
+        /** Causes that are given water and noise of their own from quiet still water on. */
+        const val MOST_QUIET = 3
+
+        /** Twice the gain in log-likelihood of water that changes that is none. */
+        const val NO_CHANGE = 2.0
+
+        /** Twice the gain in log-likelihood that water which changes must add to a drift or a jump to be kept beside it. */
+        const val CHANGING_TOO = 10.0
+
+        /** The same that water finer than was resolved does not give a response of another shape. */
+        const val BEYOND_WAVES = 100.0
+
+        /** The same that waves which are missing do not give a look at the response: twice what they gave one (191070). */
+        const val BEYOND_BLUR = 60.0
+
+        /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
+        val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)
+    }
+}
