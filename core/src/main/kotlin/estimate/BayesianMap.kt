@@ -20,8 +20,8 @@ import kotlin.math.sqrt
  * [cells] learns of the sensor (time constant, noise, kind) holds here. A cell's value is its posterior's median, its
  * bounds are credible at 95 %, both cut to the prior. Where [cells] finds that its own model of the sensor does not
  * explain the readings, or gives most visited cells the prior's bounds, its errors are not independent: then its values
- * and bounds are taken as they are, cells not visited are interpolated, and their bounds are as wide as those of the
- * visited ones near them or wider, see [isExplained].
+ * and bounds are taken as they are, cells not visited are interpolated, and their bounds are on average about as wide as
+ * those of the visited ones near them, at most 95 % of the prior or as far as their value; see [isExplained].
  *
  * The posterior is worked on when [map] is asked for, not at a reading: ask for it after updates rather than keeping
  * it. When it was asked for before matters a little. A look at every visited cell apart, it does [work] for each
@@ -304,14 +304,21 @@ public class BayesianMap(
     private fun write(cell: Int, mean: Double, variance: Double) {
         if (!mean.isFinite() || !variance.isFinite()) return
         val prior = believed.prior
-        val all = if (isExplained) variance else variance + doubt(cell)
-        // Of all distributions on the range with this mean and variance the least committed is a cut normal one whose
-        // own variance is greater: without end where it is that of the range itself, 1/12, eq. (6).
-        val uncut = all / maxOf(1 - RANGE * all, LEAST_PRECISION)
-        cut.cut(middle + scale * mean, scale * sqrt(uncut), prior.lower, prior.upper)
-        if (!cut.lower.isFinite() || !cut.upper.isFinite()) return
-        believed.setValue(cell, cut.median)
-        believed.setBounds(cell, cut.lower, cut.upper)
+        shape(mean, variance, prior)
+        val median = cut.median
+        // A doubt about all cells near by is none about where between them the value is.
+        if (!isExplained) shape(mean, variance + doubt(cell), prior)
+        if (!median.isFinite() || !cut.lower.isFinite() || !cut.upper.isFinite()) return
+        believed.setValue(cell, median)
+        believed.setBounds(cell, minOf(cut.lower, median), maxOf(cut.upper, median))
+    }
+
+    /** Of all distributions on [range] with that mean and variance, scaled, the least committed. */
+    private fun shape(mean: Double, variance: Double, range: Interval) {
+        // It is a cut normal one whose own variance is greater: without end where it is that of the range itself, 1/12,
+        // eq. (6).
+        val uncut = variance / maxOf(1 - RANGE * variance, LEAST_PRECISION)
+        cut.cut(middle + scale * mean, scale * sqrt(uncut), range.lower, range.upper)
     }
 
     /**

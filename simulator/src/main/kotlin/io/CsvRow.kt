@@ -59,6 +59,10 @@ internal class CsvRow(
     var word = ""
         private set
 
+    /** Number of zero characters in the row: text that was lost, as in a power cut. */
+    var zeros = 0
+        private set
+
     private val hasDate = reader != null && dateSlot in slots
     private val unreadable = HashMap<Int, String>()
 
@@ -76,6 +80,7 @@ internal class CsvRow(
         widestBreak = -1
         isEnd = false
         isOpen = false
+        zeros = 0
         numbers.fill(Double.NaN)
         if (unreadable.isNotEmpty()) unreadable.clear()
     }
@@ -89,6 +94,7 @@ internal class CsvRow(
         }
         val slot = if (fieldIdx < slots.size) slots[fieldIdx] else CsvColumns.NONE
         if (slot == CsvColumns.NONE) {
+            countZeros(buf, offset, len)
             if (fieldIdx == 0 && len > 0 && buf[offset].isLetter()) word = String(buf, offset, len)
             return
         }
@@ -98,7 +104,15 @@ internal class CsvRow(
             else -> DecimalText.parse(buf, offset, len)
         }
         numbers[slot] = number
-        if (!number.isFinite()) unreadable[fieldIdx] = String(buf, offset, len)
+        if (!number.isFinite()) {
+            // No number has a zero in its text.
+            countZeros(buf, offset, len)
+            unreadable[fieldIdx] = String(buf, offset, len)
+        }
+    }
+
+    private fun countZeros(buf: CharArray, offset: Int, len: Int) {
+        for (i in offset until offset + len) if (buf[i] == '\u0000') zeros++
     }
 
     private fun read(reader: FieldReader, slot: Int, buf: CharArray, offset: Int, len: Int) = when (slot) {

@@ -6,6 +6,7 @@ import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
+import stillwater.report.counted
 import java.io.UncheckedIOException
 import java.nio.file.Path
 import kotlin.math.abs
@@ -165,7 +166,7 @@ internal class CsvSurvey internal constructor(
 
         /** Why [row] is right and yet holds no reading; null where it holds one, or is wrong. */
         private fun withoutReading(row: CsvRow): String? = when {
-            row.isOpen || row.widestBreak >= 0 -> null
+            row.isOpen || row.widestBreak >= 0 || row.zeros > 0 -> null
             row.word.isNotEmpty() && !beginsWithWords && CellText.isSummary(row.word) -> SUMMARY
             row.isWhole && row.fields == columns.names.size -> code(row)
             else -> withoutReading(row, row.textOf(columns.time))
@@ -216,13 +217,13 @@ internal class CsvSurvey internal constructor(
 
         private fun problemOf(row: CsvRow): LogProblem? {
             quoteProblem(row)?.let { return it }
+            if (row.zeros > 0) {
+                val found = counted(row.zeros.toLong() * content.unit, "zero byte")
+                return problem(row.line, null, "a row of text", found, "rows with zero bytes")
+            }
             if (row.fields != columns.names.size) {
                 val expected = "${columns.names.size} fields as in the header"
-                val why = when {
-                    splitsDecimals(row) -> " (decimal commas need another separator)"
-                    row.fields == 1 && content.zeroTail > 0 -> " (the file ends in ${content.zeroTail} zero bytes)"
-                    else -> ""
-                }
+                val why = if (splitsDecimals(row)) " (decimal commas need another separator)" else ""
                 val found = "${row.fields}$why"
                 return problem(row.line, null, expected, found, "rows with a wrong number of fields")
             }

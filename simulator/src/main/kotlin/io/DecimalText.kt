@@ -6,7 +6,7 @@ package stillwater.io
  * Grammar: blanks, sign, digits with at most one point, exponent, blanks. Up to 15 digits with a power of ten up to
  * 22 both are exact doubles, and so is the one rounding of their product or quotient (Clinger 1990,
  * doi:10.1145/93548.93557, the fast path); all else goes to the standard library. The result is the same as
- * [String.toDouble] in every case.
+ * [String.toDouble] in every case but one: a zero byte is no blank, since it stands where data were lost.
  */
 internal object DecimalText {
     private const val EXACT_DIGITS = 15
@@ -20,8 +20,8 @@ internal object DecimalText {
     fun parse(text: CharArray, offset: Int, length: Int): Double {
         var start = offset
         var end = offset + length
-        while (start < end && text[start] <= ' ') start++
-        while (end > start && text[end - 1] <= ' ') end--
+        while (start < end && isBlank(text[start])) start++
+        while (end > start && isBlank(text[end - 1])) end--
         var i = start
         val negative = i < end && text[i] == '-'
         if (negative || (i < end && text[i] == '+')) i++
@@ -75,6 +75,8 @@ internal object DecimalText {
         }
         return if (negative) -exponent else exponent
     }
+
+    private fun isBlank(char: Char) = char <= ' ' && char != '\u0000'
 
     private const val NO_EXPONENT = Int.MIN_VALUE
 }

@@ -48,16 +48,8 @@ internal class LogContent private constructor(
         return BufferedReader(text).apply { repeat(skippedLines) { readLine() } }
     }
 
-    /** The number of zero bytes that the file ends in, at most [HEAD_BYTES]; 0 where they are part of the encoding. */
-    val zeroTail: Int by lazy {
-        if (markLength == 2) return@lazy 0
-        val size = Files.size(file)
-        val last = Files.newInputStream(file).use {
-            it.skipNBytes(maxOf(0, size - HEAD_BYTES))
-            it.readNBytes(HEAD_BYTES)
-        }
-        last.size - 1 - last.indexOfLast { it != 0.toByte() }
-    }
+    /** Bytes of a zero character. */
+    val unit: Int get() = if (charset == Charsets.UTF_16LE || charset == Charsets.UTF_16BE) 2 else 1
 
     /** Hands on the byte order mark, empty without one, and the bytes after it; the stream is closed in the end. */
     fun <T> raw(use: (mark: ByteArray, text: InputStream) -> T): T =
@@ -80,6 +72,8 @@ internal class LogContent private constructor(
         private val SEA_BIRD = "* Sea-Bird".toByteArray()
         private val GZIP = byteArrayOf(0x1f, 0x8b.toByte())
         private val ZIP = byteArrayOf(0x50, 0x4b, 3, 4)
+        private val CONTROLS = 1.toByte()..31.toByte()
+        private val BLANKS = "\t\n\u000b\u000c\r\u001a".toByteArray()
         private val PDF = "%PDF-".toByteArray()
 
         fun of(file: Path): LogContent {
@@ -95,10 +89,10 @@ internal class LogContent private constructor(
                 bytes.startsWith(byteArrayOf(0xFE.toByte(), 0xFF.toByte())) -> Charsets.UTF_16BE to 2
                 else -> (if (bytes.isUtf8()) Charsets.UTF_8 else WINDOWS_1252) to 0
             }
-            val end = if (mark == 2) bytes.size else bytes.beforeZeroTail()
-            if (mark != 2 && 0.toByte() in bytes.take(end)) throw problem("a text log", "binary data" + remedy(bytes))
-            val text = String(bytes, mark, end - mark, charset)
-            val lines = text.lineSequence().map { it.trimEnd('\r') }.toList()
+            if (mark != 2 && !bytes.isText()) throw problem("a text log", "binary data" + remedy(bytes))
+            val text = String(bytes, mark, bytes.size - mark, charset)
+            // Lines with zeros show nothing of how the log is written.
+            val lines = text.lineSequence().map { if ('\u0000' in it) "" else it.trimEnd('\r') }.toList()
             // The last line of the head may be cut.
             val head = if (lines.size > 1 && bytes.size == HEAD_BYTES) lines.dropLast(1) else lines
             val firstIsCut = lines.dropLast(1).all { it.isBlank() } && lines.last().isNotBlank()
@@ -110,12 +104,15 @@ internal class LogContent private constructor(
         }
 
         /**
-         * Where the zeros begin that the head ends in, as a file does whose last block never reached the disk; its size
-         * where none or nothing else is there. Rows say that they are bad.
+         * Whether that is text, if perhaps with zeros after its first line, where data never reached the disk: rows say
+         * that they are bad. Zeros that more follows are taken for such only beside no other byte that text has not.
          */
-        private fun ByteArray.beforeZeroTail(): Int {
-            val end = indexOfLast { it != 0.toByte() } + 1
-            return if (end > 0 && '\n'.code.toByte() in take(end)) end else size
+        private fun ByteArray.isText(): Boolean {
+            val first = indexOf(0)
+            if (first < 0) return true
+            if (indexOf('\n'.code.toByte()) !in 0 until first) return false
+            val isTail = (first until size).all { this[it] == 0.toByte() }
+            return isTail || (!startsWith(SEA_BIRD) && none { it in CONTROLS && it !in BLANKS })
         }
 
         private fun remedy(bytes: ByteArray) =

@@ -99,6 +99,10 @@ class MapBadInputTest {
         private fun csv(name: String, text: String, message: String, skipped: String? = null, vararg flags: String) =
             Case(name, text.toByteArray(), message, skipped, flags.toList())
 
+        /** A log that holds zeros where data never reached the disk. */
+        private fun cut(name: String, text: String, message: String, vararg flags: String) =
+            csv("power cut $name", text, "log.csv:$message", "rows with zero bytes", *flags)
+
         @JvmStatic
         fun badLogs() = listOf(
             csv("empty file", "", "log.csv: expected a log, found an empty file"),
@@ -229,19 +233,25 @@ class MapBadInputTest {
             csv("x as y", "time_s,x_m,v\n0,1,2\n1,2,3\n", "column x_m", null, "--x", "x_m", "--y", "x_m"),
             csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
-            csv(
-                "power cut after a row",
-                HEAD + GOOD + "\u0000".repeat(500),
-                "found 1 (the file ends in 500 zero bytes)",
-                WRONG_COUNT,
+            cut("after a row", HEAD + GOOD + "\u0000".repeat(500), "5: expected a row of text, found 500 zero bytes"),
+            cut("in a row", HEAD + GOOD + "3,45" + "\u0000".repeat(7), "5: expected a row of text, found 7 zero bytes"),
+            // What is left of 8.4 is a number.
+            cut("in a value", HEAD + GOOD + "3,45.50003,-73.1,8" + "\u0000".repeat(500), "5: expected a row of text"),
+            cut(
+                "in a column that nobody reads",
+                "time_s,x_m,y_m,v,note\n0,0,0,1,a\n1,1,1,1,b\n2,2,2,2,c\n3,3,3,3,d\u0000\u0000",
+                "5: expected a row of text, found 2 zero bytes",
+                "--value",
+                "v",
             ),
-            csv(
-                "power cut in a row",
-                HEAD + GOOD + "3,45" + "\u0000".repeat(7),
-                "log.csv:5: expected 4 fields",
-                WRONG_COUNT,
-            ),
-            csv("zeros among rows", HEAD + "\u0000\u0000" + GOOD, "expected a text log, found binary data"),
+            cut("in a time", HEAD + GOOD + "3\u0000,45.5,-73.1,8\n", "5: expected a row of text, found 1 zero byte"),
+            cut("before a line's end", HEAD + GOOD + "\u0000\u0000\n", "5: expected a row of text"),
+            cut("before rows", HEAD + "\u0000\u0000\n" + GOOD, "2: expected a row of text"),
+            cut("among rows", HEAD + "\u0000\u0000" + GOOD + "3,45.5,-73.1,8\n", "2: expected a row of text"),
+            cut("of a long file", HEAD + GOOD + "\u0000".repeat(200_000), "5: expected a row of text, found 200000 z"),
+            csv("nothing but zeros", "\u0000".repeat(99), "expected a text log, found binary data"),
+            csv("zeros in the header", "time_s\u0000" + HEAD + GOOD, "expected a text log, found binary data"),
+            csv("zeros and other bytes", HEAD + "\u0000\u0001\n" + GOOD, "expected a text log, found binary data"),
             Case("gzip", byteArrayOf(0x1f, 0x8b.toByte(), 8, 0, 0), "found a gzip archive: unpack it first"),
             Case("workbook", byteArrayOf(0x50, 0x4b, 3, 4, 20, 0), "or a workbook: save its sheet as CSV"),
             Case("PDF", "%PDF-1.4\n".toByteArray(), "expected a text log, found a PDF document"),

@@ -29,7 +29,7 @@ class DecimalTextTest {
     @Test
     fun findsNoNumberInOtherTexts() {
         val others = listOf("", " ", "-", "+", ".", "e5", "1e", "1e+", "1e5x", "1.2.3", "1,5", "NaN", "inf", "0x10")
-        for (text in others + listOf("1f", "1d", "Infinity", "1 2", "--1", "١٢")) {
+        for (text in others + listOf("1f", "1d", "Infinity", "1 2", "--1", "١٢", "1\u0000", "\u00001")) {
             assertTrue(DecimalText.parse(text).isNaN(), text)
         }
     }
