@@ -45,7 +45,10 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** Variance of [logTime]. */
     val logTimeVariance: Double
-        get() = maxOf(0.0, firstVariance - 2 * kind.shear * covariance + kind.shear * kind.shear * secondVariance)
+        get() {
+            val shear = kind.shear(second)
+            return maxOf(0.0, firstVariance - 2 * shear * covariance + shear * shear * secondVariance)
+        }
 
     /** Variance of [first]. */
     val firstVariance: Double
@@ -172,10 +175,12 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     /** How much of [lag]'s misfit over its σ² this kind promises to explain, from one look near that lag. */
     suspend fun glance(tape: Recording, lag: LagFit): Double {
         isFitted = false
-        startFirst = ln(lag.timeConstant)
         startSecond = kind.least.coerceAtLeast(0.0)
         limit(tape)
         noiseVariance = lag.noiseVariance
+        startFirst = ln(lag.timeConstant)
+        // Two lags are looked at where the shorter is a little, with the sum that the one has.
+        startFirst += kind.bend(GLANCE * widest())
         play(tape, minOf(WIDEST_FIRST, 2 * lag.relativeUncertainty), GLANCE * widest())
         learn()
         return (lag.misfit - misfit) / lag.noiseVariance

@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import kotlin.math.exp
+import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
@@ -27,16 +28,23 @@ internal enum class ResponseBankKind(
 
     /**
      * Two lags in a row; second parameter: p, the product of their time constants over the square of their sum T.
-     * First: ln T + [SHEAR] (p − 1/4), because readings tell that better than ln T.
+     * First: ln T + 0.9 ln 4p, because readings tell that better than ln T; below [STRAIGHT] on in a straight line.
      */
     SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25),
     ;
 
     /** Logarithm of the time constant, s, or of its mean or sum. */
-    fun logTime(first: Double, second: Double): Double = first - shear * (second - SHEARED_ABOUT)
+    fun logTime(first: Double, second: Double): Double = first - bend(second)
 
-    /** How [logTime] changes with the second parameter while the first stays, with the sign turned. */
-    val shear: Double get() = if (this == SECOND_ORDER) SHEAR else 0.0
+    /** The first parameter over [logTime]. */
+    fun bend(second: Double): Double = when {
+        this != SECOND_ORDER -> 0.0
+        second >= STRAIGHT -> BEND * ln(second / EQUAL)
+        else -> BEND * (ln(STRAIGHT / EQUAL) + (second - STRAIGHT) / STRAIGHT)
+    }
+
+    /** How [bend] changes with the second parameter. */
+    fun shear(second: Double): Double = if (this == SECOND_ORDER) BEND / maxOf(second, STRAIGHT) else 0.0
 
     /** Time constant of the lag, or of the first of two, s. */
     fun timeConstant(first: Double, second: Double, branch: Int): Double = when (this) {
@@ -53,8 +61,9 @@ internal enum class ResponseBankKind(
     fun deadTime(second: Double): Double = if (this == DEAD_TIME) second else 0.0
 
     companion object {
-        private const val SHEAR = 4.0
-        private const val SHEARED_ABOUT = 0.25
+        private const val BEND = 0.9
+        private const val STRAIGHT = 0.08
+        private const val EQUAL = 0.25
 
         /** The share that the shorter of two time constants has in their sum, from their [product] over its square. */
         fun shorter(product: Double): Double = (1 - sqrt(maxOf(0.0, 1 - 4 * product))) / 2

@@ -72,7 +72,11 @@ class FitInPartsTest {
                 // One was fitted to all of the first 913 readings, the other to some of them fewer.
                 val apart = abs(ln(inParts.timeConstant / atOnce.timeConstant))
                 assertTrue(apart < 3 * atOnce.relativeUncertainty, "$sensor, $work: $apart")
-                assertEquals(atOnce.sensor().candidates.first().kind, inParts.sensor().candidates.first().kind)
+                assertEquals(
+                    atOnce.sensor().candidates.first().kind,
+                    inParts.sensor().candidates.first().kind,
+                    "$sensor, $work",
+                )
                 assertTrue(inParts.error(survey) < 1.1 * atOnce.error(survey) + 1e-4, "$sensor, $work")
                 assertEquals(survey.cells.size, (0 until grid.size).sumOf { inParts.map.readings(it) })
             }
