@@ -284,6 +284,13 @@ internal class BlindRound(
         return tries.settled(begun.look, refitted, best)
     }
 
+    /** Whether the [index]-th of [looks] is at what else the sensor might show of the water. */
+    fun isOfWater(index: Int): Boolean = here.list[index].ofWater
+
+    /** Whether something is left for certain. */
+    val isStructured: Boolean
+        get() = adjustedLooks.any { it < BlindDiagnosis.STRICTER * settings.structureLevel }
+
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
 

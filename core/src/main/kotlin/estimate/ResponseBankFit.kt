@@ -45,10 +45,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** Variance of [logTime]. */
     val logTimeVariance: Double
-        get() {
-            val shear = kind.shear(second)
-            return maxOf(0.0, firstVariance - 2 * shear * covariance + shear * shear * secondVariance)
-        }
+        get() = kind.shear(second).let { maxOf(0.0, firstVariance - 2 * it * covariance + it * it * secondVariance) }
 
     /** Variance of [first]. */
     val firstVariance: Double
@@ -178,9 +175,8 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         startSecond = kind.least.coerceAtLeast(0.0)
         limit(tape)
         noiseVariance = lag.noiseVariance
-        startFirst = ln(lag.timeConstant)
         // Two lags are looked at where the shorter is a little, with the sum that the one has.
-        startFirst += kind.bend(GLANCE * widest())
+        startFirst = ln(lag.timeConstant) + kind.bend(GLANCE * widest())
         play(tape, minOf(WIDEST_FIRST, 2 * lag.relativeUncertainty), GLANCE * widest())
         learn()
         return (lag.misfit - misfit) / lag.noiseVariance

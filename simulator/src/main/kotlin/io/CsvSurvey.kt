@@ -72,7 +72,7 @@ internal class CsvSurvey internal constructor(
             .skipEmptyLines(false)
             .allowExtraFields(true)
             .allowMissingFields(true)
-            .maxBufferSize(LONGEST_FIELD)
+            .maxBufferSize(ParserWording.LONGEST_FIELD)
             .build(row, EndMark(content.reader(before, progress)))
         reader.use { rows -> inLogTerms { for (row in rows) pass.take(row) } }
         return pass.end()
@@ -83,24 +83,11 @@ internal class CsvSurvey internal constructor(
             work()
         } catch (failure: CsvParseException) {
             throw generateSequence<Throwable>(failure) { it.cause }.firstNotNullOfOrNull { it as? LogProblem }
-                ?: parseProblem(failure)
+                ?: ParserWording.of(failure, layout.headerLine, columns.names.size) { line, expected, found ->
+                    problem(line, null, expected, found, null)
+                }
         } catch (_: UncheckedIOException) {
             throw problem(null, null, "a log file", "a file that cannot be read", null)
-        }
-    }
-
-    /** What the parser says, in the words of the log. */
-    private fun parseProblem(failure: CsvParseException): LogProblem {
-        val texts = generateSequence<Throwable>(failure) { it.cause }.map { it.message.orEmpty() }.toList()
-        val read = texts.firstNotNullOfOrNull { LINE.find(it) }?.groupValues?.get(1)?.toLongOrNull()
-        val line = read?.plus(layout.headerLine - 1)
-        return when {
-            texts.any { "closing quote" in it } ->
-                problem(line, null, "a separator after a closing quote", "something else", null)
-            texts.any { "fields" in it } ->
-                problem(line, null, "${columns.names.size} fields as in the header", "far more", null)
-            else ->
-                problem(line, null, "fields of at most $LONGEST_FIELD characters", "longer, or an open quote", null)
         }
     }
 
@@ -381,7 +368,6 @@ internal class CsvSurvey internal constructor(
     }
 
     companion object {
-        private const val LONGEST_FIELD = 1 shl 20
         private const val SUMMARY = "lines that sum up"
         private const val NO_PLACE = "rows without a position"
         private const val LARGEST_METRES = 1e9
@@ -389,7 +375,6 @@ internal class CsvSurvey internal constructor(
         /** The year 5138, or 1973 in milliseconds. */
         private const val LARGEST_SECONDS = 1e11
         private const val MILLIS = 1000
-        private val LINE = Regex("""line (\d+)""")
         private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
 
         // Where a row's numbers are kept; conditions follow.
