@@ -81,17 +81,16 @@ internal class BlindDiagnosis(
             if (round.adjustedCauses.none { it < STRICTER * settings.level }) break
             // That something is there is told by the surest cause, which it is by the likeliest.
             val best = round.causes.filter { it.pValue < settings.level }.maxBy { it.likelier }
-            val at = round.looks.indices.filter { round.adjustedLooks[it] < STRICTER * settings.structureLevel }
-                .maxByOrNull { round.looks[it].worth }
-            val look = at?.let { round.looks[it] }
-            val state = added(round.state, best)
             // What no cause explains comes first where it is far ahead, or the stronger and stays: a cause would be named
             // for its shadow. A response that rings is like many others.
-            val isShadow = look != null && look.worth > best.worth + settings.separation
+            val look = round.strongestLook
+            val ahead = look?.let { round.looks[it].worth - best.worth } ?: Double.NEGATIVE_INFINITY
+            val isShadow = ahead > settings.separation
+            if (look != null && isShadow && ahead > BlindLag.MUCH && !round.isOfWater(look)) break
+            val state = added(round.state, best)
             val isLast = chosen.size + 1 == settings.mostCauses
             val next = if (isShadow || !isLast) round(state) else null
-            val isFarAhead = look != null && !round.isOfWater(at) && look.worth > best.worth + BlindLag.MUCH
-            if (isShadow && (isFarAhead || checkNotNull(next).isStructured)) break
+            if (isShadow && checkNotNull(next).strongestLook != null) break
             chosen += BlindStep(best, round, state)
             if (next != null) {
                 round = next

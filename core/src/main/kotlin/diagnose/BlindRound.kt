@@ -241,17 +241,12 @@ internal class BlindRound(
         val found = here.list.indices.mapTo(ArrayList()) { i ->
             here.trials[i].let { if (here.list[i].ofWater && isBlurred) it.atMost(0.0) else it }
         }
-        val begun = here.list.indices.filter { !here.list[it].isLoose }.map { i ->
+        val tight = here.list.indices.filter { !here.list[it].isLoose }
+        val begun = tight.map { i ->
             listOfNotNull(here to 0.0, onStill?.let { it to state.score - still.score })
                 .map { (looks, lost) -> Begun(looks, i, lost) }.maxBy { it.worth }
         }.filter { it.worth > LIKELY }.sortedByDescending { it.worth }.take(MOST_LOOKS)
-        val quieter = onQuiet?.list?.indices?.filter { !onQuiet.list[it].isLoose }?.map {
-            Begun(
-                onQuiet,
-                it,
-                MADE_UP * deficit,
-            )
-        }.orEmpty()
+        val quieter = onQuiet?.let { looks -> tight.map { Begun(looks, it, MADE_UP * deficit) } }.orEmpty()
             .filter { it.worth > LIKELY && begun.none { other -> other.index == it.index } }
             .maxByOrNull { it.worth }
         val looked = begun + listOfNotNull(quieter)
@@ -284,12 +279,13 @@ internal class BlindRound(
         return tries.settled(begun.look, refitted, best)
     }
 
+    /** The strongest of [looks] at which something is left for certain, by its place; null where nothing is. */
+    val strongestLook: Int?
+        get() = looks.indices.filter { adjustedLooks[it] < BlindDiagnosis.STRICTER * settings.structureLevel }
+            .maxByOrNull { looks[it].worth }
+
     /** Whether the [index]-th of [looks] is at what else the sensor might show of the water. */
     fun isOfWater(index: Int): Boolean = here.list[index].ofWater
-
-    /** Whether something is left for certain. */
-    val isStructured: Boolean
-        get() = adjustedLooks.any { it < BlindDiagnosis.STRICTER * settings.structureLevel }
 
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)

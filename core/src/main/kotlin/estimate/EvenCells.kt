@@ -22,43 +22,46 @@ internal class EvenCells(private val tape: Recording) {
 
     /** Whether they bear it out, or are too few or too much alike to say, where [fit] was chosen. */
     suspend fun areBorneOut(fit: SensorFit): Boolean {
-        val noise = fit.noiseVariance
         tape.spend(tape.size)
-        if (stays() < FEWEST_STAYS || !(variance() > ALIVE * noise)) return true
+        if (stays() < FEWEST_STAYS || !(variance() > ALIVE * fit.noiseVariance)) return true
         return when (fit) {
-            is LagFit -> areBorneOut(ResponseBankKind.DEAD_TIME, ln(fit.timeConstant), 0.0, noise)
-            is ResponseBankFit -> areBorneOut(fit.kind, fit.first, fit.second, noise)
             // A slew limit shows in readings that rest, wherever the borders are.
             is SlewFit -> !leavesTooMuch(fit.varianceWithin)
-            else -> true
+            else -> Middle.of(fit)?.let { areBorneOut(it) } ?: true
         }
+    }
+
+    /** A response that the bank can play: of [kind], with its numbers and the noise's variance. */
+    private class Middle(val kind: ResponseBankKind, val first: Double, val second: Double, val noise: Double) {
+        companion object {
+            /** That of [fit]; null where the bank has none like it. A lag alone is a dead time of nothing. */
+            fun of(fit: SensorFit): Middle? = when (fit) {
+                is LagFit -> Middle(ResponseBankKind.DEAD_TIME, ln(fit.timeConstant), 0.0, fit.noiseVariance)
+                is ResponseBankFit -> Middle(fit.kind, fit.first, fit.second, fit.noiseVariance)
+                else -> null
+            }
+        }
+    }
+
+    /** Plays all readings with [middle], slower or faster by [stretch] on a logarithm's scale. */
+    private suspend fun play(middle: Middle, stretch: Double, isMoved: Boolean) {
+        bank.resetMiddle(middle.kind, middle.first + stretch, middle.second, middle.noise)
+        play(isMoved)
     }
 
     /**
      * Whether the readings of each visit by themselves bear it out, where those of all do not with [fit]: then visits of
      * a cell had different water. What they disagree spoils a fit to all, and it tells nothing of borders.
      */
-    suspend fun areBorneOutByEachVisit(fit: SensorFit): Boolean = when (fit) {
-        is LagFit -> areBorneOutByEachVisit(ResponseBankKind.DEAD_TIME, ln(fit.timeConstant), 0.0, fit.noiseVariance)
-        is ResponseBankFit -> areBorneOutByEachVisit(fit.kind, fit.first, fit.second, fit.noiseVariance)
-        else -> false
-    }
-
-    private suspend fun areBorneOutByEachVisit(
-        kind: ResponseBankKind,
-        first: Double,
-        second: Double,
-        noise: Double,
-    ): Boolean {
+    suspend fun areBorneOutByEachVisit(fit: SensorFit): Boolean {
+        val middle = Middle.of(fit) ?: return false
         most = Double.POSITIVE_INFINITY
         var here = Double.POSITIVE_INFINITY
         var moved = Double.POSITIVE_INFINITY
         for (stretch in STRETCHES) {
-            bank.resetMiddle(kind, first + stretch, second, noise)
-            play(isMoved = false)
+            play(middle, stretch, isMoved = false)
             here = minOf(here, bank.varianceWithin)
-            bank.resetMiddle(kind, first + stretch, second, noise)
-            play(isMoved = true)
+            play(middle, stretch, isMoved = true)
             moved = minOf(moved, bank.varianceWithin)
         }
         return moved > CLEARLY_WORSE * here
@@ -113,20 +116,13 @@ internal class EvenCells(private val tape: Recording) {
         return within > (1 + DEVIATIONS / sqrt(count.toDouble())) * scatter
     }
 
-    private suspend fun areBorneOut(
-        kind: ResponseBankKind,
-        first: Double,
-        second: Double,
-        noise: Double,
-    ): Boolean {
+    private suspend fun areBorneOut(middle: Middle): Boolean {
         most = Double.POSITIVE_INFINITY
-        bank.resetMiddle(kind, first, second, noise)
-        play(isMoved = false)
+        play(middle, stretch = 0.0, isMoved = false)
         if (leavesTooMuch(bank.varianceWithin)) return false
         most = WORSE * bank.misfit(0)
         for (stretch in STRETCHES) {
-            bank.resetMiddle(kind, first + stretch, second, noise)
-            play(isMoved = true)
+            play(middle, stretch, isMoved = true)
             if (!isWorse()) return false
         }
         return true

@@ -17,11 +17,11 @@ import kotlin.test.assertTrue
 
 class BlindDiagnosisTest {
     private val n = 900
+    private val track = CrossingTrack(n)
 
-    /** A way that crosses itself often, in all directions, at up to 1 m/s. */
-    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
-    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
-    private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) + sin((x[it] + y[it]) / 7) }
+    private val x = track.x
+    private val y = track.y
+    private val truth = track.truth
 
     private fun log(vararg stages: SensorStage, scale: Double = 1.0): MeasuredSeries {
         val sensor = SensorSpec("hidden", stages.toList() + SensorStage.Noise(0.004)).build(truth[0], Random(7))

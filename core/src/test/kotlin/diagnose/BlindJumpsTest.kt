@@ -10,9 +10,10 @@ import kotlin.test.assertTrue
 /** Jumps of the readings beside noise that wanders: they show at their own rows alone. */
 class BlindJumpsTest {
     private val n = 900
-    private val times = DoubleArray(n) { it.toDouble() }
-    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
-    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
+    private val track = CrossingTrack(n)
+    private val times = track.times
+    private val x = track.x
+    private val y = track.y
 
     /** The best jumps on top of a lag of 4 s, of readings off by [offset] in the middle third of the log. */
     private fun jumps(offset: Double): BlindTrial {

@@ -15,12 +15,12 @@ import kotlin.test.assertTrue
 /** What a log without a reference can show and the waves of the water would hide, and what it cannot. */
 class BlindLimitsTest {
     private val n = 900
-    private val times = DoubleArray(n) { it.toDouble() }
+    private val track = CrossingTrack(n)
+    private val times = track.times
 
-    /** A way that crosses itself often, in all directions, at up to 1 m/s. */
-    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
-    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
-    private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) + sin((x[it] + y[it]) / 7) }
+    private val x = track.x
+    private val y = track.y
+    private val truth = track.truth
 
     private fun readings(vararg stages: SensorStage): DoubleArray {
         val sensor = SensorSpec("hidden", stages.toList()).build(truth[0], Random(7))

@@ -5,7 +5,6 @@ import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.PI
 import kotlin.math.cos
-import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
@@ -16,10 +15,11 @@ import kotlin.test.assertTrue
 
 class BlindLooksTest {
     private val n = 700
-    private val times = DoubleArray(n) { it.toDouble() }
-    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
-    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
-    private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) + sin((x[it] + y[it]) / 7) }
+    private val track = CrossingTrack(n)
+    private val times = track.times
+    private val x = track.x
+    private val y = track.y
+    private val truth = track.truth
     private val lagged = run {
         val sensor = SensorSpec(
             "hidden",

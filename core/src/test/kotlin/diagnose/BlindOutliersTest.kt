@@ -13,9 +13,10 @@ import kotlin.test.assertTrue
 /** Outliers of which few are far enough off to be told by themselves. */
 class BlindOutliersTest {
     private val n = 900
-    private val times = DoubleArray(n) { it.toDouble() }
-    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
-    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
+    private val track = CrossingTrack(n)
+    private val times = track.times
+    private val x = track.x
+    private val y = track.y
     private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) }
 
     /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them [off], by up to 0.14. */

@@ -12,8 +12,9 @@ import kotlin.test.assertTrue
 
 class FinerWavesTest {
     private val n = 400
-    private val x = DoubleArray(n) { 15 * sin(it / 19.0) }
-    private val y = DoubleArray(n) { 15 * sin(it / 25.0 + 1) }
+    private val track = CrossingTrack(n)
+    private val x = track.x
+    private val y = track.y
     private val series = run {
         val truth = DoubleArray(n) { sin(x[it] / 2) + sin(y[it] / 3 + 1) }
         val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(0.01))
