@@ -64,6 +64,15 @@ internal class MisfitRidge {
         offset = minOf(abs(third) / (6 * far), MOST_OFFSET)
     }
 
+    /** Misfit to [tape] of a sensor of [kind] at a pair of parameters, to be compared with another kind's. */
+    suspend fun compare(tape: Recording, kind: ResponseBankKind, first: Double, second: Double, noise: Double): Double {
+        bank.comparesKinds = true
+        bank.resetMiddle(kind, first, second, noise)
+        bank.comparesKinds = false
+        tape.play(bank)
+        return bank.misfit(0)
+    }
+
     private companion object {
         const val REACH = 2
         const val MOST_RATIO = 2.0

@@ -29,6 +29,7 @@ internal class ResponseBank : ReadingPlayer {
     private var lastSeconds = Double.NaN
     private var nodes = NODES
     private var priorVariance = 1.0
+    private var visitVariance = 1.0
     private var stateBefore = 0.0
 
     /** What kind of sensor the filters assume. */
@@ -50,6 +51,9 @@ internal class ResponseBank : ReadingPlayer {
     /** Distance of the outer filters in the second parameter. */
     var secondStep: Double = 1.0
         private set
+
+    /** Whether visits begin with the prior that all kinds have in common, so that their misfits compare, from [reset] on. */
+    var comparesKinds: Boolean = false
 
     /** Readings, and agreements between visits, beyond the numbers fitted to them. */
     var freedom: Double = 0.0
@@ -95,7 +99,9 @@ internal class ResponseBank : ReadingPlayer {
                 bank.set(i, branch, kind.timeConstant(one, other, branch), kind.secondLag(one, other))
             }
         }
-        bank.clear(priorVariance)
+        val flatness = if (comparesKinds) 1.0 else kind.flatness
+        visitVariance = maxOf(priorVariance, minOf(flatness * priorVariance, 1 / LagBank.LEAST_RATIO))
+        bank.clear(visitVariance)
         memory.fill(0.0)
         freedom = 0.0
         pooledMisfit = 0.0
@@ -215,11 +221,11 @@ internal class ResponseBank : ReadingPlayer {
     /** The information on the truth of the cell with [slot] at filter [i], over the noise's variance. */
     fun information(slot: Int, i: Int): Double {
         var information = if (isPooled(slot)) memory[slot * SLOT + 2 * i + 1] else 0.0
-        val own = 1 / priorVariance
+        val own = 1 / visitVariance
         val branch = branch()
         if (slot == current[i]) information += 1 / bank.variance(i, branch) - own
         if (slot == previous[i]) information += 1 / bank.varianceBefore(i, branch) - own
-        return information + own
+        return information + 1 / priorVariance
     }
 
     private fun isPooled(slot: Int) = (slot + 1) * SLOT <= memory.size && memory[slot * SLOT + 1] > 0
@@ -231,7 +237,7 @@ internal class ResponseBank : ReadingPlayer {
         val at = slot * SLOT + 2 * i
         val spread = if (before) bank.varianceBefore(i, 0) else bank.variance(i, 0)
         val mean = if (before) bank.truthBefore(i, 0) else bank.truth(i, 0)
-        val information = maxOf(1 / spread - 1 / priorVariance, LEAST_INFORMATION)
+        val information = maxOf(1 / spread - 1 / visitVariance, LEAST_INFORMATION)
         val truth = mean / spread / information
         val known = memory[at + 1]
         if (known > 0) {

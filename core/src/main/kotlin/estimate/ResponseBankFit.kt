@@ -28,6 +28,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     /** Variance of the second, in its steps squared. */
     private var spreadSecond = 1.0
 
+    /** How far above [placeSecond] the middle of the second's interval lies, in its steps. */
+    private var leanSecond = 0.0
+
     /** What is assumed of the sensor. */
     var kind: ResponseBankKind = ResponseBankKind.ASYMMETRIC
 
@@ -86,6 +89,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         placeFirst = other.placeFirst
         placeSecond = other.placeSecond
         spreadSecond = other.spreadSecond
+        leanSecond = other.leanSecond
         ridge.becomeLike(other.ridge)
         startFirst = other.startFirst
         startSecond = other.startSecond
@@ -134,7 +138,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
             val isStill = changeFirst * changeFirst * curveFirst <= CLOSE * firstStep * firstStep &&
                 changeSecond * changeSecond * curveSecond <= CLOSE * reach * reach
             val isNarrow = firstStep <= 2 * wantedFirst && reach <= 2 * wantedSecond
-            if (isStill && isNarrow) return
+            // No bank's step is wider than half of what its second parameter can be.
+            val isWide = 2 * firstStep >= wantedFirst && 2 * reach >= minOf(wantedSecond, (most - kind.least) / 2)
+            if (isStill && isNarrow && isWide) return
             startFirst += changeFirst
             startSecond = bank.second + changeSecond
             firstStep = narrowed(firstStep, abs(changeFirst), wantedFirst)
@@ -177,9 +183,17 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         noiseVariance = lag.noiseVariance
         // Two lags are looked at where the shorter is a little, with the sum that the one has.
         startFirst = ln(lag.timeConstant) + kind.bend(GLANCE * widest())
+        bank.comparesKinds = true
         play(tape, minOf(WIDEST_FIRST, 2 * lag.relativeUncertainty), GLANCE * widest())
+        bank.comparesKinds = false
         learn()
         return (lag.misfit - misfit) / lag.noiseVariance
+    }
+
+    /** The [misfit] to [tape] that it would have with the prior of all kinds. */
+    suspend fun comparableMisfit(tape: Recording): Double {
+        if (kind.flatness == 1.0) return misfit
+        return ridge.compare(tape, kind, first, second, noiseVariance) + FIRST_FREEDOM * FIRST_NOISE * FIRST_NOISE
     }
 
     private fun widest(): Double = when (kind) {
@@ -299,6 +313,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         curveBoth = (surface.curveBoth * scale).coerceIn(-tied, tied)
         spreadSecond = curveFirst / determinant()
         placeSecond = (curveFirst * slopeSecond - curveBoth * slopeFirst) / determinant()
+        leanSecond = 0.0
         truncate((kind.least - bank.second) / bank.secondStep, (most - bank.second) / bank.secondStep)
         placeSecond = placeSecond.coerceIn(-FARTHEST, FARTHEST)
         placeFirst = ((slopeFirst - curveBoth * placeSecond) / curveFirst).coerceIn(-FARTHEST, FARTHEST)
@@ -324,6 +339,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         var sum = 0.0
         var first = 0.0
         var second = 0.0
+        var shares = 0.0
+        var byShare = 0.0
+        var edge = sqrt(maxOf(0.0, high - from))
         for (k in 0 until PARTS) {
             val x = from + (k + HALF) * width
             val off = (x - placeSecond) / deviation
@@ -331,9 +349,16 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
             sum += weight
             first += weight * x
             second += weight * x * x
+            // The share of the shorter lag goes like the root of what is left to the end.
+            val next = sqrt(maxOf(0.0, high - from - (k + 1) * width))
+            shares += weight * (edge - next)
+            byShare += weight * (edge - next) * x
+            edge = next
         }
-        placeSecond = first / sum
-        spreadSecond = maxOf(second / sum - placeSecond * placeSecond, width * width / 12)
+        val middle = first / sum
+        spreadSecond = maxOf(second / sum - middle * middle, width * width / 12)
+        placeSecond = if (kind == ResponseBankKind.SECOND_ORDER) byShare / shares else middle
+        leanSecond = middle - placeSecond
     }
 
     private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
@@ -350,6 +375,13 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         val byRidge = bySecond - tilt * byFirst
         return noiseVariance / bank.information(asked, 0) + byFirst * byFirst * certain(1 / curveFirst) +
             byRidge * byRidge * alongRidge
+    }
+
+    override fun lean(): Double {
+        if (leanSecond == 0.0) return 0.0
+        val byFirst = surface.slopeFirst + surface.curveFirst * placeFirst + surface.curveBoth * placeSecond
+        val bySecond = surface.slopeSecond + surface.curveSecond * placeSecond + surface.curveBoth * placeFirst
+        return leanSecond * (bySecond - tilt * byFirst)
     }
 
     private companion object {

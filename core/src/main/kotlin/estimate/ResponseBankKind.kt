@@ -13,12 +13,15 @@ import kotlin.math.sqrt
  * @property branches how many ways a visit can go: rising and falling, where they differ.
  * @property least smallest second parameter.
  * @property most largest second parameter.
+ * @property flatness variance of the prior with which a visit's truth begins, over that of a cell's; see "Second order"
+ *   in core/docs/SelfCalibratingEstimator.md.
  */
 internal enum class ResponseBankKind(
     val lags: Int,
     val branches: Int,
     val least: Double,
     val most: Double,
+    val flatness: Double = 1.0,
 ) {
     /** Second parameter: a = ln(τ rising / τ falling); the first is the mean of their logarithms. */
     ASYMMETRIC(lags = 1, branches = 2, least = -4.0, most = 4.0),
@@ -30,7 +33,7 @@ internal enum class ResponseBankKind(
      * Two lags in a row; second parameter: p, the product of their time constants over the square of their sum T.
      * First: ln T + 0.9 ln 4p, because readings tell that better than ln T; below [STRAIGHT] on in a straight line.
      */
-    SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25),
+    SECOND_ORDER(lags = 2, branches = 1, least = 0.0, most = 0.25, flatness = 100.0),
     ;
 
     /** Logarithm of the time constant, s, or of its mean or sum. */

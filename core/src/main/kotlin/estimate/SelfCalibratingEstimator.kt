@@ -216,15 +216,17 @@ public class SelfCalibratingEstimator(
         val active = choice.active
         val value = middle + scale * active.truth(slot)
         val reach = scale * quantile(active) * sqrt(active.variance())
-        var lower = value - reach
-        var upper = value + reach
+        val lean = scale * active.lean()
+        var lower = minOf(value, value + lean - reach)
+        var upper = maxOf(value, value + lean + reach)
         val rival = choice.rival
         if (rival != null) {
             // Where two models are possible the bounds hold what either says.
             val other = middle + scale * rival.truth(slot)
             val otherReach = scale * quantile(rival) * sqrt(rival.variance())
-            lower = minOf(lower, other - otherReach)
-            upper = maxOf(upper, other + otherReach)
+            val otherLean = scale * rival.lean()
+            lower = minOf(lower, other, other + otherLean - otherReach)
+            upper = maxOf(upper, other, other + otherLean + otherReach)
         }
         // What is not a number came of numbers too large to square: the cell keeps what it had.
         if (!lower.isFinite() || !upper.isFinite()) return

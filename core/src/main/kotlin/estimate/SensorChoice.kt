@@ -150,8 +150,9 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         fit.calibrate(tape)
         if (fit is SlewFit && !fit.moves) return Double.NaN
         // The same number of readings for all: a truth never reached is not fitted.
+        if (fit is ResponseBankFit) return lag.freedom * ln(fit.comparableMisfit(tape)) + 2 * penalty
         val left = fit.misfit * if (fit is SlewFit) lag.freedom / fit.freedom else 1.0
-        return lag.freedom * ln(left) + if (fit is ResponseBankFit) 2 * penalty else penalty
+        return lag.freedom * ln(left) + penalty
     }
 
     private fun isPossible(k: Int) = odds[k] < POSSIBLE && fits[k].isWhite

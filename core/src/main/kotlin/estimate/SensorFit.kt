@@ -52,6 +52,12 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
     /** Variance of the [truth] last asked for, what the parameters and the noise leave open included. */
     abstract fun variance(): Double
 
+    /**
+     * How far above the [truth] last asked for the middle of its interval lies: not 0 where a parameter may be at the end
+     * of what it can be.
+     */
+    open fun lean(): Double = 0.0
+
     /** Judged as [other] was. */
     protected fun judgeAs(other: SensorFit) {
         noiseVariance = other.noiseVariance
