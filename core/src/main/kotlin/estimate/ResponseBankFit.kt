@@ -10,6 +10,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private val bank = ResponseBank()
     private val surface = QuadraticSurface()
     private val ridge = MisfitRidge()
+    private val cut = CutParameter()
 
     /** The cell whose truth was last asked for, which the surface shows then. */
     private var asked = LagBank.NONE
@@ -327,38 +328,12 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         )
     }
 
-    /** Mean and variance of the second parameter, which lies between [low] and [high] for certain; eq. (17). */
+    /** The second parameter lies between [low] and [high] for certain; eq. (16). */
     private fun truncate(low: Double, high: Double) {
-        val deviation = sqrt(spreadSecond)
-        if (placeSecond - low > CERTAIN * deviation && high - placeSecond > CERTAIN * deviation) return
-        val nearest = (placeSecond.coerceIn(low, high) - placeSecond) / deviation
-        // Far out in its tail the normal density falls by e within a deviation over the distance in deviations.
-        val reach = CERTAIN * deviation / if (abs(nearest) > CERTAIN) abs(nearest) else 1.0
-        val from = maxOf(low, minOf(placeSecond, high) - reach)
-        val width = (minOf(high, maxOf(placeSecond, low) + reach) - from) / PARTS
-        var sum = 0.0
-        var first = 0.0
-        var second = 0.0
-        var shares = 0.0
-        var byShare = 0.0
-        var edge = sqrt(maxOf(0.0, high - from))
-        for (k in 0 until PARTS) {
-            val x = from + (k + HALF) * width
-            val off = (x - placeSecond) / deviation
-            val weight = exp((nearest * nearest - off * off) / 2)
-            sum += weight
-            first += weight * x
-            second += weight * x * x
-            // The share of the shorter lag goes like the root of what is left to the end.
-            val next = sqrt(maxOf(0.0, high - from - (k + 1) * width))
-            shares += weight * (edge - next)
-            byShare += weight * (edge - next) * x
-            edge = next
-        }
-        val middle = first / sum
-        spreadSecond = maxOf(second / sum - middle * middle, width * width / 12)
-        placeSecond = if (kind == ResponseBankKind.SECOND_ORDER) byShare / shares else middle
-        leanSecond = middle - placeSecond
+        if (!cut.take(placeSecond, spreadSecond, low, high)) return
+        spreadSecond = cut.variance
+        placeSecond = if (kind == ResponseBankKind.SECOND_ORDER) cut.meanByShare else cut.mean
+        leanSecond = cut.mean - placeSecond
     }
 
     private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
@@ -401,32 +376,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         const val FIRST_STEP = 0.3
         const val HALVINGS = 5
         const val GLANCE = 0.3
-        const val CERTAIN = 5.0
-        const val PARTS = 48
-        const val HALF = 0.5
         const val MOST_BELOW = 8.0
         const val EXACT = 0.125
         const val CLOSE = 0.03
         const val MOST_ROUNDS = 10
     }
-}
-
-/** The quadratic through the seven numbers of a [ResponseBank], in steps from its middle. */
-internal class QuadraticSurface {
-    private val numbers = DoubleArray(ResponseBank.NODES)
-
-    fun set(i: Int, number: Double) {
-        numbers[i] = number
-    }
-
-    val slopeFirst: Double get() = (numbers[2] - numbers[1]) / 2
-    val slopeSecond: Double get() = (numbers[4] - numbers[3]) / 2
-    val curveFirst: Double get() = numbers[2] - 2 * numbers[0] + numbers[1]
-    val curveSecond: Double get() = numbers[4] - 2 * numbers[0] + numbers[3]
-    val curveBoth: Double
-        get() = (numbers[6] + numbers[5] - numbers[1] - numbers[2] - numbers[3] - numbers[4]) / 2 + numbers[0]
-
-    fun at(first: Double, second: Double): Double =
-        numbers[0] + first * (slopeFirst + curveFirst * first / 2 + curveBoth * second) +
-            second * (slopeSecond + curveSecond * second / 2)
 }
