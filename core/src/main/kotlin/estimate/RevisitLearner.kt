@@ -128,16 +128,19 @@ public class RevisitLearner private constructor(
 
     /**
      * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect
-     * on the score would otherwise hide that of a dead time.
+     * on the score would otherwise hide that of a dead time. As far back as ahead, because values that are taken later
+     * at the same places look like a sensor that much quicker.
      */
     private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
         even.correct(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }), corrected)
         val scores = DoubleArray(found.size)
-        val shifts = -((thinning - 1) / 2)..thinning / 2
-        for (shift in shifts) {
+        val farthest = thinning / 2
+        for (shift in -farthest..farthest) {
+            // Of an even number of readings the shift by half of them, either way, is the same nodes one further.
+            val share = if (2 * abs(shift) == thinning) HALF else 1.0
             nodes.means(corrected, values, shift)
             likelihood.take(values)
-            for (block in scores.indices) scores[block] += likelihood.score(block, amplitude) / thinning
+            for (block in scores.indices) scores[block] += share * likelihood.score(block, amplitude) / thinning
         }
         return scores
     }
@@ -160,6 +163,7 @@ public class RevisitLearner private constructor(
         }
 
         private const val NODES_A_DELAY = 2.0
+        private const val HALF = 0.5
 
         private const val TARGET_NODES = 1500
         private const val MOST_BLOCKS = 150

@@ -78,6 +78,17 @@ class TrackCorrectionTest {
         assertFalse(found.open.any { it.kind == ResponseKind.ASYMMETRIC }, "the sensor is symmetric")
     }
 
+    /** Two readings a node: shifts of nodes to one side only would make all delays short by half a reading. */
+    @Test
+    fun deadTimeIsFoundToAFractionOfAReading() {
+        val found = (51..53).map { seed ->
+            val log = LawnmowerLog(seed, listOf(SensorStage.Delay(4.0)))
+            checkNotNull(RevisitLearner.of(log.series).candidate(ResponseKind.DEAD_TIME)).parameters[0]
+        }
+        // Three standard errors of the mean, of 0.15 s each log.
+        assertEquals(4.0, found.average(), 0.26, "$found")
+    }
+
     @Test
     fun noLagIsNotRuledOutWhereThereIsNone() {
         val found = choice(LawnmowerLog(seed = 12, emptyList(), legs = 8))
