@@ -108,18 +108,21 @@ internal class PhaseCorrection(private val series: TrackSeries) {
         stretch.fourier.transform(stretch.re, stretch.im, backwards = false)
     }
 
-    /** The readings with the phase of [response] given back, into [out], length [size]. Modified. */
-    fun correct(response: Response, out: DoubleArray) {
-        for (stretch in stretches) correct(stretch, response, out)
+    /**
+     * The readings with the phase of [response] given back, and [earlier], s, of either sign, on top of its dead time,
+     * into [out], length [size]. Modified.
+     */
+    fun correct(response: Response, out: DoubleArray, earlier: Double = 0.0) {
+        for (stretch in stretches) correct(stretch, response, out, earlier)
     }
 
-    private fun correct(stretch: Stretch, response: Response, out: DoubleArray) {
+    private fun correct(stretch: Stretch, response: Response, out: DoubleArray, earlier: Double) {
         val n = stretch.fourier.size
         val isOneSided = response.lags.any { it.rising != it.falling }
         if (isOneSided) slopes(stretch)
         for (k in 0 until n) {
             val omega = frequency(k, n)
-            val phase = phase(response, omega)
+            val phase = omega * earlier + phase(response, omega)
             // The turn at the highest frequency would not be a real number's.
             val c = cos(phase)
             val s = if (2 * k == n) 0.0 else sin(phase)
@@ -130,7 +133,7 @@ internal class PhaseCorrection(private val series: TrackSeries) {
         stretch.fourier.transform(stretch.workRe, stretch.workIm, backwards = true)
         for (i in 0 until stretch.size) {
             out[stretch.begin + i] = stretch.workRe[i] / n + stretch.offset +
-                stretch.slope * (i * step + response.meanDelay)
+                stretch.slope * (i * step + response.meanDelay + earlier)
         }
     }
 

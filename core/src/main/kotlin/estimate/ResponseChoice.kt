@@ -111,8 +111,7 @@ public class ResponseChoice private constructor(
 
         private fun isToldFrom(rich: CandidateResponse, other: CandidateResponse): Boolean {
             val ofSlowPath = rich.kind.parameters.indices.filter { rich.kind.isBelieved(it) }
-            return ofSlowPath.isNotEmpty() && ofSlowPath.all { rich.relativeErrors[it] < ResponseKind.BELIEVED } &&
-                isAhead(rich, other, AHEAD)
+            return ofSlowPath.all { rich.relativeErrors[it] < ResponseKind.BELIEVED } && isAhead(rich, other, AHEAD)
         }
 
         private fun isAhead(one: CandidateResponse, other: CandidateResponse, errors: Double): Boolean {

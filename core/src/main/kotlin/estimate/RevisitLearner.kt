@@ -128,18 +128,48 @@ public class RevisitLearner private constructor(
 
     /**
      * One score a block, the mean over small shifts either way: which readings share a node is chance, and its effect
-     * on the score would otherwise hide that of a dead time.
+     * on the score would otherwise hide that of a dead time. As far back as ahead, because values that are taken later
+     * at the same places look like a sensor that much quicker.
      */
-    private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
-        even.correct(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }), corrected)
+    private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray =
+        scores(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }))
+
+    private fun scores(response: Response, earlier: Double = 0.0): DoubleArray {
+        even.correct(response, corrected, earlier)
         val scores = DoubleArray(found.size)
-        val shifts = -((thinning - 1) / 2)..thinning / 2
-        for (shift in shifts) {
+        val farthest = thinning / 2
+        for (shift in -farthest..farthest) {
+            // Of an even number of readings the shift by half of them, either way, is the same nodes one further.
+            val share = if (2 * abs(shift) == thinning) HALF else 1.0
             nodes.means(corrected, values, shift)
             likelihood.take(values)
-            for (block in scores.indices) scores[block] += likelihood.score(block, amplitude) / thinning
+            for (block in scores.indices) scores[block] += share * likelihood.score(block, amplitude) / thinning
         }
         return scores
+    }
+
+    /**
+     * By how much the delay of single runs of the track scatters about that of [response], s, beyond a step, which a
+     * boat's fixes and its clock may be off: a lag that changes with the flow, the temperature or the slope of the
+     * water does that, one that is always the same does not. 0 where nothing was learned.
+     *
+     * Each block's delay is normal about the response's, its deviation the likeliest one of some; see
+     * core/docs/TrackCorrection.md, (7b).
+     */
+    public fun unevenness(response: Response): Double {
+        if (found.isEmpty()) return 0.0
+        val at = scores(response)
+        fun total(deviation: Double): Double {
+            val each = HERMITE.map { (place, weight) -> weight to scores(response, place * deviation) }
+            return at.indices.sumOf { block ->
+                val others = each.sumOf { (weight, moved) -> weight * exp(minOf(moved[block] - at[block], MOST_LOG)) }
+                ln(HERMITE_MIDDLE + others)
+            }
+        }
+        val deviations = List(DEVIATIONS) { even.step * Math.pow(DEVIATION_FACTOR, it.toDouble()) }
+        // The first is what fixes may be off by.
+        val likeliest = deviations.maxBy(::total)
+        return sqrt(BOTH_MOVED * (likeliest * likeliest - even.step * even.step))
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
@@ -159,7 +189,21 @@ public class RevisitLearner private constructor(
             return if (learner.blocks > 0 && finer < thinning) RevisitLearner(even, finer) else learner
         }
 
+        /** Gauss and Hermite's rule of five places for a normal distribution; the middle one's weight by itself. */
+        private val HERMITE = listOf(
+            -2.856970013872806 to 0.011257411327721,
+            -1.355626179974266 to 0.222075922005613,
+            1.355626179974266 to 0.222075922005613,
+            2.856970013872806 to 0.011257411327721,
+        )
+        private const val HERMITE_MIDDLE = 0.533333333333333
+        private const val DEVIATIONS = 14
+        private const val DEVIATION_FACTOR = 1.25
+
+        /** A block and two passes the other way, each late by itself, look as if all were late by √(3/8) of that. */
+        private const val BOTH_MOVED = 8.0 / 3
         private const val NODES_A_DELAY = 2.0
+        private const val HALF = 0.5
 
         private const val TARGET_NODES = 1500
         private const val MOST_BLOCKS = 150

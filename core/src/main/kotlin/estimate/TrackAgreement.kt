@@ -32,10 +32,13 @@ public class TrackAgreement private constructor(
     public val isContradicted: Boolean get() = ratio > 1 + SURE * error && (lateness > 0 || spread > 0)
 
     /** [track] with intervals that [lateness] and [spread] are in; as it is unless it [isContradicted]. */
-    public fun widened(track: CorrectedTrack): CorrectedTrack {
-        if (!isContradicted) return track
+    public fun widened(track: CorrectedTrack): CorrectedTrack =
+        if (isContradicted) widened(track, lateness, spread) else track
+
+    /** [track] with intervals that hold times wrong by [late], s, and values wrong by [wide], sensor units, as well. */
+    public fun widened(track: CorrectedTrack, late: Double, wide: Double = 0.0): CorrectedTrack {
         fun wider(half: Double, row: Int): Double {
-            val more = lateness * lateness * slopes[row] * slopes[row] + spread * spread
+            val more = late * late * slopes[row] * slopes[row] + wide * wide
             return sqrt(half * half + TWO_SIDED * TWO_SIDED * more)
         }
         val n = track.values.size

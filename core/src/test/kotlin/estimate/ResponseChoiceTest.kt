@@ -44,6 +44,15 @@ class ResponseChoiceTest {
     }
 
     @Test
+    fun anAsymmetricLagStaysOpenBesideALagThatItForetellsBetterThan() {
+        val kinds = setOf(ResponseKind.FIRST_ORDER, ResponseKind.ASYMMETRIC)
+        assertEquals(kinds, open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 5.0)))
+        assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 7.0)))
+        assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, candidate(ResponseKind.ASYMMETRIC, 100.1, 0.0)))
+        assertEquals(setOf(ResponseKind.ASYMMETRIC), open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 0.5)))
+    }
+
+    @Test
     fun aSlowPathThatIsToldTooWeaklyToStayOpenIsHintedAt() {
         fun hinted(vararg of: CandidateResponse) = ResponseChoice.of(of.toList(), Random(1)).hinted?.kind
         val level = candidate(ResponseKind.TWO_PATH, 100.1, 0.0)
@@ -58,11 +67,6 @@ class ResponseChoiceTest {
         val undone = requireNotNull(ResponseChoice.of(listOf(lag, level), Random(1)).likelyHint()).responses
         assertTrue(undone.all { it.slowShare > 0 }, "$undone")
         assertEquals(null, ResponseChoice.of(listOf(lag), Random(1)).likelyHint())
-    }
-
-    @Test
-    fun asymmetryGivesWayToALagThatIsNotRuledOut() {
-        assertEquals(setOf(ResponseKind.FIRST_ORDER), open(lag, candidate(ResponseKind.ASYMMETRIC, 102.0, 3.0)))
     }
 
     @Test

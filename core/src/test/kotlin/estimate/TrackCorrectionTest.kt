@@ -78,6 +78,44 @@ class TrackCorrectionTest {
         assertFalse(found.open.any { it.kind == ResponseKind.ASYMMETRIC }, "the sensor is symmetric")
     }
 
+    /** Two readings a node: shifts of nodes to one side only would make all delays short by half a reading. */
+    @Test
+    fun deadTimeIsFoundToAFractionOfAReading() {
+        val found = (51..53).map { seed ->
+            val log = LawnmowerLog(seed, listOf(SensorStage.Delay(4.0)))
+            checkNotNull(RevisitLearner.of(log.series).candidate(ResponseKind.DEAD_TIME)).parameters[0]
+        }
+        // Three standard errors of the mean, of 0.15 s each log.
+        assertEquals(4.0, found.average(), 0.26, "$found")
+    }
+
+    /** [log] as a sensor shows it that is [late] seconds behind, by the time. */
+    private fun delayed(log: LawnmowerLog, late: (Double) -> Double): TrackSeries {
+        val of = log.series
+        return TrackSeries(
+            of.times,
+            of.xs,
+            of.ys,
+            DoubleArray(of.size) {
+                of.values[maxOf(0, (it - late(it.toDouble())).toInt())]
+            },
+        )
+    }
+
+    @Test
+    fun delaysThatDifferAlongTheTrackAreTold() {
+        val log = LawnmowerLog(seed = 61, emptyList())
+        fun unevenness(late: (Double) -> Double): Double {
+            val learner = RevisitLearner.of(delayed(log, late))
+            return learner.unevenness(checkNotNull(learner.candidate(ResponseKind.DEAD_TIME)).response)
+        }
+        val same = unevenness { 6.0 }
+        assertTrue(same < 1.5, "$same")
+        // Between 2 and 10 s: a standard deviation of 2.8 s.
+        val changing = unevenness { 6 + 4 * sin(it / 60) }
+        assertTrue(changing in 2.0..5.0, "$changing")
+    }
+
     @Test
     fun noLagIsNotRuledOutWhereThereIsNone() {
         val found = choice(LawnmowerLog(seed = 12, emptyList(), legs = 8))

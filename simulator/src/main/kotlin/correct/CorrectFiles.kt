@@ -126,6 +126,8 @@ class CorrectFiles(
             put("lateness_s", finite(result.agreement.lateness))
             put("spread", finite(result.agreement.spread))
             put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
+            put("unevenness_s", finite(result.learned.unevenness))
+            put("widened_for_unevenness", result.isWidenedForUnevenness)
         }
         result.margin?.let {
             putJsonObject("reference") {
@@ -256,8 +258,12 @@ class CorrectFiles(
                 "that the sensor has smoothed away is not made up but left open in the interval.",
             "A limit on the rate of change is recognised only where readings often run at just that rate, both ways: " +
                 "noise of a quarter to a half of a second's largest change hides it. Then a lag is learned in its " +
-                "place, and the intervals cover far less than 95 %. A sensor known to be rate limited is better " +
-                "given with --sensor.",
+                "place, and the intervals cover less than 95 %. A sensor known to be rate limited is better " +
+                "given with --sensor. A lag before a limit that was found is learned from what the sensor would show " +
+                "without it.",
+            "Where the track does not cross itself, delays of single runs are held against that of the response: " +
+                "what they scatter by beyond a row's time, which fixes may be off, widens the intervals where the " +
+                "water changes along the track.",
             "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
                 "and its interval reaches to the reading. Of a reading at an end of the sensor's range it is known " +
                 "that the sensor was there or beyond.",

@@ -10,6 +10,7 @@ import stillwater.estimate.CandidateResponse
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.UndoableSensor
+import stillwater.sensor.SensorStage
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
 import stillwater.survey.Wording.Companion.percent
@@ -41,11 +42,21 @@ internal class CorrectSummary(
                 result.origin == SensorOrigin.NOTHING ->
                     "not learned: nothing in the log shows it; taken as without lag"
                 choice == null -> stages().ifEmpty { "without lag" }
-                different.size > 1 ->
-                    "cannot be told apart on this log: " + different.joinToString("; ", transform = ::words)
-                else -> words(different.single())
+                result.origin == SensorOrigin.RATE -> "${limit()}; before it: $open"
+                else -> open
             }
         }
+
+    private val open: String
+        get() = different.joinToString("; ", transform = ::words).let {
+            if (different.size > 1) "cannot be told apart on this log: $it" else it
+        }
+
+    /** The rate limit, in words. */
+    private fun limit(): String {
+        val limit = result.spec.stages.filterIsInstance<SensorStage.Slew>().first()
+        return "slew-limit: rate per s ${digits(limit.rate, 3)}"
+    }
 
     /** What is open, but for responses whose further part is none, so that they are others over again. */
     private val different: List<CandidateResponse> = result.choice?.open.orEmpty().let { open ->

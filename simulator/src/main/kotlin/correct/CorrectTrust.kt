@@ -15,11 +15,15 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     private val isContradicted = agreement.isContradicted && result.learned.stillBoat == null
     private val isWidened = isContradicted && result.origin != SensorOrigin.GIVEN
 
+    private val isUneven = result.isWidenedForUnevenness
+
     /** What the track says of the intervals, for the facts. */
     val words: String
         get() = when {
             result.origin == SensorOrigin.NOTHING ->
                 "if the sensor has no lag" + if (isWidened) ", widened by what passes disagree in ${places()}" else ""
+            isUneven ->
+                "widened by how unevenly late passes beside each other are; else not checked, for ${crossings()}"
             agreement.ratio.isNaN() -> "not checked, for ${crossings()}"
             isWidened -> "widened by what passes disagree in ${places()}"
             isContradicted -> "passes disagree by more in ${places()}"
@@ -41,7 +45,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     /** What the user should know, one line each. */
     val warnings: List<String>
-        get() = listOfNotNull(misfit(), contradicted(), unchecked(), limited())
+        get() = listOfNotNull(misfit(), contradicted(), uneven(), unchecked(), limited())
 
     /** The reference knows better than the intervals. */
     private fun misfit(): String? {
@@ -72,16 +76,28 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
         }
     }
 
+    /** What passes beside each other say of a response that is not the same everywhere. */
+    private fun uneven(): String? {
+        if (!isUneven) return null
+        return "no response tried is the same all along the track: passes beside each other differ as if times were " +
+            "wrong by ${digits(result.learned.unevenness, 2)} s beyond what fixes may be off, here by more and there " +
+            "by less, as with a lag that follows the flow or the temperature, a rate limit that was not recognised, " +
+            "or fixes that are off. The intervals were widened by it; they may still be too narrow where the lag is " +
+            "longest. diagnose looks for the cause"
+    }
+
     private fun unchecked(): String? {
         if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
         return "${crossings()}, and intervals are checked where two passes read the same place, " +
             "${TrackAgreement.FEWEST} places at least: unchecked, they hold if the sensor is one of those named. " +
+            "They do not hold a sensor whose zero wanders or that fouls, which looks like water that differs from " +
+            "leg to leg; nor all of a lag that changes along the track or of a rate limit that was not recognised. " +
             "A few legs across the others would check them"
     }
 
     /** A rate that is reached often hides what else the sensor does. */
     private fun limited(): String? {
-        if (result.origin != SensorOrigin.RATE) return null
+        if (result.origin != SensorOrigin.RATE || result.choice != null) return null
         return "a lag beside the rate limit was not looked for and is not in the intervals, which then hold far less " +
             "than 95 % of the rows: diagnose looks for both, and --sensor takes what it finds"
     }

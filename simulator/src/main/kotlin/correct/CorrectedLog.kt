@@ -78,6 +78,9 @@ class CorrectedLog internal constructor(
      */
     val track: CorrectedTrack get() = hinted?.takeIf { choice?.hinted?.isBounded == true } ?: unhinted
 
+    /** Whether intervals were widened for delays that differ along the track: where no crossing shows them better. */
+    internal val isWidenedForUnevenness: Boolean get() = learned.isUneven(agreement)
+
     private val resolution: Double = resolution(statistics, series)
 
     /** The water if the sensor had no lag: readings smoothed as [track] is, and calibrated, with nothing undone. */
@@ -176,10 +179,7 @@ class CorrectedLog internal constructor(
                 corrected(series, likely, spec.stages, resolution, others, unusable)
             val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
-            // What a given sensor's intervals are is the giver's: they are told of, not changed. "Passes" of a boat
-            // that lay still are none, and have no say in the intervals either.
-            val isToldOnly = learned.origin == SensorOrigin.GIVEN || learned.stillBoat != null
-            val agreed = if (isToldOnly) narrow else agreement.widened(narrow)
+            val agreed = learned.agreed(narrow, agreement)
             val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
             fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())
                 .takeIf { learned.origin == SensorOrigin.REFERENCE }

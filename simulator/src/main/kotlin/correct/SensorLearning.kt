@@ -5,6 +5,7 @@ import kotlinx.coroutines.async
 import kotlinx.coroutines.awaitAll
 import kotlinx.coroutines.runBlocking
 import stillwater.estimate.CandidateResponse
+import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.LikelyResponse
 import stillwater.estimate.ReferenceLearner
 import stillwater.estimate.Response
@@ -12,11 +13,15 @@ import stillwater.estimate.ResponseChoice
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.ResponseLearner
 import stillwater.estimate.RevisitLearner
+import stillwater.estimate.TrackAgreement
+import stillwater.estimate.TrackCorrector
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UnusableReadings
 import stillwater.estimate.rateLimit
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import stillwater.survey.Wording.Companion.duration
 import kotlin.random.Random
@@ -30,6 +35,7 @@ import kotlin.random.Random
  * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
  * readings without one. @property held whether the reference looks held over each step. @property fault why the
  * reference was not learned from, or null. @property isPart whether usable readings were too many to learn on all.
+ * @property unevenness by how much delays of single runs scatter beyond what fixes may be off, s.
  * @property stillBoat why passes of the usable readings teach nothing, as the boat lay still; null where it did not.
  */
 internal data class Learned(
@@ -45,7 +51,20 @@ internal data class Learned(
     val hinted: LikelyResponse? = null,
     val isPart: Boolean = false,
     val stillBoat: String? = null,
-)
+    val unevenness: Double = 0.0,
+) {
+    /** Whether delays differ along a track on which too few crossings, see [agreement], show that better. */
+    fun isUneven(agreement: TrackAgreement): Boolean = unevenness > 0 && agreement.ratio.isNaN()
+
+    /** [track] with the intervals that passes ask for. */
+    fun agreed(track: CorrectedTrack, agreement: TrackAgreement): CorrectedTrack = when {
+        // What a given sensor's intervals are is the giver's: they are told of, not changed. "Passes" of a boat that
+        // lay still are none, and have no say in the intervals either.
+        origin == SensorOrigin.GIVEN || stillBoat != null -> track
+        isUneven(agreement) -> agreement.widened(track, unevenness)
+        else -> agreement.widened(track)
+    }
+}
 
 /** Learns a log's sensor, from passes through the same water or from a reference. */
 internal object SensorLearning {
@@ -71,6 +90,9 @@ internal object SensorLearning {
 
     /** The water between rows with a reference is not known where it bends by half of what is left of the readings. */
     private const val MOST_ROUGHNESS = 0.5
+
+    /** Responses before a rate limit: of a slow path what is left of the readings says too little. */
+    private val BEFORE_LIMIT = ResponseKind.entries.filterNot { it == ResponseKind.SLEW || it.hasTwoPaths }
     private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
     /**
@@ -88,18 +110,8 @@ internal object SensorLearning {
         val stillBoat = StillBoat.why(series, hasFixes)
         if (isStuck || stillBoat != null) return nothing(all.size).copy(stillBoat = stillBoat)
         val rate = series.rateLimit()
-        if (rate.isFinite()) {
-            val response = ResponseKind.SLEW.response(rate)
-            val likely = listOf(LikelyResponse(listOf(response), 1.0))
-            return Learned(SensorOrigin.RATE, null, likely, response.stages(), series.size)
-        }
-        var part = series.middle(MOST_LEARNED)
-        var learner = RevisitLearner.of(part)
-        // The longer the part, the longer the runs that are held against others: legs may be too short for them.
-        while (learner.blocks == 0 && part.size > FEWEST_LEARNED) {
-            part = series.middle(part.size / 2)
-            learner = RevisitLearner.of(part)
-        }
+        if (rate.isFinite()) return byRate(series, rate)
+        val (part, learner) = learnable(series)
         val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
             ?: return nothing(part.size)
         val stages = choice.first.response.stages()
@@ -112,7 +124,64 @@ internal object SensorLearning {
             learner.blocks,
             hinted = choice.likelyHint(),
             isPart = part.size < series.size,
+            unevenness = learner.unevenness(choice.first.response),
         )
+    }
+
+    /** As much of [series] as passes can be learned from, and what learns from it. */
+    private fun learnable(series: TrackSeries): Pair<TrackSeries, RevisitLearner> {
+        var part = series.middle(MOST_LEARNED)
+        var learner = RevisitLearner.of(part)
+        // The longer the part, the longer the runs that are held against others: legs may be too short for them.
+        while (learner.blocks == 0 && part.size > FEWEST_LEARNED) {
+            part = series.middle(part.size / 2)
+            learner = RevisitLearner.of(part)
+        }
+        return part to learner
+    }
+
+    /**
+     * A sensor that follows no faster than [rate], sensor units/s: what it would show without that limit is what passes
+     * say of the lag before it. Where it is at its limit that is a guess, first one that knows of no lag and then one
+     * by the lag found.
+     */
+    private fun byRate(series: TrackSeries, rate: Double): Learned {
+        val limit = ResponseKind.SLEW.response(rate)
+        val alone = listOf(LikelyResponse(listOf(limit), 1.0))
+        val nothing = Learned(SensorOrigin.RATE, null, alone, limit.stages(), series.size)
+        fun limited(open: LikelyResponse) =
+            LikelyResponse(open.responses.map { it.copy(slewRate = rate) }, open.weight)
+
+        fun learned(freed: DoubleArray): Learned {
+            val (part, learner) = learnable(TrackSeries(series.times, series.xs, series.ys, freed))
+            val choice = choice(learner, BEFORE_LIMIT) { learner.copy() } ?: return nothing
+            return Learned(
+                SensorOrigin.RATE,
+                choice,
+                choice.likely().map(::limited),
+                choice.first.response.copy(slewRate = rate).stages(),
+                part.size,
+                learner.blocks,
+                isPart = part.size < series.size,
+                unevenness = learner.unevenness(choice.first.response),
+            )
+        }
+        val first = learned(TrackCorrector(series).correct(alone).values)
+        val lag = first.choice?.first?.response ?: return nothing
+        val water = TrackCorrector(
+            series,
+        ).correct(listOf(LikelyResponse(listOf(lag.copy(slewRate = rate)), 1.0))).values
+        return learned(shown(series, water, lag))
+    }
+
+    /** What a sensor with [response] shows of [water], which runs straight from row to row. */
+    private fun shown(series: TrackSeries, water: DoubleArray, response: Response): DoubleArray {
+        val sensor = SensorSpec("", response.stages()).build(water[0], Random(SEED))
+        return DoubleArray(water.size) { i ->
+            val before = maxOf(0, i - 1)
+            // Held over a step, an input's mean is that of its ends.
+            sensor.step((water[before] + water[i]) / 2, series.times[i] - series.times[before], Conditions.NONE)
+        }
     }
 
     private fun nothing(readings: Int) = Learned(SensorOrigin.NOTHING, null, NO_LAG, emptyList(), readings)

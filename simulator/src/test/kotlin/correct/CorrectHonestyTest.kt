@@ -7,8 +7,13 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.CorrectCommand
 import stillwater.cli.Stillwater
+import stillwater.model.Conditions
+import stillwater.sensor.SensorModel
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
 import java.nio.file.Path
 import java.util.Locale
+import kotlin.io.path.readLines
 import kotlin.io.path.writeText
 import kotlin.math.exp
 import kotlin.math.sin
@@ -114,6 +119,61 @@ class CorrectHonestyTest {
         assertContains(result.stderr, "learned from passes through the same water instead")
         // Legs beside each other never cross.
         assertContains(result.stdout, "not checked, for the boat's track nowhere crosses itself")
+    }
+
+    /** Legs of 80 m over water of many lengths at 1 m/s, as [sensor] shows it, stepped ten times a second. */
+    private fun legs(sensor: SensorModel, truths: MutableList<Double>? = null): String {
+        val random = Random(17)
+        val waves = List(40) { List(3) { random.nextDouble(-1.0, 1.0) } }
+        fun at(time: Double): Pair<Double, Double> {
+            val leg = (time / 86).toInt()
+            val along = time % 86
+            val up = minOf(along, 80.0)
+            return (if (leg % 2 == 0) up else 80 - up) to 6 * leg + maxOf(0.0, along - 80)
+        }
+        fun water(time: Double) = at(time).let { (x, y) ->
+            waves.sumOf { (a, b, c) ->
+                0.2 *
+                    sin((a * x + b * y) / 8 + 3 * c)
+            }
+        }
+        return (0 until 1600).joinToString("", prefix = "time_s,x_m,y_m,slow\n") { row ->
+            var shown = 0.0
+            for (part in 1..10) shown = sensor.step(water(row + part / 10.0), 0.1, Conditions.NONE)
+            val (x, y) = at(row + 1.0)
+            truths?.add(water(row + 1.0))
+            val value = shown + 0.01 * random.nextDouble()
+            "%d,%.2f,%.2f,%.3f\n".format(Locale.ROOT, row + 1, x, y, value)
+        }
+    }
+
+    @Test
+    fun aLagBeforeARateLimitIsLearnedAndInTheIntervals() {
+        val stages = listOf(SensorStage.Lag(4.0), SensorStage.Slew(0.08))
+        val truths = ArrayList<Double>()
+        val result = correct(legs(SensorSpec("limited", stages).build(0.0, Random(1)), truths))
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "sensor: slew-limit: rate per s 0.0798; before it: ")
+        assertContains(result.stdout, "first-order-lag: time constant in s ")
+        val rows = directory.resolve("results/corrected.csv").readLines().drop(1).map { it.split(',') }
+        val held = rows.indices.count { truths[it] in rows[it][5].toDouble()..rows[it][6].toDouble() }
+        // With the rate alone undone they hold a third of them.
+        assertTrue(held > 0.85 * rows.size, "${held.toDouble() / rows.size}")
+    }
+
+    /** A dead time between 2 and 12 s, and no crossing that would show it. */
+    @Test
+    fun aDelayThatChangesAlongTheTrackIsWarnedOf() {
+        val inputs = ArrayList<Double>()
+        val late = SensorModel { truth, _, _ ->
+            inputs += truth
+            inputs[maxOf(0, inputs.size - 1 - (70 + 50 * sin(inputs.size / 600.0)).toInt())]
+        }
+        val result = correct(legs(late))
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "no response tried is the same all along the track")
+        assertContains(result.stdout, "widened by how unevenly late passes beside each other are")
+        assertContains(result.stderr, "a sensor whose zero wanders")
     }
 
     /** Of 33 rows with a reference five are at an end of the range, and say nothing of the response. */
