@@ -103,6 +103,16 @@ class MapBadInputTest {
         private fun cut(name: String, text: String, message: String, vararg flags: String) =
             csv("power cut $name", text, "log.csv:$message", "rows with zero bytes", *flags)
 
+        /** An order that the form of the dates contradicts, and that would be ignored. */
+        private fun orderOf(date: String) = csv(
+            "order of $date",
+            "Date,Time,x_m,y_m,v\n$date,12:00:00,0,0,1\n$date,12:00:01,1,0,2\n",
+            "log.csv:2: column Date: expected a date such as 05/06/2025, as --date-order says, found '$date'",
+            null,
+            "--date-order",
+            "mdy",
+        )
+
         @JvmStatic
         fun badLogs() = listOf(
             csv("empty file", "", "log.csv: expected a log, found an empty file"),
@@ -231,6 +241,12 @@ class MapBadInputTest {
             csv("--x and --lat", HEAD + GOOD, "some of both", null, "--x", "lat_deg", "--lat", "lat_deg"),
             csv("a column twice", HEAD + GOOD, "column time_s: expected one use", null, "--value", "time_s"),
             csv("x as y", "time_s,x_m,v\n0,1,2\n1,2,3\n", "column x_m", null, "--x", "x_m", "--y", "x_m"),
+            csv("next to nothing", "time_s,x_m,y_m,v\n0,0,0,1e-55\n1,1,1,2e-55\n", "expected readings of which some"),
+            csv(
+                "long name",
+                "t" + "v".repeat(5000) + ",x_m,y_m\n0,1,2\n",
+                "found columns t${"v".repeat(47)}..., x_m, y_m",
+            ),
             csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
             cut("after a row", HEAD + GOOD + "\u0000".repeat(500), "5: expected a row of text, found 500 zero bytes"),
@@ -249,6 +265,8 @@ class MapBadInputTest {
             cut("before rows", HEAD + "\u0000\u0000\n" + GOOD, "2: expected a row of text"),
             cut("among rows", HEAD + "\u0000\u0000" + GOOD + "3,45.5,-73.1,8\n", "2: expected a row of text"),
             cut("of a long file", HEAD + GOOD + "\u0000".repeat(200_000), "5: expected a row of text, found 200000 z"),
+            // More than any field may be long.
+            cut("of megabytes", HEAD + GOOD + "\u0000".repeat(2_000_000), "5: expected a row of text, found more than"),
             csv("nothing but zeros", "\u0000".repeat(99), "expected a text log, found binary data"),
             csv("zeros in the header", "time_s\u0000" + HEAD + GOOD, "expected a text log, found binary data"),
             csv("zeros and other bytes", HEAD + "\u0000\u0001\n" + GOOD, "expected a text log, found binary data"),
@@ -285,6 +303,9 @@ class MapBadInputTest {
                 "log.csv:3: column Date: expected a date as day/month/year, found '30/02/2025'",
                 "rows without a date",
             ),
+            orderOf("2025-06-25"),
+            orderOf("2025/06/25"),
+            orderOf("25-Jun-2025"),
             csv(
                 "preamble without a table",
                 "Logger: 7\nSite: pond\n",
@@ -334,8 +355,17 @@ class MapBadInputTest {
                 "averaging",
             ),
             flag(
+                "auto epsilon without bounded",
+                "--epsilon: expected --filter bounded to go with it, found --filter averaging",
+                "--epsilon",
+                "auto",
+                "--filter",
+                "averaging",
+            ),
+            flag("no directory", "--out: expected a directory (. for this one), found ''", "--out", ""),
+            flag(
                 "slowest without interval",
-                "--slowest: expected --filter interval to go with it, found --filter averaging,bounded",
+                "--slowest: expected --filter interval to go with it, found the usual --filter averaging,bounded",
                 "--slowest",
                 "9",
             ),
