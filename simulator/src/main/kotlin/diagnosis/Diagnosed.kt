@@ -152,11 +152,12 @@ class Diagnosed(
                     three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)"
             },
             calibration,
-            if (after != null) {
-                extension(base, after, three)
-            } else {
-                "likeliest of ${result.candidates.size} causes tried: ${best?.cause?.label ?: "none"}, adjusted p " +
-                    three.format(best?.adjustedPValue ?: 1.0)
+            when {
+                after != null -> extension(base, after, three)
+                best == null -> "no cause was tried"
+                else ->
+                    "likeliest of ${result.candidates.size} causes tried: ${best.cause.label}, adjusted p " +
+                        three.format(best.adjustedPValue)
             },
             result.separatingManoeuvre?.let { "to tell them apart: $it" }
                 ?: result.dependences.firstOrNull()?.let {

@@ -82,6 +82,16 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun whereNothingWasTriedNothingIsLikeliest() {
+        val file = directory.resolve("anchor.csv")
+        Files.write(file, listOf("time_s,x_m,y_m,probe") + List(99) { "$it,5,5,${8 + sin(it / 9.0)}" })
+        val result = diagnose("$file", "--numbers-only", "--out", "${directory.resolve("out")}")
+        assertContains(result.stdout, "verdict: insufficient-data")
+        assertContains(result.stdout, "\nno cause was tried\n")
+        assertEquals(5, result.stdout.trim().lines().filterNot { it.startsWith("wrote") }.size, result.stdout)
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")
