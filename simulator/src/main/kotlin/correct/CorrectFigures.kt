@@ -98,8 +98,8 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
             "evidence",
             figure,
             "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked " +
-                "open is not ruled out; an asymmetric lag is not open where a symmetric one explains as much. The " +
-                "table under Candidates has the parameters.",
+                "open is not ruled out. An asymmetric lag and two paths give way to something simpler that they hold " +
+                "and that explains about as much. The table under Candidates has the parameters.",
         )
     }
 
