@@ -113,8 +113,9 @@ class Diagnosed(
     /** [parameters] in words. */
     fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { "${name(it)} ${number(it)}" }
 
-    /** What [estimate] is of, in words. */
-    fun name(estimate: Estimate): String = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
+    /** What [estimate] is of, in words; its unit stands behind the number. */
+    fun name(estimate: Estimate): String =
+        estimate.name.removeSuffix("_per_s").removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
 
     /** The number of [estimate] with its interval and unit. */
     fun number(estimate: Estimate): String {
