@@ -41,7 +41,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         "--out",
         metavar = "DIR",
         help = "directory for the results",
-    ).default("stillwater-benchmark")
+    ).directory().default("stillwater-benchmark")
     private val fields by option("--field", metavar = "NAMES", help = "fields to draw: uniform, gaussian")
         .someOf(listOf(Preset.UNIFORM, Preset.GAUSSIAN).associateWith { it })
     private val filters by option(
@@ -251,6 +251,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         users.require(
             listOf("--epsilon" to epsilon) + groupedFlags(),
             OptionUser.filters(settings.running) + OptionUser.planners(settings.planners) + water,
+            listOfNotNull("--filter".takeIf { filters == null }, "--planner".takeIf { planners == null }),
         )
     }
 

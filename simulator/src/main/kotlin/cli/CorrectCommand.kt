@@ -27,7 +27,7 @@ class CorrectCommand : WorkCommand("correct") {
         "--out",
         metavar = "DIR",
         help = "directory for the results",
-    ).default("stillwater-correct")
+    ).directory().default("stillwater-correct")
     private val logOptions by LogOptions()
     private val reference by option(
         "--reference",

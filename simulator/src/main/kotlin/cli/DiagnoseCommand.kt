@@ -28,7 +28,7 @@ import java.nio.file.Path
 class DiagnoseCommand : WorkCommand("diagnose") {
     private val log by argument("LOG").help("survey CSV, Sea-Bird .cnv or Platypus log")
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
-        .default("stillwater-diagnosis")
+        .directory().default("stillwater-diagnosis")
     private val logOptions by LogOptions()
     private val reference by option(
         "--reference",

@@ -64,7 +64,7 @@ class DriveCommand : WorkCommand("drive") {
     ).number("an angle within -180..180 degrees") { it in -180.0..180.0 }
     private val vectored by vectoredFlag()
     private val out by option("--out", metavar = "DIR", help = "directory for the log and the map")
-        .default("stillwater-drive")
+        .directory().default("stillwater-drive")
     private val resume by option("--resume", help = "go on with the unfinished mission in DIR, disarmed at first")
         .flag()
     private val yes by option("--yes", help = "begin without asking: motors will run").flag()

@@ -33,6 +33,11 @@ fun RawOption.wholeNumber(expected: String, accepts: (Int) -> Boolean): Nullable
     text.toIntOrNull()?.takeIf(accepts) ?: throw BadFlag(name, expected, "'$text'")
 }
 
+/** A directory for results; an empty name, as of a variable that is not set, would be the working directory. */
+fun RawOption.directory(): NullableOption<String, String> = convert { text ->
+    text.ifBlank { throw BadFlag(name, "a directory (. for this one)", "'$text'") }
+}
+
 /** A unit of readings, as it is to be written. */
 fun RawOption.unit(): NullableOption<String, String> = convert { text ->
     text.trim().ifEmpty { throw BadFlag(name, "a unit such as mg/L", "'$text'") }

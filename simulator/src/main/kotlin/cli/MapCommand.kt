@@ -36,7 +36,7 @@ import java.nio.file.Path
 class MapCommand : WorkCommand("map") {
     private val log by argument("LOG").help("survey CSV, Sea-Bird .cnv or Platypus log")
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
-        .default("stillwater-map")
+        .directory().default("stillwater-map")
     private val logOptions by LogOptions()
     private val filterOptions by BoundedFilterOptions()
     private val lagOptions by LagFilterOptions()
@@ -51,9 +51,8 @@ class MapCommand : WorkCommand("map") {
     private val filters by option(
         "--filter",
         metavar = "NAMES",
-        help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}",
+        help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}; averaging,bounded unless given",
     ).someOf(FilterKind.entries.associateBy { it.label })
-        .default(listOf(FilterKind.AVERAGING, FilterKind.BOUNDED), defaultForHelp = "averaging,bounded")
     private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
         .number("a length in metres above 0") { it > 0 }
     private val gridSize by option("--grid", metavar = "COLSxROWS", help = "number of cells instead of their size")
@@ -73,13 +72,15 @@ class MapCommand : WorkCommand("map") {
     private val epsilon by option(
         "--epsilon",
         metavar = "auto|NUMBER",
-        help = "slope per second that the bounded filter takes for noise; auto finds it on a stretch of the log",
+        help =
+        "slope per second that the bounded filter takes for noise; auto, which it is unless given, finds it on " +
+            "a stretch of the log",
     ).convert { text ->
         val number = DecimalText.parse(text)
-        if (text == "auto") return@convert Double.NaN
+        if (text == AUTO) return@convert Double.NaN
         if (!number.isFinite() || number < 0) throw BadFlag(name, "auto or a number of at least 0", "'$text'")
         number
-    }.default(Double.NaN, defaultForHelp = "auto")
+    }
     private val calibrate by option(
         "--calibrate",
         metavar = "FROM:TO",
@@ -106,7 +107,11 @@ class MapCommand : WorkCommand("map") {
 
     override fun work() {
         if (cell != null && gridSize != null) throw failure("--grid: expected either --grid or --cell, found both")
-        if (calibrate != null && !epsilon.isNaN()) throw failure("--calibrate: expected --epsilon auto, found a number")
+        if (calibrate != null &&
+            wantedEpsilon != null
+        ) {
+            throw failure("--calibrate: expected --epsilon auto, found a number")
+        }
         requireUsed()
         val file = Path.of(log)
         val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
@@ -129,9 +134,14 @@ class MapCommand : WorkCommand("map") {
         }
     }
 
+    private val usedFilters get() = filters ?: listOf(FilterKind.AVERAGING, FilterKind.BOUNDED)
+
+    /** The number that was given; null where the log is to show it. */
+    private val wantedEpsilon get() = epsilon?.takeIf { !it.isNaN() }
+
     private fun requireUsed() {
         val own = listOf(
-            "--epsilon" to epsilon.takeIf { !it.isNaN() },
+            "--epsilon" to epsilon,
             "--calibrate" to calibrate,
             "--condition" to conditions.ifEmpty { null },
         )
@@ -142,7 +152,11 @@ class MapCommand : WorkCommand("map") {
             ),
         )
         val sensors = if (sensor == null) emptyList() else OptionUser.option("--sensor")
-        users.require(own + filterOptions.flags() + lagOptions.flags(), OptionUser.filters(filters) + sensors)
+        users.require(
+            own + filterOptions.flags() + lagOptions.flags(),
+            OptionUser.filters(usedFilters) + sensors,
+            listOfNotNull("--filter".takeIf { filters == null }),
+        )
     }
 
     private fun correction(opened: SurveyLog, spec: SensorSpec): GivenCorrection = try {
@@ -171,7 +185,7 @@ class MapCommand : WorkCommand("map") {
     }
 
     private fun settings() = MapSettings(
-        filters = filters,
+        filters = usedFilters,
         grid = GridWish(
             cell = cell,
             columns = gridSize?.first?.toInt(),
@@ -179,7 +193,7 @@ class MapCommand : WorkCommand("map") {
             rotation = Math.toRadians(rotation),
         ),
         prior = range?.let { (low, high) -> Interval(low, high) },
-        epsilon = epsilon.takeIf { !it.isNaN() },
+        epsilon = wantedEpsilon,
         calibrate = calibrate?.let { (from, to) -> Stretch(from, to) },
         boundedFilter = filterOptions.applied(MapSettings().boundedFilter),
         unit = unit,
@@ -191,12 +205,12 @@ class MapCommand : WorkCommand("map") {
     private fun commandLine(): String {
         val own = listOf(
             "--out" to out,
-            "--filter" to filters.joinToString(",") { it.label },
+            "--filter" to usedFilters.joinToString(",") { it.label },
             "--cell" to cell,
             "--grid" to gridSize?.let { (columns, rows) -> "${columns.toInt()}x${rows.toInt()}" },
             "--rotation" to rotation.takeIf { it != 0.0 },
             "--range" to range?.let { (low, high) -> "$low:$high" },
-            "--epsilon" to epsilon.takeIf { !it.isNaN() },
+            "--epsilon" to wantedEpsilon,
             "--calibrate" to calibrate?.let { (from, to) -> "$from:$to" },
             "--unit" to unit,
             "--sensor" to sensor,
@@ -209,6 +223,8 @@ class MapCommand : WorkCommand("map") {
     }
 
     private companion object {
+        const val AUTO = "auto"
+
         /** Smaller files are done before a bar can be read or a figure be drawn beside, bytes, twice the file's. */
         const val LONG = 8_000_000L
         const val GRID = "COLSxROWS such as 10x10, whole numbers above 0, ${Grid.MAX_CELLS} cells at most"

@@ -31,30 +31,28 @@ internal class OptionUsers(val listed: Map<String, List<OptionUser>>) {
      *
      * @param given options with their values; null and false stand for one that was not given.
      * @param present what is there to use them.
+     * @param defaults options of which [present] has the usual choice, for nobody gave them.
      * @throws BadFlag at the first that none of [present] uses.
      */
-    fun require(given: List<Pair<String, Any?>>, present: Collection<OptionUser>) {
+    fun require(
+        given: List<Pair<String, Any?>>,
+        present: Collection<OptionUser>,
+        defaults: Collection<String> = emptyList(),
+    ) {
         for ((flag, value) in given) {
             val users = listed[flag] ?: continue
             if (value == null || value == false || present.any { it in users }) continue
             val options = users.map { it.option }
-            throw BadFlag(
-                flag,
-                "${text(users, " or ")} to go with it",
-                text(
-                    present.filter {
-                        it.option in options
-                    },
-                    ",",
-                ),
-            )
+            val found = text(present.filter { it.option in options }, ",", defaults)
+            throw BadFlag(flag, "${text(users, " or ")} to go with it", found)
         }
     }
 
     /** The choices of one option stand behind it, between them [between]; `none` for nobody. */
-    private fun text(users: List<OptionUser>, between: String) = users.groupBy { it.option }.entries
-        .joinToString(" or ") { (option, choices) ->
-            listOf(option, choices.mapNotNull { it.choice }.joinToString(between)).filter { it.isNotEmpty() }
-                .joinToString(" ")
+    private fun text(users: List<OptionUser>, between: String, defaults: Collection<String> = emptyList()) =
+        users.groupBy { it.option }.entries.joinToString(" or ") { (option, choices) ->
+            val usual = if (option in defaults) "the usual" else ""
+            listOf(usual, option, choices.mapNotNull { it.choice }.joinToString(between))
+                .filter { it.isNotEmpty() }.joinToString(" ")
         }.ifEmpty { "none" }
 }

@@ -89,11 +89,6 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         help = "with --area: distance of the points among which ways through narrow water are " +
             "sought; half a cell unless given",
     ).number("a number of metres above 0") { it > 0 }
-    private val settling by option(
-        "--settling",
-        metavar = "SECONDS",
-        help = "information planner: time that a reading of a cell takes once the boat is there",
-    ).number("a time in seconds of at least 0") { it >= 0 }
 
     /** [settings] with what was given on the command line in their place. */
     fun applied(settings: PlannerSettings): PlannerSettings = settings.copy(
@@ -120,10 +115,7 @@ class PlannerOptions : OptionGroup(name = "Planners") {
             horizon = horizon ?: settings.boundedExtended.horizon,
             expansions = expansions ?: settings.boundedExtended.expansions,
         ),
-        information = settings.information.copy(
-            horizon = horizon ?: settings.information.horizon,
-            settling = settling ?: settings.information.settling,
-        ),
+        information = settings.information.copy(horizon = horizon ?: settings.information.horizon),
     )
 
     /** What uses them. */
@@ -145,8 +137,7 @@ class PlannerOptions : OptionGroup(name = "Planners") {
                 OptionUser.planners(listOf(PlannerKind.POLYGON_RRT))
             } +
             // Without an area all is water, as far as one likes from land.
-            listOf("--margin", "--resolution").associateWith { OptionUser.option("--area") } +
-            mapOf("--settling" to OptionUser.planners(listOf(PlannerKind.INFORMATION))),
+            listOf("--margin", "--resolution").associateWith { OptionUser.option("--area") },
     )
 
     /** The flags given, with their values, for writing the command down. */
@@ -167,7 +158,6 @@ class PlannerOptions : OptionGroup(name = "Planners") {
         "--rrt-reach" to rrtReach,
         "--margin" to margin,
         "--resolution" to resolution,
-        "--settling" to settling,
     )
 
     private fun <T> Map<String, T>.nameOf(value: T?): String? = entries.find { it.value == value }?.key

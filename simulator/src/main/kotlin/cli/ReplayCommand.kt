@@ -36,7 +36,8 @@ class ReplayCommand : WorkCommand("replay") {
         help = "Platypus logs: the sensor whose readings become the map, TYPE[#CHANNEL][.FIELD], such as ATLAS_DO or " +
             "ES2.temp; the one with the most without it",
     ).convert { text -> SensorChoice.parse(text) ?: throw BadFlag(name, "TYPE[#CHANNEL][.FIELD]", "'$text'") }
-    private val out by option("--out", metavar = "DIR", help = "directory for the results").default("stillwater-replay")
+    private val out by option("--out", metavar = "DIR", help = "directory for the results")
+        .directory().default("stillwater-replay")
     private val numbersOnly by option("--numbers-only", help = "no figure").flag()
     private val quiet by option("--quiet", help = "no summary").flag()
     private val json by option("--json", help = "print replay.json instead of a summary").flag()

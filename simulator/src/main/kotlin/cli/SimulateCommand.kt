@@ -26,7 +26,7 @@ class SimulateCommand : WorkCommand("simulate") {
         "--out",
         metavar = "DIR",
         help = "directory for the results",
-    ).default("stillwater-simulate")
+    ).directory().default("stillwater-simulate")
     private val boat by VirtualBoatOptions()
     private val longest by option(
         "--longest",

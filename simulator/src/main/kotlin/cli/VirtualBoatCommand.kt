@@ -44,6 +44,7 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         .number("a number above 0") { it > 0 }.default(Double.POSITIVE_INFINITY, defaultForHelp = "never")
     private val once by option("--once", help = "end when the program that came has left").flag()
     private val out by option("--out", metavar = "DIR", help = "directory for the truth, written at the end")
+        .directory()
 
     override fun help(context: Context) = "Serve a virtual boat's electronics on a pseudo-terminal or a TCP port."
 

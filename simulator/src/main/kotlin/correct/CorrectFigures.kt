@@ -21,7 +21,7 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
         val seconds = of(result.series.times).also { for (i in it.indices) it[i] -= start }
         val figure = LinePlot(
             "Measured and corrected",
-            "the ${shown.last - shown.first + 1} readings in which the two differ most",
+            stretch(shown),
             listOf(
                 Series("measured", seconds, of(result.series.values)),
                 Series("corrected", seconds, of(result.track.values), of(result.track.lower), of(result.track.upper)),
@@ -30,6 +30,11 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
             summary.quantity,
         ).draw()
         return CorrectFigure("corrected", figure, "The band is the 95 % interval of the water's value at each reading.")
+    }
+
+    private fun stretch(shown: IntRange): String {
+        val count = shown.last - shown.first + 1
+        return if (count == result.series.size) "all $count readings" else "the $count in a row that differ most"
     }
 
     /** The stretch of at most [SHOWN] readings with the largest differences between measured and corrected. */
@@ -55,8 +60,10 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
     private fun legs(): CorrectFigure? {
         val before = result.before ?: return null
         val after = result.after ?: return null
-        fun bar(name: String, mean: Double, error: Double) =
-            Bar(name, mean, maxOf(0.0, mean - 2 * error), mean + 2 * error)
+        fun bar(name: String, mean: Double, error: Double): Bar {
+            val reach = if (error.isNaN()) 0.0 else 2 * error
+            return Bar(name, mean, maxOf(0.0, mean - reach), mean + reach)
+        }
         val figure = Bars(
             "Disagreement of opposite legs",
             "each leg against the mean of its two neighbours",
@@ -91,8 +98,8 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
             "evidence",
             figure,
             "Whiskers are two standard errors from the scatter between groups of neighbouring runs. What is marked " +
-                "open is not ruled out; an asymmetric lag is not open where a symmetric one explains as much. The " +
-                "table under Candidates has the parameters.",
+                "open is not ruled out. An asymmetric lag and two paths give way to something simpler that they hold " +
+                "and that explains about as much. The table under Candidates has the parameters.",
         )
     }
 

@@ -250,9 +250,10 @@ class CorrectFiles(
                 "near them; the better they agree, the higher its score. Each group of runs is scored with " +
                 "parameters one Newton step from the best ones towards what the other groups alone would give; how " +
                 "rough the water is was learned from all of them.",
-            "A response is ruled out if its score is behind the best one's by more than 2.6 standard errors, taken " +
-                "from the scatter between groups of neighbouring runs. What is not ruled out stays open, and the " +
-                "corrected value is the mean over it.",
+            "A response is ruled out if its score is behind another's by more than 2.6 standard errors, taken from " +
+                "the scatter between groups of neighbouring runs. What is not ruled out stays open, and the " +
+                "corrected value is the mean over it; but an asymmetric lag or two paths give way to something " +
+                "simpler that they hold and that explains about as much.",
             "The value and its interval come from a Kalman smoother with the sensor's response in its state. How " +
                 "rough the water is along the track and how noisy the readings are is learned from the log; detail " +
                 "that the sensor has smoothed away is not made up but left open in the interval.",

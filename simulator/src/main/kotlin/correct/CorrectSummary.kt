@@ -11,6 +11,7 @@ import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.UndoableSensor
 import stillwater.sensor.SensorStage
+import stillwater.survey.LagShift
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
 import stillwater.survey.Wording.Companion.percent
@@ -86,9 +87,11 @@ internal class CorrectSummary(
                 val name = parameterName(candidate.kind.parameters[i]).removeSuffix(" in s")
                 return@joinToString "$name none found, under $least s"
             }
-            val value = digits(candidate.parameter(i), 3)
+            // Of a narrow interval the ends would be written alike.
+            val count = (3..MOST_DIGITS).firstOrNull { least(candidate, i, it) != most(candidate, i, it) } ?: 3
+            val value = digits(candidate.parameter(i), count)
             "${parameterName(candidate.kind.parameters[i])} $value" +
-                " (${least(candidate, i)} to ${most(candidate, i)})"
+                " (${least(candidate, i, count)} to ${most(candidate, i, count)})"
         }
         return "${candidate.kind.label}: $parameters"
     }
@@ -97,17 +100,17 @@ internal class CorrectSummary(
         candidate.kind.parameters[i].let { it.endsWith("_s") && it != RATE }
 
     /** Of a time far below the distance of rows all digits are chance. */
-    private fun least(candidate: CandidateResponse, i: Int): String {
+    private fun least(candidate: CandidateResponse, i: Int, count: Int): String {
         val start = candidate.interval(i).start
         val isNothing = isTime(candidate, i) && start < result.series.medianStep / STEP_PARTS
-        return if (isNothing && candidate.parameter(i) > start * STEP_PARTS) "0" else digits(start, 3)
+        return if (isNothing && candidate.parameter(i) > start * STEP_PARTS) "0" else digits(start, count)
     }
 
-    private fun most(candidate: CandidateResponse, i: Int): String {
+    private fun most(candidate: CandidateResponse, i: Int, count: Int): String {
         val end = candidate.interval(i).endInclusive
         // Of a time that is a hundred times the value nothing is known but that it is open.
         val isOpen = isTime(candidate, i) && end > OPEN * maxOf(candidate.parameter(i), result.series.medianStep)
-        return if (isOpen) "not bounded by this log" else digits(end, 3)
+        return if (isOpen) "not bounded by this log" else digits(end, count)
     }
 
     /** Whether the time that parameter [i] is is too short to be seen in rows so far apart. */
@@ -189,7 +192,8 @@ internal class CorrectSummary(
         val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
         return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
             "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words" +
-            plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }.orEmpty() + ")"
+            plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }.orEmpty() + ")" +
+            if (after.scores.size < LagShift.FEWEST_LEGS) "; too few legs to tell, ${after.scores.size}" else ""
     }
 
     private fun lessOrMore(change: Double) =
@@ -237,6 +241,8 @@ internal class CorrectSummary(
     private fun worse(): String? {
         val before = result.before?.opposite?.mean ?: return null
         val after = result.after?.opposite?.mean ?: return null
+        // Nothing was undone, or of nothing there is no share.
+        if (result.origin == SensorOrigin.NOTHING || !(before > 0)) return null
         if (!(after > WORSE * before)) return null
         val legs = "opposite legs differ by ${percent(after / before - 1)} more than as measured"
         return when (result.origin) {
@@ -316,6 +322,9 @@ internal class CorrectSummary(
 
         /** Times below such a part of the distance of rows are none, however narrow their interval. */
         const val STEP_PARTS = 10
+
+        /** Digits of an interval's ends at most, however narrow it is. */
+        const val MOST_DIGITS = 6
 
         /** Times the value, or the distance of rows. */
         const val OPEN = 100

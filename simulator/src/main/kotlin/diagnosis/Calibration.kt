@@ -18,7 +18,7 @@ internal class Calibration(private val diagnosed: Diagnosed) {
 
     /**
      * The two numbers and what they do at the ends of what the reference shows; null where they were given, where their
-     * intervals hold 1 and 0, or where what they do is nowhere more than the readings scatter.
+     * intervals hold 1 and 0, or where what they do is nowhere more than the readings scatter or sums are rounded.
      */
     fun words(): String? {
         val gain = gain ?: return null
@@ -27,7 +27,8 @@ internal class Calibration(private val diagnosed: Diagnosed) {
         val truth = diagnosed.log.columns.reference.filter { it.isFinite() }
         val ends = listOfNotNull(truth.minOrNull(), truth.maxOrNull())
         val errors = ends.map { (gain.value - 1) * it + offset.value }
-        if (errors.all { abs(it) <= model.trainRmse }) return null
+        val rounding = ROUNDING * ends.maxOf { abs(it) }
+        if (errors.all { abs(it) <= maxOf(model.trainRmse, rounding) }) return null
         return "calibration against the reference: gain ${diagnosed.number(gain)}, " +
             "offset ${diagnosed.number(offset)}; the sensor reads " +
             ends.indices.joinToString(" and ") { high(errors[it], ends[it]) }
@@ -42,5 +43,10 @@ internal class Calibration(private val diagnosed: Diagnosed) {
         val share = if (abs(value) > abs(error)) " (${three.format(100 * abs(error / value))} %)" else ""
         val size = three.format(abs(error)) + diagnosed.unitAfter
         return "$size too $side$share where the reference shows ${three.format(value)}"
+    }
+
+    private companion object {
+        /** What sums over a log may lose, of the readings; a log without noise shows it. */
+        const val ROUNDING = 1e-9
     }
 }

@@ -113,8 +113,9 @@ class Diagnosed(
     /** [parameters] in words. */
     fun numbers(parameters: List<Estimate>): String = parameters.joinToString(", ") { "${name(it)} ${number(it)}" }
 
-    /** What [estimate] is of, in words. */
-    fun name(estimate: Estimate): String = estimate.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
+    /** What [estimate] is of, in words; its unit stands behind the number. */
+    fun name(estimate: Estimate): String =
+        estimate.name.removeSuffix("_per_s").removeSuffix("_s").removeSuffix("_m").replace('_', ' ')
 
     /** The number of [estimate] with its interval and unit. */
     fun number(estimate: Estimate): String {
@@ -152,11 +153,12 @@ class Diagnosed(
                     three.format(base.trainRmse) + unitAfter + heldOut(base, three) + " (root mean square)"
             },
             calibration,
-            if (after != null) {
-                extension(base, after, three)
-            } else {
-                "likeliest of ${result.candidates.size} causes tried: ${best?.cause?.label ?: "none"}, adjusted p " +
-                    three.format(best?.adjustedPValue ?: 1.0)
+            when {
+                after != null -> extension(base, after, three)
+                best == null -> "no cause was tried"
+                else ->
+                    "likeliest of ${result.candidates.size} causes tried: ${best.cause.label}, adjusted p " +
+                        three.format(best.adjustedPValue)
             },
             result.separatingManoeuvre?.let { "to tell them apart: $it" }
                 ?: result.dependences.firstOrNull()?.let {

@@ -93,13 +93,10 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private fun means(x: DoubleArray): Series {
         val order = (0 until n).filter { x[it].isFinite() }.sortedBy { x[it] }
         val parts = order.chunked(maxOf(1, (order.size + PARTS - 1) / PARTS))
-        val noise = result.baseline
-        // Correlated noise: a run of the correlation's length counts as one.
-        val period = if (n > 1) time.last() / (n - 1) else 1.0
-        val effective = 1 + 2 * noise.noiseShare * noise.noiseTime / period
+        val noise = CorrelatedNoise(result.baseline.noiseSpread, result.baseline.noiseShare, result.baseline.noiseTime)
         val middles = DoubleArray(parts.size) { p -> parts[p].sumOf { x[it] } / parts[p].size }
         val means = DoubleArray(parts.size) { p -> parts[p].sumOf { residual[it] } / parts[p].size }
-        val reach = DoubleArray(parts.size) { p -> 2 * noise.noiseSpread * sqrt(effective / parts[p].size) }
+        val reach = DoubleArray(parts.size) { p -> 2 * noise.ofMean(parts[p].sorted().map { time[it] }) }
         return Series(
             "mean",
             middles,

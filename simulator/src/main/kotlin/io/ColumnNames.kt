@@ -9,8 +9,10 @@ internal object ColumnNames {
     private val TIMES = listOf(
         "unix_time", "unix_timestamp", "epoch", "epoch_time", "timestamp", "time_stamp", "datetime", "date_time",
         "date_and_time", "utc_date_time", "utc_datetime", "datetime_utc", "date_time_utc", "time_utc", "utc_time",
-        "time", "elapsed_time", "time_sec", "time_seconds", "elapsed_s", "date",
-    )
+        "time", "elapsed_time", "time_sec", "time_seconds", "elapsed_s",
+    ) + listOf("unix", "unix_time", "epoch", "timestamp", "time", "elapsed").flatMap { name ->
+        listOf("${name}_ms", "${name}_min", "${name}_h")
+    } + listOf("unix_s", "epoch_s", "timestamp_s", "date")
     private val DATES = setOf("date", "utc_date", "date_utc", "local_date", "gps_date")
     private val LATITUDES = setOf(
         "latitude",

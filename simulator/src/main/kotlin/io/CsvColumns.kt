@@ -119,7 +119,7 @@ internal data class CsvColumns(
             return CsvColumns(names, time, date, place.latitude, place.longitude, place.x, place.y, value, conditions)
         }
 
-        private val all: String get() = "columns ${names.joinToString(", ")}"
+        private val all: String get() = "columns ${listed(names)}"
 
         private fun named(name: String): Int {
             val index = names.indexOf(name)
@@ -127,7 +127,7 @@ internal data class CsvColumns(
             val twins = names.filter { it.startsWith("$name#") }
             if (twins.size > 1) throw problem(name, "one of ${twins.joinToString(", ")}", "several such columns")
             val near = NearName.of(name, names)?.let { "; did you mean '$it'?" }.orEmpty()
-            throw problem(name, "one of ${names.joinToString(", ")}", "no such column$near")
+            throw problem(name, "one of ${listed(names)}", "no such column$near")
         }
 
         private fun recognised(name: String, others: List<Int> = emptyList()): Int = when {

@@ -205,7 +205,8 @@ internal class CsvSurvey internal constructor(
         private fun problemOf(row: CsvRow): LogProblem? {
             quoteProblem(row)?.let { return it }
             if (row.zeros > 0) {
-                val found = counted(row.zeros.toLong() * content.unit, "zero byte")
+                val bytes = counted(minOf(row.zeros, ShortZeros.MOST).toLong() * content.unit, "zero byte")
+                val found = if (row.zeros > ShortZeros.MOST) "more than $bytes" else bytes
                 return problem(row.line, null, "a row of text", found, "rows with zero bytes")
             }
             if (row.fields != columns.names.size) {

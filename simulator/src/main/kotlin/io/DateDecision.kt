@@ -18,20 +18,13 @@ internal class DateDecision private constructor(val order: DateOrder?, val why: 
          * @throws LogProblem if the log leaves it open.
          */
         fun of(content: LogContent, layout: CsvLayout, column: Int, name: String, given: DateOrder?): DateDecision {
-            if (given != null) return DateDecision(given, "dates as ${given.words}, as asked for")
+            if (given != null) {
+                requireNeeded(content, layout, column, name, given)
+                return DateDecision(given, "dates as ${given.words}, as asked for")
+            }
             DateOrder.stated(name)?.let { return DateDecision(it, "dates as ${it.words}, as the column's name says") }
             val search = Search()
-            var line = 0L
-            try {
-                reader(content, layout).use { records ->
-                    for (record in records) {
-                        line = record.startingLineNumber + layout.bodyLine - 1
-                        if (record.fieldCount > column && search.isDone(record.getField(column), line)) break
-                    }
-                }
-            } catch (_: CsvParseException) {
-                // The reading proper says what is wrong there.
-            }
+            val line = look(content, layout, column, search::isDone)
             return search.decision(line) ?: throw LogProblem(
                 content.file,
                 search.openLine,
@@ -39,6 +32,47 @@ internal class DateDecision private constructor(val order: DateOrder?, val why: 
                 "--date-order ${search.flags()}, which no date in the log decides",
                 quoted(search.open.orEmpty()),
             )
+        }
+
+        /** Refuses an order that the dates' own form contradicts in all rows: it would be ignored. */
+        private fun requireNeeded(content: LogContent, layout: CsvLayout, column: Int, name: String, given: DateOrder) {
+            var first: String? = null
+            var firstLine = 0L
+            var isNeeded = false
+            look(content, layout, column) { text, line ->
+                val order = DateText.parts(text)?.order
+                isNeeded = DateText.parts(text) != null && (order == null || order == given)
+                if (first == null && order != null) {
+                    first = text
+                    firstLine = line
+                }
+                isNeeded
+            }
+            val other = first
+            if (isNeeded || other == null) return
+            val expected = "a date such as 05/06/2025, as --date-order says"
+            throw LogProblem(content.file, firstLine, name, expected, quoted(other))
+        }
+
+        /** Shows [isDone] the fields of [column] with their lines until it is; answers the last line. */
+        private fun look(
+            content: LogContent,
+            layout: CsvLayout,
+            column: Int,
+            isDone: (String, Long) -> Boolean,
+        ): Long {
+            var line = 0L
+            try {
+                reader(content, layout).use { records ->
+                    for (record in records) {
+                        line = record.startingLineNumber + layout.bodyLine - 1
+                        if (record.fieldCount > column && isDone(record.getField(column), line)) break
+                    }
+                }
+            } catch (_: CsvParseException) {
+                // The reading proper says what is wrong there.
+            }
+            return line
         }
 
         private fun reader(content: LogContent, layout: CsvLayout) = CsvReader.builder()

@@ -43,7 +43,7 @@ internal class LogContent private constructor(
         val stream = CountingStream(Files.newInputStream(file), progress)
         stream.skipNBytes(markLength.toLong())
         val decoded = InputStreamReader(table(stream), charset)
-        val text = if (Files.size(file) < LONG) decoded else ReadAhead(decoded)
+        val text = ShortZeros(if (Files.size(file) < LONG) decoded else ReadAhead(decoded))
         if (skippedLines == 0) return text
         return BufferedReader(text).apply { repeat(skippedLines) { readLine() } }
     }

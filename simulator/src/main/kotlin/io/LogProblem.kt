@@ -39,4 +39,13 @@ internal fun quoted(text: String): String {
     return if (clean.length <= LONGEST_QUOTE) "'$clean'" else "'${clean.take(LONGEST_QUOTE)}...'"
 }
 
+/** Columns' [names] fit for a one-line message: long ones cut, and of very many the first. */
+internal fun listed(names: List<String>): String {
+    val more = if (names.size > MOST_NAMES) " and ${names.size - MOST_NAMES} more" else ""
+    return names.take(MOST_NAMES).joinToString(", ") {
+        if (it.length <= LONGEST_QUOTE) it else it.take(LONGEST_QUOTE) + "..."
+    } + more
+}
+
 private const val LONGEST_QUOTE = 48
+private const val MOST_NAMES = 100

@@ -4,12 +4,12 @@ import kotlin.math.abs
 
 /**
  * Numbers that estimation can take: their squares, and products of some of these, are still numbers, neither too large
- * nor, where a column holds nothing larger, so small that they vanish.
+ * nor, where a column holds nothing larger, so small that they vanish, or that no axis can be drawn of them.
  */
 internal object SquareReach {
     /** The largest number that any log may hold. */
     const val LARGEST = 1e60
-    private const val SMALLEST = 1e-60
+    private const val SMALLEST = 1e-30
 
     /**
      * Refuses [log] if one of [columns] holds a larger number, or none but smaller ones beside 0; NaN stands for none.

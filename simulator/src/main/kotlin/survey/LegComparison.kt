@@ -148,6 +148,8 @@ class LegComparison(
     }
 
     private fun estimate(scores: List<Double>): Estimate {
+        // Then every sample has each leg once, and all are alike.
+        if (scores.size <= BLOCK) return Estimate(scores.average(), Double.NaN)
         val random = Random(seed)
         val means = DoubleArray(RESAMPLES) { resample(scores.size, random).sumOf { scores[it] } / scores.size }
         val mean = means.average()

@@ -5,7 +5,8 @@ import kotlin.math.abs
 /**
  * A mean with its standard error.
  *
- * @property mean the mean. @property standardError by bootstrap over legs, in blocks of [LegComparison.BLOCK].
+ * @property mean the mean. @property standardError by bootstrap over legs, in blocks of [LegComparison.BLOCK]; NaN where
+ *   there are no more legs than that.
  */
 data class Estimate(val mean: Double, val standardError: Double)
 

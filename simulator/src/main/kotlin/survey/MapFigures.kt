@@ -10,6 +10,7 @@ import stillwater.plot.Mark
 import stillwater.plot.Series
 import stillwater.plot.TrackMap
 import stillwater.run.FilterKind
+import stillwater.survey.Wording.Companion.digits
 import kotlin.math.ceil
 import kotlin.math.sqrt
 
@@ -144,7 +145,9 @@ class MapFigures(private val map: SurveyMap) {
         }
         val caption =
             "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
-                "is that of the range taken for the water, ${map.prior.lower} to ${map.prior.upper}. Cells without a " +
+                "is that of the range taken for the water, ${digits(
+                    map.prior.lower,
+                )} to ${digits(map.prior.upper)}. Cells without a " +
                 "bound and those whose bounds crossed have no width. Of ${counts(field)}."
         return MapFigure("bounds-width", figure, caption)
     }

@@ -169,7 +169,7 @@ object MapJson {
         if (estimate == null) return
         putJsonObject(name) {
             put("mean", estimate.mean)
-            put("standard_error", estimate.standardError)
+            put("standard_error", number(estimate.standardError))
         }
     }
 

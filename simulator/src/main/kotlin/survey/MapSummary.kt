@@ -4,7 +4,6 @@ import stillwater.run.FilterKind
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
 import stillwater.survey.Wording.Companion.percent
-import kotlin.math.abs
 
 /**
  * What a [SurveyMap] comes to in words and rounded numbers, for the terminal and the report.
@@ -116,7 +115,7 @@ class MapSummary(private val map: SurveyMap) {
             mismatch.same?.let { add("same-direction legs, twice as far" to wording.estimate(it)) }
             mismatch.excess?.let { add("opposite minus same, leg by leg" to wording.estimate(it)) }
             add("lag" to mismatch.verdict.label)
-            add(BEST_SHIFT to shortShift(mismatch.shift))
+            add(BEST_SHIFT to ShiftWording.best(mismatch.shift))
             add("what the shift says" to shift(mismatch))
         }
         val opposite = map.passes.opposite
@@ -129,18 +128,6 @@ class MapSummary(private val map: SurveyMap) {
         }
     }
 
-    /** The best shift and its interval, no more. */
-    private fun shortShift(shift: LagShift) = if (shift.isAtEnd) {
-        "${moved(shift)}, the most that was tried"
-    } else {
-        "${moved(shift)} (95 %: ${digits(shift.low, 3)} to ${digits(shift.high, 3)} s)"
-    }
-
-    private fun moved(shift: LagShift): String {
-        val way = if (shift.seconds > 0) "earlier" else "later"
-        return if (shift.seconds == 0.0) "0 s" else "${digits(abs(shift.seconds), 3)} s $way"
-    }
-
     /** What the best shift of [mismatch] says, in words. */
     internal fun shift(mismatch: LegMismatch): String {
         val shift = mismatch.shift
@@ -149,7 +136,9 @@ class MapSummary(private val map: SurveyMap) {
                 "none can be told from ${shift.legs} legs; ${LagShift.FEWEST_LEGS} are needed"
             !shift.isClear -> "none can be told from this log; up to ${digits(shift.limit, 3)} s were tried either way"
             else ->
-                "opposite legs agree best, to ${wording.value(shift.mismatch)}, with readings taken ${moved(shift)}" +
+                "opposite legs agree best, to ${wording.value(
+                    shift.mismatch,
+                )}, with readings taken ${ShiftWording.moved(shift.seconds)}" +
                     reserve(mismatch)
         }
     }

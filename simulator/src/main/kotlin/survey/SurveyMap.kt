@@ -17,6 +17,7 @@ import stillwater.field.FieldMap
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
 import stillwater.io.ReadingSink
+import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.model.Grid
@@ -124,6 +125,7 @@ class SurveyMap internal constructor(
             val first = look(log, settings, look) { progress(it.also { bytes = it }) }
             if (first.readings < 2) throw tooFew(log, first)
             val statistics = look.scan.statistics()
+            SquareReach.require(log, doubleArrayOf(statistics.lowest, statistics.highest))
             val track = look.scan.track()
             val legs = LegFinder(statistics).find(track)
             val mismatch = async(Dispatchers.Default) { LegComparison(statistics, track).compare(legs) }

@@ -69,6 +69,7 @@ class SurveyScan : ReadingSink {
         if (moved > JUMP_METRES && moved > JUMP_SPEED * step) jumps++
         // Over a gap nothing is known about the way.
         if (readings > 2 && step > GAP_SECONDS && step > GAP_STEPS * (last - first) / (readings - 1)) {
+            distance += sinceAnchor()
             return anchor(seconds, x, y)
         }
         val elapsed = seconds - anchorTime
@@ -79,6 +80,9 @@ class SurveyScan : ReadingSink {
             anchor(seconds, x, y)
         }
     }
+
+    /** The way of a stretch too short for a speed, m. */
+    private fun sinceAnchor() = hypot(lastX - anchorX, lastY - anchorY)
 
     private fun anchor(seconds: Double, x: Double, y: Double) {
         anchorTime = seconds
@@ -106,7 +110,7 @@ class SurveyScan : ReadingSink {
             steps = Quantiles(steps.column(0)),
             longestStep = longestStep,
             speeds = Quantiles(speeds.column(0)),
-            distance = distance,
+            distance = distance + sinceAnchor(),
             repeatedFixes = repeatedFixes / (readings - 1.0),
             repeatedValues = repeatedValues / (readings - 1.0),
             jumps = jumps,

@@ -21,9 +21,11 @@ internal class Wording(private val map: SurveyMap) {
     /** [value] of the quantity with its unit, where there is one. */
     fun value(value: Double): String = digits(value) + after
 
-    /** Mean and standard error of the quantity. */
-    fun estimate(estimate: Estimate): String =
-        "${digits(estimate.mean)} ± ${digits(estimate.standardError, 2)}$after"
+    /** Mean and standard error of the quantity; without the error where too few legs show it. */
+    fun estimate(estimate: Estimate): String {
+        val error = if (estimate.standardError.isNaN()) "" else " ± ${digits(estimate.standardError, 2)}"
+        return "${digits(estimate.mean)}$error$after"
+    }
 
     /** The unit after a number, with a blank before it; empty without one. */
     val after: String get() = map.unit?.let { " $it" }.orEmpty()

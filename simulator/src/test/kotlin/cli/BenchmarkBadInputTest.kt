@@ -289,27 +289,20 @@ class BenchmarkBadInputTest {
                 "--clear-windows",
             ),
             flag(
-                "--slowest: expected --filter interval to go with it, found --filter bounded,averaging",
+                "--slowest: expected --filter interval to go with it, found the usual --filter bounded,averaging",
                 "--slowest",
                 "9",
             ),
             flag(
-                "--factor: expected --filter self-calibrating or bayesian to go with it, found --filter bounded,averaging",
+                "--factor: expected --filter self-calibrating or bayesian to go with it, found the usual --filter bounded,averaging",
                 "--factor",
                 "2",
             ),
             flag(
-                "--rrt-iterations: expected --planner polygon-rrt to go with it, found --planner " +
+                "--rrt-iterations: expected --planner polygon-rrt to go with it, found the usual --planner " +
                     "random-walk,lawnmower,bounded",
                 "--rrt-iterations",
                 "9",
-            ),
-            flag(
-                "--settling: expected --planner information to go with it, found --planner lawnmower",
-                "--planner",
-                "lawnmower",
-                "--settling",
-                "1",
             ),
             flag("--choice: $BOUNDED_ONLY", "--planner", "random-walk,information", "--choice", "best"),
             flag("--discount-visits: $BOUNDED_ONLY", "--planner", "random-walk,information", "--discount-visits"),

@@ -82,6 +82,43 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun aRateHasItsUnitBehindTheNumber() {
+        val file = directory.resolve("drift.csv")
+        val random = Random(5)
+        val lines = List(300) { i ->
+            val truth = 5 + sin(i / 9.0) + 0.5 * sin(i / 23.0)
+            "$i,${truth + 0.004 * i + 0.02 * random.nextDouble()},$truth"
+        }
+        Files.write(file, listOf("time_s,probe,sample") + lines)
+        val out = "${directory.resolve("out")}"
+        val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--numbers-only", "--out", out)
+        assertContains(result.stdout, "verdict: named (drift)")
+        assertContains(result.stdout, Regex("""rate 0\.004\d* \[\S+ \S+] sensor units/s"""))
+    }
+
+    /** Gain and offset of a log without noise are off by what sums lose, which is no fault of the sensor. */
+    @Test
+    fun roundingIsNoCalibration() {
+        fun truth(i: Int) = 5 + sin(i / 9.0) + sin(i / 4.1)
+        val file = directory.resolve("late.csv")
+        Files.write(file, listOf("time_s,probe,sample") + List(300) { "$it,${truth(maxOf(0, it - 8))},${truth(it)}" })
+        val out = "${directory.resolve("out")}"
+        val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--numbers-only", "--out", out)
+        assertContains(result.stdout, "dead time 8.00 [8.00, 8.00] s")
+        assertFalse("calibration" in result.stdout, result.stdout)
+    }
+
+    @Test
+    fun whereNothingWasTriedNothingIsLikeliest() {
+        val file = directory.resolve("anchor.csv")
+        Files.write(file, listOf("time_s,x_m,y_m,probe") + List(99) { "$it,5,5,${8 + sin(it / 9.0)}" })
+        val result = diagnose("$file", "--numbers-only", "--out", "${directory.resolve("out")}")
+        assertContains(result.stdout, "verdict: insufficient-data")
+        assertContains(result.stdout, "\nno cause was tried\n")
+        assertEquals(5, result.stdout.trim().lines().filterNot { it.startsWith("wrote") }.size, result.stdout)
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")

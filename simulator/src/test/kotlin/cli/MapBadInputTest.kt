@@ -35,7 +35,7 @@ class MapBadInputTest {
     }
 
     @ParameterizedTest
-    @MethodSource("badLogs", "stillwater.cli.BadPlatypusLogs#all", "badFlags")
+    @MethodSource("badLogs", "stillwater.cli.BadPlatypusLogs#all", "stillwater.cli.BadMapFlags#all")
     fun isRefusedInOneLineAndWritesNothing(case: Case) {
         val log = directory.resolve(case.file).apply { writeBytes(case.log) }
         val result = runMap(log.toString(), "--out", directory.out().toString(), *case.flags.toTypedArray())
@@ -87,8 +87,8 @@ class MapBadInputTest {
     }
 
     companion object {
-        private const val HEAD = "time_s,lat_deg,lon_deg,do_mg_l\n"
-        private const val GOOD = "0,45.5,-73.1,8.1\n1,45.50001,-73.1,8.2\n2,45.50002,-73.1,8.3\n"
+        internal const val HEAD = "time_s,lat_deg,lon_deg,do_mg_l\n"
+        internal const val GOOD = "0,45.5,-73.1,8.1\n1,45.50001,-73.1,8.2\n2,45.50002,-73.1,8.3\n"
 
         @JvmStatic
         fun missingFiles() = listOf(
@@ -102,6 +102,16 @@ class MapBadInputTest {
         /** A log that holds zeros where data never reached the disk. */
         private fun cut(name: String, text: String, message: String, vararg flags: String) =
             csv("power cut $name", text, "log.csv:$message", "rows with zero bytes", *flags)
+
+        /** An order that the form of the dates contradicts, and that would be ignored. */
+        private fun orderOf(date: String) = csv(
+            "order of $date",
+            "Date,Time,x_m,y_m,v\n$date,12:00:00,0,0,1\n$date,12:00:01,1,0,2\n",
+            "log.csv:2: column Date: expected a date such as 05/06/2025, as --date-order says, found '$date'",
+            null,
+            "--date-order",
+            "mdy",
+        )
 
         @JvmStatic
         fun badLogs() = listOf(
@@ -231,6 +241,12 @@ class MapBadInputTest {
             csv("--x and --lat", HEAD + GOOD, "some of both", null, "--x", "lat_deg", "--lat", "lat_deg"),
             csv("a column twice", HEAD + GOOD, "column time_s: expected one use", null, "--value", "time_s"),
             csv("x as y", "time_s,x_m,v\n0,1,2\n1,2,3\n", "column x_m", null, "--x", "x_m", "--y", "x_m"),
+            csv("next to nothing", "time_s,x_m,y_m,v\n0,0,0,1e-55\n1,1,1,2e-55\n", "expected readings of which some"),
+            csv(
+                "long name",
+                "t" + "v".repeat(5000) + ",x_m,y_m\n0,1,2\n",
+                "found columns t${"v".repeat(47)}..., x_m, y_m",
+            ),
             csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
             cut("after a row", HEAD + GOOD + "\u0000".repeat(500), "5: expected a row of text, found 500 zero bytes"),
@@ -249,6 +265,8 @@ class MapBadInputTest {
             cut("before rows", HEAD + "\u0000\u0000\n" + GOOD, "2: expected a row of text"),
             cut("among rows", HEAD + "\u0000\u0000" + GOOD + "3,45.5,-73.1,8\n", "2: expected a row of text"),
             cut("of a long file", HEAD + GOOD + "\u0000".repeat(200_000), "5: expected a row of text, found 200000 z"),
+            // More than any field may be long.
+            cut("of megabytes", HEAD + GOOD + "\u0000".repeat(2_000_000), "5: expected a row of text, found more than"),
             csv("nothing but zeros", "\u0000".repeat(99), "expected a text log, found binary data"),
             csv("zeros in the header", "time_s\u0000" + HEAD + GOOD, "expected a text log, found binary data"),
             csv("zeros and other bytes", HEAD + "\u0000\u0001\n" + GOOD, "expected a text log, found binary data"),
@@ -285,6 +303,9 @@ class MapBadInputTest {
                 "log.csv:3: column Date: expected a date as day/month/year, found '30/02/2025'",
                 "rows without a date",
             ),
+            orderOf("2025-06-25"),
+            orderOf("2025/06/25"),
+            orderOf("25-Jun-2025"),
             csv(
                 "preamble without a table",
                 "Logger: 7\nSite: pond\n",
@@ -303,95 +324,5 @@ class MapBadInputTest {
         private const val OUT = "rows with a number out of all bounds"
         private const val WRONG_COUNT = "rows with a wrong number of fields"
         private const val TEXT = "rows with text where a number belongs"
-
-        private fun flag(name: String, message: String, vararg flags: String) =
-            Case(name, (HEAD + GOOD).toByteArray(), message, flags = flags.toList())
-
-        @JvmStatic
-        fun badFlags() = listOf(
-            flag(
-                "crossing of no filter",
-                "--filter bounded to go with it, found --filter averaging",
-                "--crossing",
-                "soft",
-                "--filter",
-                "averaging",
-            ),
-            flag(
-                "median of no filter",
-                "--median: expected --filter bounded or bounded-ex",
-                "--median",
-                "5",
-                "--filter",
-                "averaging",
-            ),
-            flag(
-                "calibrate without bounded",
-                "--calibrate: expected --filter bounded to go",
-                "--calibrate",
-                "0:9",
-                "--filter",
-                "averaging",
-            ),
-            flag(
-                "slowest without interval",
-                "--slowest: expected --filter interval to go with it, found --filter averaging,bounded",
-                "--slowest",
-                "9",
-            ),
-            flag(
-                "condition without sensor",
-                "--condition: expected --sensor to go with it, found none",
-                "--condition",
-                "speed=do_mg_l",
-            ),
-            flag(
-                "pose age of a table",
-                "expected a Platypus log for --max-pose-age, found a table",
-                "--max-pose-age",
-                "9",
-            ),
-            flag(
-                "order of dates without dates",
-                "column time_s: expected a date such as 05/06/2025, as --date-order says",
-                "--date-order",
-                "dmy",
-            ),
-            flag("cell of 0", "--cell: expected a length in metres above 0, found '0'", "--cell", "0"),
-            flag("cell NaN", "--cell: expected", "--cell", "NaN"),
-            flag("cell too small", "--cell: cells of 1.0E-7 m would make a grid", "--cell", "0.0000001"),
-            flag("grid with one number", "--grid: expected COLSxROWS", "--grid", "10"),
-            flag("grid of 0", "--grid: expected COLSxROWS", "--grid", "0x5"),
-            flag("grid of halves", "--grid: expected COLSxROWS", "--grid", "1.5x2"),
-            flag("grid too fine", "--grid: expected COLSxROWS", "--grid", "100000x100000"),
-            flag(
-                "grid and cell",
-                "--grid: expected either --grid or --cell, found both",
-                "--grid",
-                "2x2",
-                "--cell",
-                "5",
-            ),
-            flag("rotation", "--rotation: expected an angle within -180..180", "--rotation", "181"),
-            flag("range", "--range: expected LOW:HIGH", "--range", "9:8"),
-            flag("epsilon", "--epsilon: expected auto or a number of at least 0, found '-1'", "--epsilon", "-1"),
-            flag("calibrate", "--calibrate: expected FROM:TO", "--calibrate", "60"),
-            flag("calibrate on nothing", "expected --calibrate with at least 7 readings", "--calibrate", "100:200"),
-            flag(
-                "calibrate a number",
-                "--calibrate: expected --epsilon auto, found a number",
-                "--calibrate",
-                "0:1",
-                "--epsilon",
-                "1",
-            ),
-            flag("even median", "--median: expected an odd number within 1..999, found '4'", "--median", "4"),
-            flag("slope", "--slope: expected a whole number within 2..999, found '1'", "--slope", "1"),
-            flag("crossing", "--crossing: expected one of plain, soft, reset, found 'hard'", "--crossing", "hard"),
-            flag("filter", "--filter: expected some of averaging, exponential, bounded", "--filter", "kalman"),
-            flag("filter twice", "each once", "--filter", "bounded,bounded"),
-            flag("unit", "--unit: expected a unit such as mg/L, found ' '", "--unit", " "),
-            flag("pose age", "--max-pose-age: expected a number of seconds above 0", "--max-pose-age", "0"),
-        )
     }
 }

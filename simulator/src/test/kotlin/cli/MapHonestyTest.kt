@@ -50,6 +50,13 @@ class MapHonestyTest {
     private val flags = arrayOf("--cell", "10", "--epsilon", "0.01", "--range", "0:20")
 
     @Test
+    fun theRangeTakenForTheWaterHasNoMoreDigitsThanItMeans() {
+        json(thereAndBack(8.0, 9.1), "--cell", "10", "--epsilon", "0.01")
+        val range = Regex("range taken for the water, (\\S+) to (\\S+)\\. Cells").find(report())?.groupValues.orEmpty()
+        assertEquals(listOf("7.89", "9.21"), range.drop(1))
+    }
+
+    @Test
     fun countsCrossedBoundsApartAndWarns() {
         // Rising to 8.95, falling to 8.05: the lower bound ends above the upper one.
         val summary = json(thereAndBack(8.0, 9.0), *flags)

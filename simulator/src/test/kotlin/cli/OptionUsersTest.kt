@@ -55,4 +55,13 @@ class OptionUsersTest {
             assertEquals(expected, refusal.message)
         }
     }
+
+    @Test
+    fun whatNobodyGaveIsCalledTheUsual() {
+        val users = OptionUsers(mapOf("--a" to OptionUser.option("--b") + filters.take(1)))
+        val present = filters.drop(2).take(1)
+        val refusal = assertFailsWith<BadFlag> { users.require(listOf("--a" to 1), present, listOf("--filter")) }
+        val expected = "--a: expected --b or --filter averaging to go with it, found the usual --filter bounded"
+        assertEquals(expected, refusal.message)
+    }
 }

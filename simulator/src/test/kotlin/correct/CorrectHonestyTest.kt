@@ -62,6 +62,33 @@ class CorrectHonestyTest {
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
     }
 
+    /** Opposite legs of a stuck sensor differ by rounding, of which there is no share. */
+    @Test
+    fun aStuckSensorIsNotCalledAnotherSensor() {
+        val stuck = pond(600, referenceEvery = 1).lines().filter { it.isNotEmpty() }.mapIndexed { i, line ->
+            val cells = line.split(',')
+            if (i == 0) line else "${cells[0]},${cells[1]},${cells[2]},8.1,8.1"
+        }
+        val result = correct(stuck.joinToString("\n"))
+        assertContains(result.stderr, "the readings never change")
+        assertFalse("opposite legs differ" in result.stderr, result.stderr)
+    }
+
+    @Test
+    fun fewLegsAreSaidToBeTooFew() {
+        val few = correct(pond(400, referenceEvery = 1), "--reference", "fast")
+        assertContains(few.stdout, "; too few legs to tell, 5\n")
+    }
+
+    @Test
+    fun aNarrowIntervalHasTwoEnds() {
+        val result = correct(pond(700, referenceEvery = 1), "--reference", "fast")
+        assertFalse("too few legs" in result.stdout, result.stdout)
+        val ends = Regex("""time constant in s \S+ \((\S+) to (\S+)\)""").find(result.stdout)?.groupValues.orEmpty()
+        assertEquals(3, ends.size, result.stdout)
+        assertTrue(ends[1] < ends[2], result.stdout)
+    }
+
     @Test
     fun optionsThatWouldChangeNothingAreRefused() {
         val alone = correct(pond(60, referenceEvery = 1), "--condition", "temperature=fast")

@@ -314,11 +314,16 @@ class LoggerExportTest {
                 AT_EIGHT * 3 - 60,
             ),
             Case(
+                "hours",
+                "time_h,x_m,y_m,v\n8,0,0,8.1\n8.016666666667,1,0,8.2\n8.033333333333,2,0,8.3\n",
+                "times in units of 3600.0 s, by the column's name",
+                AT_EIGHT,
+            ),
+            Case(
                 "milliseconds",
                 "unix_ms,x_m,y_m,v\n1752480000000,0,0,8.1\n1752480060000,1,0,8.2\n1752480120000,2,0,8.3\n",
                 "times in units of 0.001 s, by the column's name",
                 EIGHT,
-                LogChoice(time = "unix_ms"),
             ),
             Case(
                 "milliseconds in brackets with more",

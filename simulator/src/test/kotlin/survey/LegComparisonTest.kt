@@ -86,12 +86,18 @@ class LegComparisonTest {
         assertFalse(mismatch.shift.isClear, "6 legs with two neighbours each are too few")
     }
 
+    /** In blocks of three, each sample of three legs has the same ones. */
+    @Test
+    fun threeLegsHaveNoStandardError() {
+        assertTrue(assertNotNull(compare(survey(legs = 5, lag = 10.0))).opposite.standardError.isNaN())
+        assertTrue(assertNotNull(compare(survey(legs = 6, lag = 10.0))).opposite.standardError.isFinite())
+    }
+
     @Test
     fun seesALagOnlyAboveTwoStandardErrorsAndFromEnoughLegs() {
         assertEquals(LegVerdict.LAG_SEEN, LegVerdict.of(Estimate(0.21, 0.1), legs = 8))
         assertEquals(LegVerdict.NOT_TOLD_APART, LegVerdict.of(Estimate(0.19, 0.1), legs = 8))
         assertEquals(LegVerdict.NOT_TOLD_APART, LegVerdict.of(Estimate(-0.5, 0.1), legs = 8))
-        // From three legs in blocks of three every resample is the same three legs: a standard error of 0.
         assertEquals(LegVerdict.TOO_FEW_LEGS, LegVerdict.of(Estimate(0.21, 0.0), legs = 3))
         assertEquals(LegVerdict.TOO_FEW_LEGS, LegVerdict.of(null, legs = 0))
     }
