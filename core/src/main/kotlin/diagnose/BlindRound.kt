@@ -3,20 +3,20 @@ package stillwater.diagnose
 /**
  * All causes and looks on top of one model of a log without a reference.
  *
- * @param isShapeOpen whether not even a time constant and a dead time can be told apart: then nothing between them can be
- *   named. @param isLagSeen whether there is a lag at all, for certain. @param settledStill the model on water that does
- *   not change. @param tell told how much of the round is done, 0..1.
+ * @param lag what the log says of a lag alone: where not even a time constant and a dead time can be told apart nothing
+ *   between them can be named. @param settledStill the model on water that does not change. @param tell told how much of
+ *   the round is done, 0..1.
  */
 internal class BlindRound(
     private val search: BlindSearch,
     private val settings: DiagnosisSettings,
-    private val isShapeOpen: Boolean,
-    private val isLagSeen: Boolean,
+    private val lag: BlindLag,
     model: BlindState,
     private val settledStill: BlindState = search.still(model),
     private val tell: (Double) -> Unit,
 ) {
     private val loops get() = search.loops
+    private val isShapeOpen = lag.isOpen(settings.separation)
 
     /** Still water under noise that hardly wanders; null where it does not anyway. */
     private val quiet = search.quiet(settledStill)
@@ -44,7 +44,7 @@ internal class BlindRound(
     /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
     val changing = maxOf(open.score - still.score, 0.0)
 
-    private val terms = BlindTerms.of(search, !isShapeOpen && isLagSeen).filter(::isNew)
+    private val terms = BlindTerms.of(search, !isShapeOpen).filter(::isNew)
 
     /**
      * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:
@@ -83,16 +83,21 @@ internal class BlindRound(
         fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
         val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
             .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
-            all.filter { it.name in onQuiet }
+            all.filter { it.name in onQuiet || it.pValue < settings.level }
         loops.all(all) {
             val other = other(it)
-            when {
+            val settled = when {
                 isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
                 it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
                 else -> it
             }
+            if (isOfLag(settled)) settled else settled.atMost(0.0)
         }
     }
+
+    /** Whether [trial] needs no lag, or there is one for certain: a lag alone, or the one that it is another shape of. */
+    private fun isOfLag(trial: BlindTrial): Boolean = lag.isSeen || trial.term?.cause !in BlindTerms.OF_LAG ||
+        trial.state?.let { lag.isSeenIn(it, trial.inflation) } == true
 
     private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 
@@ -286,6 +291,9 @@ internal class BlindRound(
 
     /** Whether the [index]-th of [looks] is at what else the sensor might show of the water. */
     fun isOfWater(index: Int): Boolean = here.list[index].ofWater
+
+    /** Whether the [index]-th of [looks] is at what goes with the boat alone. */
+    fun isOfBoat(index: Int): Boolean = here.list[index].ofBoat
 
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
