@@ -244,7 +244,8 @@ internal class BlindRound(
         val deficit = quiet?.let { state.score - it.score } ?: 0.0
         // What waves of the water that are missing do looks like another response: one counts with which none are.
         val found = here.list.indices.mapTo(ArrayList()) { i ->
-            here.trials[i].let { if (here.list[i].ofWater && isBlurred) it.atMost(0.0) else it }
+            val isWaves = here.list[i].ofWater && (isBlurred || isMissing(here.list[i], here.trials[i]))
+            if (isWaves) here.trials[i].atMost(0.0) else here.trials[i]
         }
         val tight = here.list.indices.filter { !here.list[it].isLoose }
         val begun = tight.map { i ->
@@ -277,12 +278,16 @@ internal class BlindRound(
             FinerWaves.isNone(refitted.state, search)
         if (!isClear) return begun.trial.atMost(0.0)
         val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
-        if (isBlurred && begun.look.ofWater && first.ratio < BEYOND_BLUR) return first.atMost(0.0)
+        if (isMissing(begun.look, first)) return first.atMost(0.0)
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
         return tries.settled(begun.look, refitted, best)
     }
+
+    /** Whether waves that the water is not given may look like [look] as much as [trial] says. */
+    private fun isMissing(look: BlindLook, trial: BlindTrial) =
+        look.ofWater && !look.isLoose && trial.ratio < BEYOND_MISSING
 
     /** The strongest of [looks] at which something is left for certain, by its place; null where nothing is. */
     val strongestLook: Int?
@@ -328,8 +333,8 @@ internal class BlindRound(
         /** The same that water finer than was resolved does not give a response of another shape. */
         const val BEYOND_WAVES = 100.0
 
-        /** The same that waves which are missing do not give a look at the response: twice what they gave one (191070). */
-        const val BEYOND_BLUR = 60.0
+        /** The same that waves which are missing do not give a look at the response: they gave 30 and 36 (191070, 195170). */
+        const val BEYOND_MISSING = 45.0
 
         /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
         val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)
