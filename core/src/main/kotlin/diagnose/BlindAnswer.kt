@@ -113,7 +113,8 @@ internal class BlindAnswer(
 
     /** The longest time constant that the log allows, s. */
     private fun longest(): Double =
-        base.timeConstant * exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
+        base.timeConstant *
+            exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {

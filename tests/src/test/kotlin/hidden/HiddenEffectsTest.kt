@@ -39,7 +39,8 @@ class HiddenEffectsTest {
     @Test
     fun withoutAReferenceWhatWasMissedIsTold() {
         val cases = HiddenCampaign.run(listOf(195_263L, 195_157L, 191_018L, 190_008L), withReference = false, directory)
-        val hidden = listOf(HiddenEffect.POSITION, HiddenEffect.SECOND_ORDER, HiddenEffect.QUANTISATION, HiddenEffect.HEADING)
+        val hidden =
+            listOf(HiddenEffect.POSITION, HiddenEffect.SECOND_ORDER, HiddenEffect.QUANTISATION, HiddenEffect.HEADING)
         assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
         assertTrue(cases.dropLast(1).all { it.correct }, Scores(cases).markdown())
         assertEquals("unexplained", cases.last().answer.verdict)
