@@ -40,7 +40,10 @@ internal class BlindAnswer(
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
         )
-        val verdict = verdict(all, left.first(), end.looksAsIs[order.first()].ratio, chosen)
+        val strongest = order.first()
+        // What goes with the boat alone is no lag's of either kind, nor the water's.
+        val asIs = if (end.isOfBoat(strongest)) Double.POSITIVE_INFINITY else end.looksAsIs[strongest].ratio
+        val verdict = verdict(all, left.first(), asIs, chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
@@ -81,7 +84,7 @@ internal class BlindAnswer(
         val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel && outweighs
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }
-            .firstOrNull { it.isContradicted && it.term?.cause !in BlindDiagnosis.SLOW }
+            .firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
         return when {
             contradicted != null -> Verdict.Unexplained(
                 "the halves of the log contradict each other about the ${contradicted.name}",
@@ -110,7 +113,8 @@ internal class BlindAnswer(
 
     /** The longest time constant that the log allows, s. */
     private fun longest(): Double =
-        base.timeConstant * exp(minOf(NORMAL_95 * errors(base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
+        base.timeConstant *
+            exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {
@@ -170,22 +174,6 @@ internal class BlindAnswer(
         state.score,
     )
 
-    /** Standard errors of the numbers on their fitted scales, as correlation inflates them; 0 of those fixed. */
-    private fun errors(state: BlindState): DoubleArray = errors(state.fit, state.model, state.numbers, state.whitened)
-
-    private fun errors(fit: BlindFit, model: ResponseModel, numbers: DoubleArray, z: DoubleArray): DoubleArray {
-        val free = search.free(model).let { f -> f.indices.filter { f[it] } }
-        val columns = free.map { fit.unlike(BlindDescent.derivative(model, numbers, it)) }.toTypedArray()
-        val system = SymmetricSystem.of(columns, z)
-        val variance = squares(z) / fit.rows
-        val errors = DoubleArray(numbers.size)
-        free.forEachIndexed { k, i ->
-            val inflation = BlindEvidence.inflation(listOf(columns[k]), z)
-            errors[i] = sqrt(maxOf(system.inverseDiagonal(k), 0.0) * variance * inflation)
-        }
-        return errors
-    }
-
     private fun estimates(model: ResponseModel, numbers: DoubleArray, errors: DoubleArray, terms: List<Term>) =
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
             .map { i -> estimate(model.parameters[i], numbers[i], errors[i]) }
@@ -227,7 +215,7 @@ internal class BlindAnswer(
         val noise = state.fit.design.noise.noise
         val heldOut = heldOut(state)
         return ModelAssessment(
-            estimates(state.model, state.numbers, errors(state), state.model.terms),
+            estimates(state.model, state.numbers, BlindErrors.of(search, state), state.model.terms),
             rmse(state.residuals),
             heldOut.rmse,
             heldOut.logLikelihood,
@@ -252,10 +240,11 @@ internal class BlindAnswer(
             val term = checkNotNull(trial.term)
             val fit = trial.state?.fit ?: state.fit
             val z = trial.state?.whitened ?: fit.residual(point.residuals)
+            val errors = BlindErrors.of(search, fit, model, point.numbers, z)
             Candidate(
                 term.cause,
                 term.condition,
-                estimates(model, point.numbers, errors(fit, model, point.numbers, z), listOf(model.terms.last())),
+                estimates(model, point.numbers, errors, listOf(model.terms.last())),
                 rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
                 Double.NaN,
                 Double.NaN,
@@ -285,6 +274,9 @@ internal class BlindAnswer(
 
     companion object {
         private const val LEFT = 0.25
+
+        /** Causes that halves of a log do not contradict: what happens once, and steps that all readings are on. */
+        private val NOT_HALVED = BlindDiagnosis.SLOW + Cause.QUANTISATION
         private const val MOST_STEPS = 3
         private const val NORMAL_95 = 1.96
 

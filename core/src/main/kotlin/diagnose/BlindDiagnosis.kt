@@ -51,10 +51,9 @@ internal class BlindDiagnosis(
             .let { all -> loops.all(all) { state -> BlindLag(search, state).also { it.likeliest } } }
         val lag = lags.maxBy { it.likeliest }
         base = lag.timeConstant
-        isShapeOpen = lag.isOpen(settings.separation)
-        isLagSeen = lag.isSeen
+        this.lag = lag
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
-        val start = if (isShapeOpen) lag.both else base
+        val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === found) round(start, still) else round(start)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
@@ -65,14 +64,11 @@ internal class BlindDiagnosis(
             .of(first, chosen, sets, end)
     }
 
-    /** Whether not even a time constant and a dead time can be told apart: then nothing between them can be named. */
-    private var isShapeOpen = false
-
-    /** Whether there is a lag at all, for certain. */
-    private var isLagSeen = false
+    /** What the log says of a lag alone. */
+    private lateinit var lag: BlindLag
 
     private fun round(model: BlindState, still: BlindState = search.still(model)) =
-        BlindRound(search, settings, isShapeOpen, isLagSeen, model, still, ::tell).also { rounds++ }
+        BlindRound(search, settings, lag, model, still, ::tell).also { rounds++ }
 
     private fun forward(first: BlindRound): List<BlindStep> {
         val chosen = ArrayList<BlindStep>()

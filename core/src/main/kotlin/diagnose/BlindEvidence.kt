@@ -29,20 +29,19 @@ internal object BlindEvidence {
     }
 
     /**
-     * How sure stretches of the log together are that [better] leaves less than [worse]: Student's t.
+     * How sure stretches of the log together are that [better] foretells each row by all others more surely than
+     * [worse]: Student's t. What either leaves of the rows that it was fitted to would speak for the one whose water takes
+     * more.
      *
      * Source: Vuong 1989, Likelihood ratio tests for model selection and non-nested hypotheses, doi:10.2307/1912557.
      */
     fun between(worse: BlindState, better: BlindState): Double {
-        val a = worse.whitened
-        val b = better.whitened
-        // Logarithms of the likelihood; what the noises' determinants differ by is the same in all rows.
+        val a = worse.surprises
+        val b = better.surprises
+        // What the noises' determinants differ by is the same in all rows.
         val wider = (worse.spare - better.spare) / a.size
         val gains = DoubleArray(STRETCHES)
-        for (i in a.indices) {
-            gains[(i.toLong() * STRETCHES / a.size).toInt()] +=
-                a[i] * a[i] / worse.variance - b[i] * b[i] / better.variance + wider
-        }
+        for (i in a.indices) gains[(i.toLong() * STRETCHES / a.size).toInt()] += a[i] - b[i] + wider
         return Evidence.t(gains)
     }
 }

@@ -113,6 +113,14 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     /** Whether the log shows a lag of either kind. */
     val isSeen: Boolean get() = seen > LAG_SEEN && sureness > SURE
 
+    /**
+     * Whether the log shows a lag as [other] has it, a response of another shape, with what correlation inflates there:
+     * where the shape is wrong a lag alone may be no better than none. Its time constant must be many standard errors.
+     */
+    fun isSeenIn(other: BlindState, inflation: Double): Boolean =
+        (other.score - none.score) / inflation > MUCH &&
+            1 / BlindErrors.of(search, other)[ResponseModel.TIME_CONSTANT] > SURE
+
     /** The delay as that of the channel [name]. */
     fun channel(name: String): ChannelLag =
         if (isSeen) ChannelLag(name, delay, delayError) else ChannelLag(name, Double.NaN, Double.NaN)

@@ -75,8 +75,8 @@ internal class BlindLooks(
         val turns = listOf(1, 2).flatMap { k ->
             listOf(DoubleArray(n) { cos(k * heading[it]) }, DoubleArray(n) { sin(k * heading[it]) })
         }
-        add(BlindLook("the heading", turns))
-        add(BlindLook("the speed", listOf(standard(series.speed))))
+        add(BlindLook("the heading", turns, ofBoat = true))
+        add(BlindLook("the speed", listOf(standard(series.speed)), ofBoat = true))
     }
 
     /** The period with which the response most likely rings: [PERIODS] from a time constant to twenty. */
@@ -151,39 +151,55 @@ internal class BlindLooks(
         val highest = 0.4 / series.period
         // Water that changes goes to and fro a few times in a log as well.
         val lowest = FEWEST_TURNS / maxOf(series.duration, 1e-9)
-        val count = minOf(((highest - lowest) * series.duration).toInt(), MOST_FREQUENCIES)
-        if (count < 2) return BlindLook("time, periodically", emptyList())
-        val frequencies = DoubleArray(count) { lowest + (highest - lowest) * it / (count - 1) }
-        val powers = DoubleArray(count) { power(tries.residual, frequencies[it]) }
+        val step = 1 / (FINER * series.duration)
+        val count = ((highest - lowest) / step).toInt()
+        if (count < 2 * BESIDE) return BlindLook("time, periodically", emptyList())
+        val powers = powers(tries.residual, lowest, step, count)
         val best = powers.indices.maxBy { powers[it] / beside(powers, it) }
-        val waves = listOf(wave(frequencies[best], ::cos), wave(frequencies[best], ::sin))
-        val period = "%.3g".format(Locale.ROOT, 1 / frequencies[best])
+        val closer = powers(tries.residual, lowest + (best - 1) * step, step / CLOSER, 2 * CLOSER + 1)
+        val frequency = lowest + (best - 1) * step + closer.indices.maxBy { closer[it] } * step / CLOSER
+        val waves = listOf<(Double) -> Double>(::cos, ::sin).map { shape ->
+            DoubleArray(n) { shape(2 * PI * frequency * (series.times[it] - series.times[0])) }
+        }
+        val period = "%.3g".format(Locale.ROOT, 1 / frequency)
         // Noise has its own colours: a period must stand out of those beside it.
         val near = maxOf(0, best - BESIDE)..minOf(count - 1, best + BESIDE)
         return BlindLook(
             "time, with a period of $period s",
             waves,
             2 * ln(count.toDouble()),
-            { z ->
-                beside(DoubleArray(near.count()) { power(z, frequencies[near.first + it]) }, best - near.first) /
-                    (squares(z) / 2)
-            },
+            { z -> beside(powers(z, lowest + near.first * step, step, near.count()), best - near.first) / squares(z) },
             doubt = 1.0,
         )
     }
 
-    private fun wave(frequency: Double, shape: (Double) -> Double) =
-        DoubleArray(n) { shape(2 * PI * frequency * (series.times[it] - series.times[0])) }
-
-    private fun power(z: DoubleArray, frequency: Double): Double {
-        val even = dot(z, wave(frequency, ::cos))
-        val odd = dot(z, wave(frequency, ::sin))
-        return even * even + odd * odd
+    /**
+     * How much of [z] goes with each of [count] frequencies from [lowest] on, [step] Hz apart: of white noise on average
+     * its square sum.
+     */
+    private fun powers(z: DoubleArray, lowest: Double, step: Double, count: Int): DoubleArray {
+        val cosines = DoubleArray(n) { cos(2 * PI * lowest * (series.times[it] - series.times[0])) }
+        val sines = DoubleArray(n) { sin(2 * PI * lowest * (series.times[it] - series.times[0])) }
+        val turnCosines = DoubleArray(n) { cos(2 * PI * step * (series.times[it] - series.times[0])) }
+        val turnSines = DoubleArray(n) { sin(2 * PI * step * (series.times[it] - series.times[0])) }
+        return DoubleArray(count) {
+            var even = 0.0
+            var odd = 0.0
+            for (i in 0 until n) {
+                val c = cosines[i]
+                val s = sines[i]
+                even += z[i] * c
+                odd += z[i] * s
+                cosines[i] = c * turnCosines[i] - s * turnSines[i]
+                sines[i] = s * turnCosines[i] + c * turnSines[i]
+            }
+            even * even + odd * odd
+        }
     }
 
     /** The mean power of frequencies near the [k]-th, from their median, which what leaks into them hardly moves. */
     private fun beside(powers: DoubleArray, k: Int): Double {
-        val near = (maxOf(0, k - BESIDE)..minOf(powers.size - 1, k + BESIDE)).filter { abs(it - k) > 1 }
+        val near = (maxOf(0, k - BESIDE)..minOf(powers.size - 1, k + BESIDE)).filter { abs(it - k) > FINER }
         return maxOf(median(DoubleArray(near.size) { powers[near[it]] }) / ln(2.0), 1e-300)
     }
 
@@ -200,8 +216,12 @@ internal class BlindLooks(
     private companion object {
         const val SLOWEST = 0.02
 
-        const val MOST_FREQUENCIES = 500
-        const val BESIDE = 12
+        /** Frequencies looked at for each that the log tells apart, and between two of them about the best. */
+        const val FINER = 2
+        const val CLOSER = 4
+
+        /** Frequencies on either side that tell the noise there. */
+        const val BESIDE = 12 * FINER
         const val FEWEST_TURNS = 10.0
 
         /** Periods that a response may ring with; the shortest in rows, the longest in time constants. */

@@ -8,6 +8,9 @@ internal object BlindRivals {
     /** Student's t with 23 degrees of freedom, one-sided 5 %. */
     private const val AGREED = 1.71
 
+    /** Twice a difference of log-likelihoods over inflation, odds of 150 to 1, of which stretches are not asked. */
+    private const val FAR = 10.0
+
     /**
      * Whether what [term] shows may as well be the water's own where nobody knows the water: a change of the
      * sensor's offset is like one of all the water, and what else is measured in the water may go with the value
@@ -43,7 +46,7 @@ internal object BlindRivals {
         if (own.term?.cause in BlindDiagnosis.SLOW) return true
         val worse = rival.state ?: return true
         val better = own.state ?: return true
-        return (own.likelier - rival.likelier) / own.inflation > BlindLag.MUCH ||
+        return (own.likelier - rival.likelier) / own.inflation > FAR ||
             BlindEvidence.between(worse, better) > AGREED
     }
 }

@@ -3,20 +3,20 @@ package stillwater.diagnose
 /**
  * All causes and looks on top of one model of a log without a reference.
  *
- * @param isShapeOpen whether not even a time constant and a dead time can be told apart: then nothing between them can be
- *   named. @param isLagSeen whether there is a lag at all, for certain. @param settledStill the model on water that does
- *   not change. @param tell told how much of the round is done, 0..1.
+ * @param lag what the log says of a lag alone: where not even a time constant and a dead time can be told apart nothing
+ *   between them can be named. @param settledStill the model on water that does not change. @param tell told how much of
+ *   the round is done, 0..1.
  */
 internal class BlindRound(
     private val search: BlindSearch,
     private val settings: DiagnosisSettings,
-    private val isShapeOpen: Boolean,
-    private val isLagSeen: Boolean,
+    private val lag: BlindLag,
     model: BlindState,
     private val settledStill: BlindState = search.still(model),
     private val tell: (Double) -> Unit,
 ) {
     private val loops get() = search.loops
+    private val isShapeOpen = lag.isOpen(settings.separation)
 
     /** Still water under noise that hardly wanders; null where it does not anyway. */
     private val quiet = search.quiet(settledStill)
@@ -44,7 +44,7 @@ internal class BlindRound(
     /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
     val changing = maxOf(open.score - still.score, 0.0)
 
-    private val terms = BlindTerms.of(search, !isShapeOpen && isLagSeen).filter(::isNew)
+    private val terms = BlindTerms.of(search, !isShapeOpen).filter(::isNew)
 
     /**
      * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:
@@ -83,16 +83,21 @@ internal class BlindRound(
         fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
         val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
             .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
-            all.filter { it.name in onQuiet }
+            all.filter { it.name in onQuiet || it.pValue < settings.level }
         loops.all(all) {
             val other = other(it)
-            when {
+            val settled = when {
                 isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
                 it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
                 else -> it
             }
+            if (isOfLag(settled)) settled else settled.atMost(0.0)
         }
     }
+
+    /** Whether [trial] needs no lag, or there is one for certain: a lag alone, or the one that it is another shape of. */
+    private fun isOfLag(trial: BlindTrial): Boolean = lag.isSeen || trial.term?.cause !in BlindTerms.OF_LAG ||
+        trial.state?.let { lag.isSeenIn(it, trial.inflation) } == true
 
     private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 
@@ -239,7 +244,8 @@ internal class BlindRound(
         val deficit = quiet?.let { state.score - it.score } ?: 0.0
         // What waves of the water that are missing do looks like another response: one counts with which none are.
         val found = here.list.indices.mapTo(ArrayList()) { i ->
-            here.trials[i].let { if (here.list[i].ofWater && isBlurred) it.atMost(0.0) else it }
+            val isWaves = here.list[i].ofWater && (isBlurred || isMissing(here.list[i], here.trials[i]))
+            if (isWaves) here.trials[i].atMost(0.0) else here.trials[i]
         }
         val tight = here.list.indices.filter { !here.list[it].isLoose }
         val begun = tight.map { i ->
@@ -272,12 +278,16 @@ internal class BlindRound(
             FinerWaves.isNone(refitted.state, search)
         if (!isClear) return begun.trial.atMost(0.0)
         val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
-        if (isBlurred && begun.look.ofWater && first.ratio < BEYOND_BLUR) return first.atMost(0.0)
+        if (isMissing(begun.look, first)) return first.atMost(0.0)
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
         return tries.settled(begun.look, refitted, best)
     }
+
+    /** Whether waves that the water is not given may look like [look] as much as [trial] says. */
+    private fun isMissing(look: BlindLook, trial: BlindTrial) =
+        look.ofWater && !look.isLoose && trial.ratio < BEYOND_MISSING
 
     /** The strongest of [looks] at which something is left for certain, by its place; null where nothing is. */
     val strongestLook: Int?
@@ -286,6 +296,9 @@ internal class BlindRound(
 
     /** Whether the [index]-th of [looks] is at what else the sensor might show of the water. */
     fun isOfWater(index: Int): Boolean = here.list[index].ofWater
+
+    /** Whether the [index]-th of [looks] is at what goes with the boat alone. */
+    fun isOfBoat(index: Int): Boolean = here.list[index].ofBoat
 
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
@@ -320,8 +333,8 @@ internal class BlindRound(
         /** The same that water finer than was resolved does not give a response of another shape. */
         const val BEYOND_WAVES = 100.0
 
-        /** The same that waves which are missing do not give a look at the response: twice what they gave one (191070). */
-        const val BEYOND_BLUR = 60.0
+        /** The same that waves which are missing do not give a look at the response: they gave 30 and 36 (191070, 195170). */
+        const val BEYOND_MISSING = 45.0
 
         /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
         val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)

@@ -33,6 +33,22 @@ internal class BlindState(
     /** What minus twice the log-likelihood has beside the square sum of residuals over their variance. */
     val spare: Double get() = fit.rows * ln(variance) + fit.design.noise.logDeterminant
 
+    /**
+     * Minus twice the log-likelihood of each whitened row where all others foretell it, less the logarithm of the noise's
+     * variance, length n: with h the water's share in a row (leverage), the error of the forecast is 1/(1 − h) times what
+     * is left, and its variance as many times the noise's.
+     */
+    val surprises: DoubleArray by lazy {
+        val out = DoubleArray(whitened.size)
+        fit.design.loops.each(PARTS) { part ->
+            for (i in (part * out.size / PARTS) until ((part + 1) * out.size / PARTS)) {
+                val own = maxOf(1 - squares(fit.halfRow(i)), LEAST_OWN)
+                out[i] = whitened[i] * whitened[i] / (variance * own) - ln(own)
+            }
+        }
+        out
+    }
+
     /** The lag's time, s. */
     val timeConstant: Double get() = numbers[ResponseModel.TIME_CONSTANT]
 
@@ -76,6 +92,11 @@ internal class BlindState(
     var isAtEnd: Boolean = false
 
     private companion object {
+        const val PARTS = 8
+
+        /** Share of a row of which the water foretells all, for rounding. */
+        const val LEAST_OWN = 1e-6
+
         /** Twice the log-likelihood, below the noise at hand, that one cause or number does not turn round. */
         const val FAR_BEHIND = 100.0
 

@@ -10,10 +10,17 @@ internal object BlindTerms {
     private const val LEAST_WARMTH = 0.05
     private const val COARSE = 0.3
 
+    /** Other shapes of a lag. */
+    val OF_LAG = setOf(
+        Cause.SECOND_ORDER_RESPONSE,
+        Cause.TWO_PATH_RESPONSE,
+        Cause.DEAD_TIME,
+        Cause.POSITION_OFFSET,
+    )
+
     /** All that the log may show; of a lag's shape only where it [hasShape]. */
     fun of(search: BlindSearch, hasShape: Boolean): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
-        // A lag that does not show for certain has no shape to be named.
         if (hasShape) {
             add(Term(Cause.SECOND_ORDER_RESPONSE))
             add(Term(Cause.TWO_PATH_RESPONSE))

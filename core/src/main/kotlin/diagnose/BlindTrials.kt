@@ -107,13 +107,14 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(unlike, without), looked, unlike)
+        val p = pValue(term, ratio, trial.degrees, between(unlike, without), unlike)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
         val settled =
             BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
-        val isNone = (term.cause == Cause.SATURATION && goOn(found)) || isLittle(term, found.numbers[slot])
+        val isNone = (term.cause == Cause.SATURATION && goOn(found)) ||
+            (isLittle(term, found.numbers[slot]) && ratio < BEYOND_FIXES)
         val isReal = !isNone && (term.cause == Cause.SATURATION || own.any { isShown(found, columns, it, inflation) })
         return if (isReal) settled else settled.atMost(0.0)
     }
@@ -132,7 +133,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return !parameter.neutral.isFinite() || abs(found.numbers[i] - parameter.neutral) > reach
     }
 
-    /** Whether [term] of [number] makes readings late by next to nothing: the smoothed way itself is off by as much. */
+    /**
+     * Whether [term] of [number] makes readings late by next to nothing: the smoothed way itself is off by as much, which
+     * explains a little.
+     */
     private fun isLittle(term: Term, number: Double): Boolean = when (term.cause) {
         Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < SmallShifts.LEAST_ROWS * series.period
         Cause.POSITION_OFFSET -> abs(number) < SmallShifts.LEAST_ROWS * series.period * scales.ordinarySpeed
@@ -207,7 +211,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, between(unlike, z), searched, unlike)
+        val p = pValue(what.term, ratio, degrees, between(unlike, z), unlike)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
@@ -308,7 +312,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
-        val p = pValue(null, ratio, degrees, between(unlike, without), look.searched, unlike)
+        val p = pValue(null, ratio, degrees, between(unlike, without), unlike)
         return BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p).lessSure(look.doubt)
     }
 
@@ -330,15 +334,15 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         ratio: Double,
         degrees: Int,
         t: Double,
-        searched: Double,
         unlike: DoubleArray,
     ): Double {
         // A jump shows at its own rows alone.
         if (term?.cause == Cause.OFFSET_STEPS) return Evidence.pValue(ratio, degrees)
         // An end of the range may be reached a few times in a log; one wrong reading or two are none.
         if (term?.cause == Cause.SATURATION) return Evidence.pValue(ratio * (1 - strongest(unlike)), degrees)
-        // Several numbers give the sum of what they change a good look of chance: the t is held against that.
-        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1) - searched, 0.0))
+        // Several numbers give the sum of what they change a good look of chance: the t is held against that. What was
+        // searched is in the ratio; stretches tell whether all of it is in a few.
+        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1), 0.0))
         val agreed = if (t > 0) Evidence.student(fewer, STRETCHES - 1) else 1.0
         return maxOf(Evidence.pValue(ratio, degrees), agreed)
     }
@@ -363,6 +367,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private companion object {
         /** Logarithm of how far the ends of an interval may be from the number: a factor of ten. */
         const val MOST_REACH = 2.3
+
+        /** Twice a gain in log-likelihood over inflation that errors of the smoothed way do not give. */
+        const val BEYOND_FIXES = 30.0
 
         /** Deviations of the noise that no reading at an end of the range is beyond it; and so many rows are none. */
         const val BEYOND_NOISE = 4.0

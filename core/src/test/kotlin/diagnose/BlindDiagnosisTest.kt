@@ -127,7 +127,7 @@ class BlindDiagnosisTest {
         val result = Diagnosis(MeasuredSeries(late.times, x, y, hum, null)).run()
         val verdict = result.verdict
         assertIs<Verdict.Unexplained>(verdict, "${result.dependences} ${result.warnings}")
-        assertContains(verdict.what, "period of 6.99 s")
+        assertContains(verdict.what, "period of 7.00 s")
         assertEquals(listOf(LAG), verdict.ambiguity)
     }
 

@@ -68,6 +68,26 @@ class BlindLooksTest {
         assertEquals(0.0, rms(DoubleArray(n) { off[it] - mean }), 0.25 * rms(effect))
     }
 
+    /** A period that falls between those that a look at a few hundred would have asked for, in a long log. */
+    @Test
+    fun aFaintPeriodIsFoundWhereverItIs() {
+        val rows = 2400
+        val way = CrossingTrack(rows)
+        val random = java.util.Random(5)
+        val noise = DoubleArray(rows) { NOISE * random.nextGaussian() }
+        for (period in listOf(7.03, 23.17, 61.3)) {
+            val values = DoubleArray(rows) { noise[it] + 0.0013 * cos(2 * PI * way.times[it] / period) }
+            val search = BlindSearch(MeasuredSeries(way.times, way.x, way.y, values, null))
+            val white = BlindNoise(CorrelatedNoise(way.times, 0.0, 1.0, search.used), DoubleArray(rows) { 1.0 })
+            val state = search.settled(emptyList(), doubleArrayOf(0.02, 1.0, 0.0, 0.0), white, DoubleArray(0))
+            val looks = BlindLooks(state, BlindTrials(search, state), canShowShape = true)
+            val found = looks.list.last().name
+            val said = Regex("period of ([0-9.]+) s").find(found)!!.groupValues[1].toDouble()
+            assertEquals(period, said, period * period / (4 * rows), found)
+            assertTrue(looks.trials.last().pValue < 1e-4, "$found ${looks.trials.last().pValue}")
+        }
+    }
+
     @Test
     fun aResponseThatRingsIsUnexplainedAndNoCause() {
         var velocity = 0.0

@@ -31,6 +31,21 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
     }
 
+    /**
+     * Seeds of the work on it: a probe ahead of the receiver on a random walk where a lag alone is no better than none,
+     * two lags of which stretches of the log told nothing by what was left of rows that had been fitted, coarse rounding
+     * that one half shows more than the other, and an offset with heading in a log that shows a lag of either kind.
+     */
+    @Test
+    fun withoutAReferenceWhatWasMissedIsTold() {
+        val cases = HiddenCampaign.run(listOf(195_263L, 195_157L, 191_018L, 190_008L), withReference = false, directory)
+        val hidden =
+            listOf(HiddenEffect.POSITION, HiddenEffect.SECOND_ORDER, HiddenEffect.QUANTISATION, HiddenEffect.HEADING)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.dropLast(1).all { it.correct }, Scores(cases).markdown())
+        assertEquals("unexplained", cases.last().answer.verdict)
+    }
+
     /** Seed 150128 hides a dead time, 150120 nothing. */
     @Test
     fun aTwinIsTheSameLogWithoutTheEffect() {
