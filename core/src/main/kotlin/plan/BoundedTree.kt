@@ -11,8 +11,9 @@ import kotlin.math.abs
  * its neighbours may be wide enough to end the best path. What waits in the queue is a family: children of one node that
  * are worth the same and came one after the other. All children that teach nothing are one; it stays in the queue until
  * its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The queue polls the child with
- * the highest priority, and of equal ones the one that came last, so that a tie is followed in depth. No call allocates
- * once the arrays have grown.
+ * the highest priority, and of equal ones the one that came last, so that a tie is followed in depth. Where no child of
+ * a node, nor what comes after it, can be the best path's end, the children are only counted: what they still do is to
+ * use up polls and orders. No call allocates once the arrays have grown.
  *
  * @param settings of the planner.
  * @param order in which neighbours become children. Retained.
@@ -25,21 +26,23 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private var places = IntArray(FIRST_NODES)
     private var parents = IntArray(FIRST_NODES)
     private var depths = IntArray(FIRST_NODES)
+
+    /** Places before each node on its path, a bit each; places 64 apart share one. */
+    private var passed = LongArray(FIRST_NODES)
     private var values = DoubleArray(FIRST_NODES)
     private var sensors = DoubleArray(FIRST_NODES)
 
-    // Families: the node they come from and, in the place after it, their directions and one, packed as an order is,
-    // the last in the lowest bits; what each child is worth.
+    // Families: the node they come from, or COUNTED, and, in the place after it, their directions and one, packed as an
+    // order is, the last in the lowest bits; what each child is worth.
     private var origins = IntArray(2 * FIRST_FAMILIES)
     private var worths = DoubleArray(FIRST_FAMILIES)
     private var families = 0
     private val queue = NodeQueue(FIRST_FAMILIES)
 
-    // The path last walked to, by depth, and one more than the times each place occurs on it.
-    private var pathNodes = IntArray(FIRST_DEPTH)
+    /** Polls that come next: of counted children that are worth more than all that waits in the queue. */
+    private var due = 0
+
     private var pathPlaces = IntArray(FIRST_DEPTH)
-    private var pathLength = 0
-    private var divisors = DoubleArray(0)
 
     /** Nodes in the tree. */
     var size: Int = 0
@@ -57,7 +60,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private val lastBranching = if (settings.choice == PathChoice.BEST) settings.horizon - 1 else NONE
 
     /** Whether no child waits to be polled. */
-    val exhausted: Boolean get() = queue.isEmpty
+    val exhausted: Boolean get() = queue.isEmpty && due == 0
 
     /** Whether there is a path to choose. */
     val hasChoice: Boolean
@@ -65,13 +68,12 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /** Empties the tree, for a boat in the cell [start] of [map] whose sensor shows [sensor], finite or not. */
     fun begin(map: FieldMap, start: Int, sensor: Double) {
-        while (pathLength > 0) divisors[places[pathNodes[--pathLength]]] = 1.0
         // No path has more moves than nodes are polled.
         cells.read(map, start, minOf(settings.horizon, settings.expansions))
-        if (divisors.size < cells.places) divisors = DoubleArray(cells.places) { 1.0 }
         queue.clear()
         size = 0
         families = 0
+        due = 0
         bestValue = 0.0
         bestParent = NONE
         lastPolled = ROOT
@@ -81,11 +83,20 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /** Polls the child with the highest priority and adds its neighbours to its path, unless it is at the horizon. */
     fun advance() {
+        if (due > 0) {
+            due--
+            order.drawn()
+            return
+        }
         val family = queue.peek()
         val parent = origins[2 * family]
         val children = origins[2 * family + 1]
         val others = children ushr BITS
         if (others == 0) queue.poll() else origins[2 * family + 1] = others
+        if (parent == COUNTED) {
+            order.drawn()
+            return
+        }
         val isRoot = parent == NONE
         val place = if (isRoot) cells.start else places[parent] + cells.steps[(children and MASK) - 1]
         val depth = if (isRoot) 0 else depths[parent] + 1
@@ -94,12 +105,19 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             // Drawn in any case: the orders that follow depend on it.
             val packed = order.drawn()
             // Neither a visit nor a sensor makes a cell worth more than it is wide.
-            if (value + cells.widestBeside[place] > bestValue) finish(add(parent, place, depth, value), packed)
+            if (value + cells.widestBeside[place] > bestValue) {
+                val sensor = if (isRoot) sensors[ROOT] else leaving(parent, place)
+                if (mayEndBest(place, value, sensor)) finish(add(parent, place, depth, value), packed)
+            }
             return
         }
         val node = add(parent, place, depth, value)
         if (value > 0) lastPolled = node
-        if (depth < settings.horizon) branch(node, depth + 1)
+        if (depth + 1 == lastBranching && value + cells.widest + cells.widest <= bestValue) {
+            count(node, depth + 1)
+        } else if (depth < settings.horizon) {
+            branch(node, depth + 1)
+        }
     }
 
     private fun add(parent: Int, place: Int, depth: Int, value: Double): Int {
@@ -109,21 +127,22 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         parents[node] = parent
         depths[node] = depth
         values[node] = value
-        if (parent != NONE) sensors[node] = towards(sensors[parent], cells.middles[place])
+        passed[node] = if (parent == NONE) 0L else passed[parent] or (1L shl places[parent])
+        if (parent != NONE) sensors[node] = leaving(parent, place)
         return node
     }
 
-    /** What the sensor that entered a cell at [sensor] is expected to show on leaving it. */
-    private fun towards(
-        sensor: Double,
-        middle: Double,
-    ): Double = sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
+    /** What the sensor is expected to show on leaving [place], which it entered from the node [parent]. */
+    private fun leaving(parent: Int, place: Int): Double {
+        val sensor = sensors[parent]
+        return sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, cells.middles[place] - sensor))
+    }
 
-    /**
-     * Makes the neighbours of [node] its children, of [depth]. The path is walked only where a neighbour that teaches
-     * something may lie on it.
-     */
+    /** Makes the neighbours of [node] its children, of [depth]. */
     private fun branch(node: Int, depth: Int) {
+        val parent = parents[node]
+        val back = if (parent == NONE || !settings.discountVisits) NOWHERE else places[parent]
+        val earlier = if (back == NOWHERE) 0L else passed[parent]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -133,18 +152,13 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         // The family of neighbours that teach nothing.
         val flat = if (perMove) value / depth else value
         var alike = 0
-        var walked = !settings.discountVisits
         order.forEach { direction ->
             val next = place + steps[direction]
             val width = widths[next]
             if (width >= 0) {
                 val promise = width - abs(middles[next] - sensor)
                 var total = value
-                if (promise > 0) {
-                    if (!walked) walk(node)
-                    walked = true
-                    total += promise / divisors[next]
-                }
+                if (promise > 0) total += discounted(promise, parent, next, back, earlier)
                 if (total > value) {
                     if (total > bestValue) best(total, node, next)
                     val priority = if (perMove) total / depth else total
@@ -163,13 +177,47 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * Looks whether a neighbour of [node], in the order [packed], ends the best path; at the horizon that is all it can
-     * do. Mostly none does even if none was visited before, which is looked at first: visits make no cell worth more.
+     * Counts the neighbours of [node] as its children, of [depth], which is one move before the horizon, where none of
+     * them can end the best path. In which order they are polled then makes no difference.
      */
-    private fun finish(node: Int, packed: Int) {
+    private fun count(node: Int, depth: Int) {
+        order.drawn()
+        val parent = parents[node]
+        val back = if (parent == NONE || !settings.discountVisits) NOWHERE else places[parent]
+        val earlier = if (back == NOWHERE) 0L else passed[parent]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
+        val widths = cells.widths
+        val middles = cells.middles
+        val steps = cells.steps
+        val waiting = queue.bestPriority
+        var alike = 0
+        for (direction in 0 until order.ways) {
+            val next = place + steps[direction]
+            val width = widths[next]
+            if (width >= 0) {
+                val promise = width - abs(middles[next] - sensor)
+                var total = value
+                if (promise > 0) total += discounted(promise, parent, next, back, earlier)
+                val priority = if (perMove) total / depth else total
+                if (priority >= waiting) {
+                    due++
+                } else if (total > value) {
+                    push(COUNTED, 1, total, priority)
+                } else {
+                    alike = (alike shl BITS) or 1
+                }
+            }
+        }
+        if (alike != 0) push(COUNTED, alike, value, if (perMove) value / depth else value)
+    }
+
+    /**
+     * Whether a neighbour of [place] ends the best path even if none was visited before: visits make no cell worth more.
+     * Mostly none does, so that there is no node yet.
+     */
+    private fun mayEndBest(place: Int, value: Double, sensor: Double): Boolean {
         val widths = cells.widths
         val middles = cells.middles
         val steps = cells.steps
@@ -178,13 +226,28 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             val next = place + steps[direction]
             if (value + (widths[next] - abs(middles[next] - sensor)) > bestValue) any = true
         }
-        if (!any) return
-        if (settings.discountVisits) walk(node)
+        return any
+    }
+
+    /**
+     * Looks whether a neighbour of [node], in the order [packed], ends the best path; at the horizon that is all it can
+     * do.
+     */
+    private fun finish(node: Int, packed: Int) {
+        val parent = parents[node]
+        val back = if (parent == NONE || !settings.discountVisits) NOWHERE else places[parent]
+        val earlier = if (back == NOWHERE) 0L else passed[parent]
+        val value = values[node]
+        val sensor = sensors[node]
+        val place = places[node]
+        val widths = cells.widths
+        val middles = cells.middles
+        val steps = cells.steps
         order.forEach(packed) { direction ->
             val next = place + steps[direction]
             val promise = widths[next] - abs(middles[next] - sensor)
             if (promise > 0) {
-                val total = value + promise / divisors[next]
+                val total = value + discounted(promise, parent, next, back, earlier)
                 if (total > bestValue) best(total, node, next)
             }
         }
@@ -206,28 +269,26 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * Makes the path from the root to [node] the one of [divisors].
+     * What is left of [promise] for a boat that goes to [place] from a child of [parent], when its visits on the path are
+     * taken into account.
      *
-     * O(moves that it does not share with the path walked before): the search mostly goes on where it is.
+     * Mostly the boat was there with the move before, at [back], or never; the path is gone through only where the bits of
+     * [earlier] say that it may have been there before that. A half is as exact by a product, without a jump.
      */
-    private fun walk(node: Int) {
-        val length = depths[node] + 1
-        if (length > pathNodes.size) pathNodes = pathNodes.copyOf(2 * length)
-        while (pathLength > length) divisors[places[pathNodes[--pathLength]]]--
-        var at = node
-        for (depth in length - 1 downTo pathLength) {
-            pathNodes[depth] = at
-            divisors[places[at]]++
+    private fun discounted(promise: Double, parent: Int, place: Int, back: Int, earlier: Long): Double {
+        if ((earlier ushr place) and 1L != 0L) return promise / (1 + visits(parent, place))
+        return promise * PARTS[((place xor back) - 1) ushr 31]
+    }
+
+    /** How often [place] occurs on the path to the node [last]. O(moves). */
+    private fun visits(last: Int, place: Int): Int {
+        var count = 0
+        var at = last
+        while (at != NONE) {
+            if (places[at] == place) count++
             at = parents[at]
         }
-        var depth = pathLength - 1
-        while (depth >= 0 && pathNodes[depth] != at) {
-            divisors[places[pathNodes[depth]]]--
-            divisors[places[at]]++
-            pathNodes[depth--] = at
-            at = parents[at]
-        }
-        pathLength = length
+        return count
     }
 
     /** Writes the chosen path into [plan]. */
@@ -259,6 +320,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         places = places.copyOf(capacity)
         parents = parents.copyOf(capacity)
         depths = depths.copyOf(capacity)
+        passed = passed.copyOf(capacity)
         values = values.copyOf(capacity)
         sensors = sensors.copyOf(capacity)
     }
@@ -272,6 +334,15 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private companion object {
         const val NONE = -1
         const val ROOT = 0
+
+        /** Instead of a family's node: its children are only counted. */
+        const val COUNTED = -2
+
+        /** No place, nor alike to one. */
+        const val NOWHERE = Int.MAX_VALUE
+
+        /** What a cell is worth that was not visited on the path, and one that was once. */
+        val PARTS = doubleArrayOf(1.0, 0.5)
         const val FIRST_NODES = 256
         const val FIRST_FAMILIES = 1024
         const val BITS = NeighbourOrder.BITS

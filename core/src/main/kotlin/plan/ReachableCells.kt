@@ -38,6 +38,10 @@ internal class ReachableCells(private val ways: Int) {
     var widestBeside: DoubleArray = DoubleArray(0)
         private set
 
+    /** The widest bounds of all places, sensor units. */
+    var widest: Double = 0.0
+        private set
+
     /** The place of the boat's own cell. */
     var start: Int = 0
         private set
@@ -72,6 +76,8 @@ internal class ReachableCells(private val ways: Int) {
             steps[direction] = NeighbourOrder.ROW_STEPS[direction] * stride + NeighbourOrder.COLUMN_STEPS[direction]
         }
         for (r in 0 until rows) widestBesideRow((r + 1) * stride + 1, columns)
+        widest = 0.0
+        for (place in 0 until places) widest = maxOf(widest, widths[place])
     }
 
     private fun readRow(map: FieldMap, cell: Int, place: Int, columns: Int) {

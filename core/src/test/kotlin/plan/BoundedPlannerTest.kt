@@ -2,6 +2,8 @@ package stillwater.plan
 
 import org.junit.jupiter.api.Test
 import stillwater.field.FieldMap
+import stillwater.model.Grid
+import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.model.Position
 import stillwater.property.drawn
@@ -236,5 +238,26 @@ class BoundedPlannerTest {
         )
 
         override fun toString() = "${map.grid.columns} x ${map.grid.rows} from $start, sensor $sensor, $seed, $settings"
+    }
+
+    /** The number is of commit c6c67ea, whose planner polled every child from its queue. */
+    @Test
+    fun manyPlansAreTheSameAsBeforeChildrenWereCounted() {
+        val random = Random(20_261_122)
+        val planner = BoundedPlanner(Random(7), BoundedPlannerSettings(expansions = 400))
+        val plan = Plan()
+        var sum = 0
+        repeat(400) { round ->
+            val map = FieldMap(Grid.unit(10, 10), Interval.UNIT)
+            // Nearly as wide everywhere, so that many paths fall behind by more than two cells are wide.
+            for (cell in 0 until map.grid.size) {
+                val middle = random.nextDouble(0.3, 0.7)
+                val half = random.nextDouble(0.1, 0.15 + 0.02 * (round % 10))
+                map.setBounds(cell, middle - half, middle + half)
+            }
+            planner.plan(map, map.grid.center(random.nextInt(map.grid.size)), 0.5, StopCondition.NEVER, plan)
+            for (i in 0 until plan.size) sum = 31 * sum + map.grid.cellAt(plan.x(i), plan.y(i))
+        }
+        assertEquals(1_627_823_989, sum)
     }
 }
