@@ -42,19 +42,25 @@ internal class BlindDiagnosis(
         val loose = BlindOutliers(base)
         if (loose.rows.isNotEmpty()) {
             loose.rows.forEach { search.used[it] = false }
-            base = search.improved(search.evened(base))
+            base = search.stepped(search.improved(search.evened(base)))
         }
+        return answer(base)
+    }
+
+    /** The answer on top of [found], a lag alone. */
+    private fun answer(found: BlindState, isTurned: Boolean = false): DiagnosisResult {
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
-        val found = base
         val still = search.still(found)
         val lags = listOf(found, still).filter { it.score > found.score - FAR_CHANGE }.distinct()
             .let { all -> loops.all(all) { state -> BlindLag(search, state).also { it.likeliest } } }
         val lag = lags.maxBy { it.likeliest }
-        base = lag.timeConstant
+        val base = lag.timeConstant
         this.lag = lag
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === found) round(start, still) else round(start)
+        // A truth that is held over steps is ahead by half of one: what shifts readings as much may do for that.
+        if (!isTurned) first.shift()?.let { search.turned(base, it.score - BlindLag.MUCH) }?.let { return answer(it, true) }
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: round(last)

@@ -300,6 +300,10 @@ internal class BlindRound(
     /** Whether the [index]-th of [looks] is at what goes with the boat alone. */
     fun isOfBoat(index: Int): Boolean = here.list[index].ofBoat
 
+    /** The model with the likeliest cause where that is another shape of the lag; null where it is not, or none is sure. */
+    fun shift(): BlindState? = causes.filter { it.pValue < settings.level }.maxByOrNull { it.likelier }
+        ?.takeIf { it.term?.cause in BlindTerms.OF_LAG }?.state
+
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
 

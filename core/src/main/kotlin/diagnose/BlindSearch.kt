@@ -72,8 +72,8 @@ internal class BlindSearch private constructor(
         // More waves may explain what looked like noise that wanders.
         progress(3 * ROUGH)
         state = improved(improved(requieted(evened(state))))
-        // Few waves may have told wrongly whether steps are held.
         val was = held
+        // Few waves may have told wrongly whether steps are held.
         state = stepped(state)
         if (held != was) state = improved(requieted(evened(state)))
         state = restarted(state)
@@ -95,8 +95,7 @@ internal class BlindSearch private constructor(
         return if (other.score > state.score) other else state
     }
 
-    private fun hardlyWandering(state: BlindState) =
-        BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
+    private fun hardlyWandering(state: BlindState) = BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
 
     /**
      * [state] with noise that hardly wanders, where it does: such noise has taken what a sensor does that the model does
@@ -144,13 +143,15 @@ internal class BlindSearch private constructor(
         private set
 
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
-    private fun stepped(state: BlindState): BlindState {
-        val margin = if (held) -HELD else HELD
+    fun stepped(state: BlindState): BlindState = turned(state, state.score + if (held) -HELD else HELD) ?: state
+
+    /** [state] with steps the other way, as all that follows then has them; null where it does not score above [least]. */
+    fun turned(state: BlindState, least: Double): BlindState? {
         held = !held
         val other = improved(again(state, state.fit.design.noise))
-        if (other.score > state.score + margin) return other
+        if (other.score > least) return other
         held = !held
-        return state
+        return null
     }
 
     /** Numbers of a lag of [timeConstant] s. */
