@@ -60,7 +60,11 @@ internal class BlindDiagnosis(
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === found) round(start, still) else round(start)
         // A truth that is held over steps is ahead by half of one: what shifts readings as much may do for that.
-        if (!isTurned) first.shift()?.let { search.turned(base, it.score - BlindLag.MUCH) }?.let { return answer(it, true) }
+        if (!isTurned) {
+            first.shift()?.let {
+                search.turned(base, it.score - BlindLag.MUCH)
+            }?.let { return answer(it, true) }
+        }
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: round(last)
@@ -81,12 +85,14 @@ internal class BlindDiagnosis(
         var round = first
         while (chosen.size < settings.mostCauses) {
             if (round.adjustedCauses.none { it < STRICTER * settings.level }) break
-            // That something is there is told by the surest cause, which it is by the likeliest.
-            val best = round.causes.filter { it.pValue < settings.level }.maxBy { it.likelier }
-            // What no cause explains comes first where it is far ahead, or the stronger and stays: a cause would be named
-            // for its shadow. A response that rings is like many others.
+            // That something is there is told by the surest cause, which it is by the likeliest; rounding comes last, for
+            // in readings that are rounded nothing else can be looked for.
+            val sure = round.causes.filter { it.pValue < settings.level }
+            val best = sure.filter { it.term?.cause != Cause.QUANTISATION }.ifEmpty { sure }.maxBy { it.likelier }
+            // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
+            // named for its shadow. A response that rings is like many others.
             val look = round.strongestLook
-            val ahead = look?.let { round.looks[it].worth - best.worth } ?: Double.NEGATIVE_INFINITY
+            val ahead = look?.let { i -> round.looks[i].worth - sure.maxOf { it.worth } } ?: Double.NEGATIVE_INFINITY
             val isShadow = ahead > settings.separation
             if (look != null && isShadow && ahead > BlindLag.MUCH && !round.isOfWater(look)) break
             val state = added(round.state, best)

@@ -7,8 +7,7 @@ package stillwater.diagnose
  *   what looking around for it has gained by chance. @property floor what its ratio is divided by at least, where
  *   these whitened residuals are left. @property ofWater whether [columns] are what else the sensor might show of the
  *   water. @property isLoose whether a sum of [columns] may show the water smoother than it is, which suits any log.
- *   @property ofBoat whether [columns] are the boat's: the water knows nothing of them. @property doubt how many times too
- *   small its p-value may be, where fixes jitter in steep water; a period stands out of its own noise.
+ *   @property ofBoat whether [columns] are the boat's: the water knows nothing of them.
  */
 internal class BlindLook(
     val name: String,
@@ -18,9 +17,9 @@ internal class BlindLook(
     val ofWater: Boolean = false,
     val isLoose: Boolean = false,
     val ofBoat: Boolean = false,
-    val doubt: Double = DOUBT,
 ) {
-    private companion object {
+    companion object {
+        /** How many times too small a look's p-value may be, where fixes jitter in steep water. */
         const val DOUBT = 10.0
     }
 }

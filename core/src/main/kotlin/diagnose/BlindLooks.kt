@@ -169,7 +169,6 @@ internal class BlindLooks(
             waves,
             2 * ln(count.toDouble()),
             { z -> beside(powers(z, lowest + near.first * step, step, near.count()), best - near.first) / squares(z) },
-            doubt = 1.0,
         )
     }
 

@@ -95,7 +95,10 @@ internal class BlindSearch private constructor(
         return if (other.score > state.score) other else state
     }
 
-    private fun hardlyWandering(state: BlindState) = BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
+    private fun hardlyWandering(state: BlindState) = BlindNoise(
+        noise(QUIET, FIRST_STEPS),
+        state.fit.design.noise.spread,
+    )
 
     /**
      * [state] with noise that hardly wanders, where it does: such noise has taken what a sensor does that the model does
@@ -143,15 +146,19 @@ internal class BlindSearch private constructor(
         private set
 
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
-    fun stepped(state: BlindState): BlindState = turned(state, state.score + if (held) -HELD else HELD) ?: state
+    fun stepped(state: BlindState) = turned(state, state.score + if (held) -HELD else HELD, ::improved) ?: state
 
-    /** [state] with steps the other way, as all that follows then has them; null where it does not score above [least]. */
-    fun turned(state: BlindState, least: Double): BlindState? {
+    /** [state] with steps the other way and what suits that, as all that follows has them; null if below [least]. */
+    fun turned(
+        state: BlindState,
+        least: Double,
+        suited: (BlindState) -> BlindState = { climbed(requieted(climbed(it))) },
+    ) =
+        suited(flipped(state)).takeIf { it.score > least } ?: null.also { held = !held }
+
+    private fun flipped(state: BlindState): BlindState {
         held = !held
-        val other = improved(again(state, state.fit.design.noise))
-        if (other.score > least) return other
-        held = !held
-        return null
+        return again(state, state.fit.design.noise)
     }
 
     /** Numbers of a lag of [timeConstant] s. */

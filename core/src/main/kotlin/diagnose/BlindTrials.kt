@@ -281,7 +281,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             look.searched,
             look.floor(z),
             after,
-        ).lessSure(look.doubt)
+        ).lessSure(BlindLook.DOUBT)
     }
 
     /** [look] with the water, the noise and the numbers that suit it, begun from what it gains by [trial]. */
@@ -313,7 +313,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
         val p = pValue(null, ratio, degrees, between(unlike, without), unlike)
-        return BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p).lessSure(look.doubt)
+        return BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p).lessSure(
+            BlindLook.DOUBT,
+        )
     }
 
     /** What is new in the columns of [look] beside the model's [own]. */

@@ -120,6 +120,16 @@ class BlindDiagnosisTest {
         assertEquals(Verdict.Consistent, answer(own))
     }
 
+    /** The simulator's truth is held over a step, half a step ahead of one that goes on: beside wild readings, too. */
+    @Test
+    fun wildReadingsDoNotMakeAHeldTruthAShift() {
+        val lagged = log(SensorStage.Lag(5.0))
+        val wild = DoubleArray(n) { lagged.values[it] + if (it % 97 == 50) 3.0 else 0.0 }
+        val result = Diagnosis(MeasuredSeries(lagged.times, x, y, wild, null)).run()
+        assertEquals(Verdict.Named(listOf(Cause.OUTLIERS)), result.verdict)
+        assertEquals(5.0, result.baseline.parameters.first().value, 0.2)
+    }
+
     @Test
     fun aLagIsSaidBesideWhatNoCauseExplains() {
         val late = log(SensorStage.Delay(5.0))

@@ -46,6 +46,14 @@ class HiddenEffectsTest {
         assertEquals("unexplained", cases.last().answer.verdict)
     }
 
+    /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
+    @Test
+    fun whatIsHiddenBesideCoarseRoundingIsNamedToo() {
+        val case = HiddenCampaign.run(listOf(192_035L), withReference = false, directory).single()
+        assertEquals(setOf(HiddenEffect.FLOW, HiddenEffect.QUANTISATION), case.truth.effects.keys)
+        assertTrue(case.bothFound, Scores(listOf(case)).markdown())
+    }
+
     /** Seed 150128 hides a dead time, 150120 nothing. */
     @Test
     fun aTwinIsTheSameLogWithoutTheEffect() {
