@@ -83,14 +83,17 @@ public class Diagnosis(
         // the numbers of one to do for the other.
         val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) ||
             first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
-        return (if (doubtful) better(first) else first).result().also { progress(1.0) }
+        // A place ahead by just what a held truth is ahead by is rather that.
+        val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
+        val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
+        return weighed.result().also { progress(1.0) }
     }
 
-    /** [first] or the weighing with steps the other way, whichever explains the log better for its numbers. */
-    private fun better(first: Weighing): Weighing {
+    /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
+    private fun better(first: Weighing, margin: Double): Weighing {
         val rows = used.copyOf()
         val second = weighing(!first.last.model.held)
-        if (second.explained > first.explained) return second
+        if (second.explained > first.explained - margin) return second
         rows.copyInto(used)
         return first
     }

@@ -28,6 +28,10 @@ internal class SmallShifts(private val last: ModelFit) {
         return isUndone || (isWithinRows && isLessThanARow(trial.term))
     }
 
+    /** Whether [term] puts the readings ahead by about as much as a truth held over each step does, which this is not. */
+    fun isLikeHeld(term: Term): Boolean =
+        !model.held && shift(term, emptyList())?.let { abs(it + period / 2) < period / 4 } == true
+
     /** [small] effects in words for the reader; none if there are none. */
     fun words(small: List<Trial>): List<String> = small.map { trial ->
         val number = last.numbers[model.slot(trial.term)]

@@ -55,6 +55,23 @@ class ReferenceLimitsTest {
         assertEquals(Verdict.Consistent, Diagnosis(log).run().verdict)
     }
 
+    /** A sensor that steps with the truth, half a step ahead of one that follows it, beside what ends its range. */
+    @Test
+    fun aTruthHeldOverStepsBesideAnEndOfTheRangeIsNoPlaceAhead() {
+        val rows = 900
+        val times = DoubleArray(rows) { it.toDouble() }
+        var state = water(0.0)
+        val values = DoubleArray(rows) { row ->
+            state += (1 - exp(-1 / 12.0)) * (water(times[row]) - state)
+            minOf(state, 5.0) + 0.02 * random.nextGaussian()
+        }
+        val x = DoubleArray(rows) { times[it] + 0.2 * random.nextGaussian() }
+        val y = DoubleArray(rows) { 0.2 * random.nextGaussian() }
+        val reference = DoubleArray(rows) { water(times[it]) + 0.02 * random.nextGaussian() }
+        val verdict = Diagnosis(MeasuredSeries(times, x, y, values, reference)).run().verdict
+        assertEquals(Verdict.Named(listOf(Cause.SATURATION)), verdict)
+    }
+
     /** A truth that goes from sample to sample at once, on a row, as [shown] by a sensor. */
     private fun bench(shown: (truth: (Double) -> Double) -> DoubleArray): DiagnosisResult {
         val starts = List(n / 57 + 1) { 57.0 * it }
