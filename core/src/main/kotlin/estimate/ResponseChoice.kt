@@ -26,9 +26,9 @@ public class CandidateStanding internal constructor(
  *
  * A candidate is ruled out if it is behind any other by more than [RULED_OUT] standard errors and by more than
  * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open: two time constants
- * fit noise better than one, and nothing is lost. But a slow path hides from a single lag, which alone would be far too
- * sure of itself: two paths stay open beside what they contain where they are ahead of it by more than [AHEAD] standard
- * errors and the log says more of the slow path than was believed beforehand.
+ * fit noise better than one, and nothing is lost. But where they are ahead of it by more than [AHEAD] standard errors they
+ * stay open beside it, because it alone would be far too sure of itself; two paths only if the log says more of the slow
+ * path, which hides from a single lag, than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
  * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is not ruled out,
@@ -61,7 +61,7 @@ public class ResponseChoice private constructor(
         /** Loss in log score that is none. */
         public const val SMALLEST_LOSS: Double = 2.0
 
-        /** Standard errors by which two paths are ahead of something simpler beside which they stay open. */
+        /** Standard errors by which an asymmetric lag or two paths are ahead of something simpler beside which they stay open. */
         public const val AHEAD: Double = 1.0
 
         private const val DRAWS = 2000

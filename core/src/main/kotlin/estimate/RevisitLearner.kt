@@ -149,8 +149,8 @@ public class RevisitLearner private constructor(
     }
 
     /**
-     * By how much the delay of single runs of the track scatters about that of [response], s, beyond a step, which a
-     * boat's fixes and its clock may be off: a lag that changes with the flow, the temperature or the slope of the
+     * By how much the delay of single runs of the track scatters about that of [response], s, beyond what a boat's fixes
+     * and its clock may be off, a step and [FIXES_OFF] at least: a lag that changes with the flow, the temperature or the slope of the
      * water does that, one that is always the same does not. 0 where nothing was learned.
      *
      * Each block's delay is normal about the response's, its deviation the likeliest one of some; see
@@ -166,10 +166,10 @@ public class RevisitLearner private constructor(
                 ln(HERMITE_MIDDLE + others)
             }
         }
-        val deviations = List(DEVIATIONS) { even.step * Math.pow(DEVIATION_FACTOR, it.toDouble()) }
-        // The first is what fixes may be off by.
-        val likeliest = deviations.maxBy(::total)
-        return sqrt(BOTH_MOVED * (likeliest * likeliest - even.step * even.step))
+        // How far off a fix is does not depend on how often the sensor is read.
+        val allowed = maxOf(even.step, FIXES_OFF)
+        val likeliest = List(DEVIATIONS) { allowed * Math.pow(DEVIATION_FACTOR, it.toDouble()) }.maxBy(::total)
+        return sqrt(BOTH_MOVED * (likeliest * likeliest - allowed * allowed))
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
@@ -197,6 +197,9 @@ public class RevisitLearner private constructor(
             2.856970013872806 to 0.011257411327721,
         )
         private const val HERMITE_MIDDLE = 0.533333333333333
+
+        /** A metre of a boat at 1 m/s, s. */
+        private const val FIXES_OFF = 1.0
         private const val DEVIATIONS = 14
         private const val DEVIATION_FACTOR = 1.25
 

@@ -116,6 +116,26 @@ class TrackCorrectionTest {
         assertTrue(changing in 2.0..5.0, "$changing")
     }
 
+    /** Fixes off by up to 0.7 m along the way make times at 1 m/s wrong by 0.7 s: less than a row, or three of five a second. */
+    @Test
+    fun fixesAreNoMoreOffWhereTheSensorIsReadMoreOften() {
+        val random = Random(5)
+        val waves = List(40) { List(3) { random.nextDouble(-1.0, 1.0) } }
+        val times = DoubleArray(5 * 8 * 126) { it / 5.0 }
+        val xs = DoubleArray(times.size) { 6 * (times[it] / 126).toInt() + maxOf(0.0, times[it] % 126 - 120) }
+        val ys = DoubleArray(times.size) {
+            val up = minOf(times[it] % 126, 120.0)
+            if ((times[it] / 126).toInt() % 2 == 0) up else 120 - up
+        }
+        val values = DoubleArray(times.size) { row ->
+            waves.sumOf { (a, b, c) -> 0.2 * sin((a * xs[row] + b * ys[row]) / 8 + 3 * c) } + 0.02 * random.nextDouble()
+        }
+        val fixes = DoubleArray(times.size) { ys[it] + 0.7 * sin(times[it] / 40) }
+        val learner = RevisitLearner.of(TrackSeries(times, xs, fixes, values))
+        assertTrue(learner.blocks > 0)
+        assertEquals(0.0, learner.unevenness(Response()))
+    }
+
     @Test
     fun noLagIsNotRuledOutWhereThereIsNone() {
         val found = choice(LawnmowerLog(seed = 12, emptyList(), legs = 8))

@@ -263,8 +263,8 @@ class CorrectFiles(
                 "given with --sensor. A lag before a limit that was found is learned from what the sensor would show " +
                 "without it.",
             "Where the track does not cross itself, delays of single runs are held against that of the response: " +
-                "what they scatter by beyond a row's time, which fixes may be off, widens the intervals where the " +
-                "water changes along the track.",
+                "what they scatter by beyond a row's time or a second, which fixes may be off, widens the intervals " +
+                "where the water changes along the track.",
             "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
                 "and its interval reaches to the reading. Of a reading at an end of the sensor's range it is known " +
                 "that the sensor was there or beyond.",
