@@ -149,9 +149,11 @@ internal class BlindLooks(
     /** The strongest of all frequencies that the log can tell apart and the water cannot imitate. */
     private fun periodic(): BlindLook {
         val highest = 0.4 / series.period
+        // Over long gaps, as of a clock that was set after the first rows, there would be frequencies without end.
+        val span = minOf(series.duration, MOST_SPAN * n * series.period)
         // Water that changes goes to and fro a few times in a log as well.
-        val lowest = FEWEST_TURNS / maxOf(series.duration, 1e-9)
-        val step = 1 / (FINER * series.duration)
+        val lowest = FEWEST_TURNS / maxOf(span, 1e-9)
+        val step = 1 / (FINER * span)
         val count = ((highest - lowest) / step).toInt()
         if (count < 2 * BESIDE) return BlindLook("time, periodically", emptyList())
         val powers = powers(tries.residual, lowest, step, count)
@@ -218,6 +220,9 @@ internal class BlindLooks(
         /** Frequencies looked at for each that the log tells apart, and between two of them about the best. */
         const val FINER = 2
         const val CLOSER = 4
+
+        /** Times as long as its rows side by side, from which on a log with gaps is not asked for more frequencies. */
+        const val MOST_SPAN = 4.0
 
         /** Frequencies on either side that tell the noise there. */
         const val BESIDE = 12 * FINER

@@ -5,6 +5,7 @@ import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.PI
 import kotlin.math.cos
+import kotlin.math.ln
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
@@ -86,6 +87,21 @@ class BlindLooksTest {
             assertEquals(period, said, period * period / (4 * rows), found)
             assertTrue(looks.trials.last().pValue < 1e-4, "$found ${looks.trials.last().pValue}")
         }
+    }
+
+    /** As where a clock was set after the first rows: frequencies of months would be millions. */
+    @Test
+    fun aLongGapDoesNotMakeFrequenciesWithoutEnd() {
+        val late = DoubleArray(n) { times[it] + if (it < 60) 0.0 else 1e6 }
+        val random = java.util.Random(5)
+        val values = DoubleArray(n) { NOISE * random.nextGaussian() + NOISE * cos(2 * PI * late[it] / 7.03) }
+        val search = BlindSearch(MeasuredSeries(late, x, y, values, null))
+        val white = BlindNoise(CorrelatedNoise(late, 0.0, 1.0, search.used), DoubleArray(n) { 1.0 })
+        val state = search.settled(emptyList(), doubleArrayOf(0.02, 1.0, 0.0, 0.0), white, DoubleArray(0))
+        val looks = BlindLooks(state, BlindTrials(search, state), canShowShape = true)
+        assertTrue(looks.list.last().searched < 2 * ln(8.0 * n), "${looks.list.last().searched}")
+        assertContains(looks.list.last().name, "period of 7.0")
+        assertTrue(looks.trials.last().pValue < 1e-4, "${looks.trials.last().pValue}")
     }
 
     @Test
