@@ -42,7 +42,8 @@ internal class BlindAnswer(
         )
         val strongest = order.first()
         // What goes with the boat alone is no lag's of either kind, nor the water's.
-        val asIs = if (end.isOfBoat(strongest)) Double.POSITIVE_INFINITY else end.looksAsIs[strongest].ratio
+        val isBoats = chosen.isEmpty() && end.isOfBoat(strongest)
+        val asIs = if (isBoats) Double.POSITIVE_INFINITY else end.looksAsIs[strongest].ratio
         val verdict = verdict(all, left.first(), asIs, chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
@@ -66,7 +67,9 @@ internal class BlindAnswer(
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
-            warnings(left.first(), isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() + bounds.distinct(),
+            warnings(left.first(), isNamed) + cautions(chosen).takeIf { isNamed }.orEmpty() +
+                sensor.losses.takeIf { isNamed }.orEmpty() +
+                bounds.distinct(),
             lag = lag.channel(""),
         )
     }
@@ -115,6 +118,10 @@ internal class BlindAnswer(
     private fun longest(): Double =
         base.timeConstant *
             exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
+
+    /** What is to be said of those [chosen] that do next to nothing, however surely. */
+    private fun cautions(chosen: List<BlindStep>) = chosen.mapNotNull { it.trial.term }
+        .filter { BlindTerms.isLittle(it, last) }.map { SmallShifts.caution(it.cause) }
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {

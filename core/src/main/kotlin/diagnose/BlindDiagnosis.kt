@@ -88,7 +88,11 @@ internal class BlindDiagnosis(
             // That something is there is told by the surest cause, which it is by the likeliest; rounding comes last, for
             // in readings that are rounded nothing else can be looked for.
             val sure = round.causes.filter { it.pValue < settings.level }
-            val best = sure.filter { it.term?.cause != Cause.QUANTISATION }.ifEmpty { sure }.maxBy { it.likelier }
+            val first = round.causes.filterIndexed { i, trial ->
+                trial.term?.cause != Cause.QUANTISATION && round.adjustedCauses[i] < STRICTER * settings.level
+            }
+            val isRounded = sure.maxBy { it.likelier }.term?.cause == Cause.QUANTISATION
+            val best = (if (isRounded) first else sure).ifEmpty { sure }.maxBy { it.likelier }
             // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
             // named for its shadow. A response that rings is like many others.
             val look = round.strongestLook

@@ -14,6 +14,9 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     /** The model of a sensor that follows at once. */
     val none: BlindState = settled(emptyList(), period / 50, null)
 
+    /** The same with the noise that suits it. */
+    private val suited by lazy { search.requieted(none) }
+
     /** The model with a dead time in place of the lag. */
     val deadTime: BlindState = search.loops.all(STARTS) { share ->
         settled(listOf(Term(Cause.DEAD_TIME)), period / 50, share * timeConstant.timeConstant)
@@ -118,7 +121,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
      * where the shape is wrong a lag alone may be no better than none. Its time constant must be many standard errors.
      */
     fun isSeenIn(other: BlindState, inflation: Double): Boolean =
-        (other.score - none.score) / inflation > MUCH &&
+        (other.score - suited.score) / inflation > MUCH &&
             1 / BlindErrors.of(search, other)[ResponseModel.TIME_CONSTANT] > SURE
 
     /** The delay as that of the channel [name]. */

@@ -146,15 +146,15 @@ internal class BlindSearch private constructor(
         private set
 
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
-    fun stepped(state: BlindState) = turned(state, state.score + if (held) -HELD else HELD, ::improved) ?: state
+    fun stepped(state: BlindState): BlindState {
+        val margin = if (held) -HELD else HELD
+        return kept(improved(flipped(state)), state.score + margin) ?: state
+    }
 
     /** [state] with steps the other way and what suits that, as all that follows has them; null if below [least]. */
-    fun turned(
-        state: BlindState,
-        least: Double,
-        suited: (BlindState) -> BlindState = { climbed(requieted(climbed(it))) },
-    ) =
-        suited(flipped(state)).takeIf { it.score > least } ?: null.also { held = !held }
+    fun turned(state: BlindState, least: Double) = kept(climbed(requieted(climbed(flipped(state)))), least)
+
+    private fun kept(other: BlindState, least: Double) = other.takeIf { it.score > least } ?: null.also { held = !held }
 
     private fun flipped(state: BlindState): BlindState {
         held = !held
@@ -282,40 +282,31 @@ internal class BlindSearch private constructor(
         rounds: Int = ROUNDS,
         modes: WaterModes? = null,
         before: BlindState? = null,
-    ): BlindState = watered(terms, numbers, noise, variances, rounds, modes ?: before?.modes ?: this.modes, before)
-
-    private fun watered(
-        terms: List<Term>,
-        numbers: DoubleArray,
-        noise: BlindNoise,
-        variances: DoubleArray,
-        rounds: Int,
-        modes: WaterModes,
-        before: BlindState?,
     ): BlindState {
+        val waves = modes ?: before?.modes ?: this.modes
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
-        val columns = designs.shown(terms, own, modes, held)
+        val columns = designs.shown(terms, own, waves, held)
         var heights = before?.fit?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands =
-            variances.takeIf { it.size == modes.bands } ?: modes.first
+            variances.takeIf { it.size == waves.bands } ?: waves.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-        var model = ResponseModel(series.withReference(designs.along(modes, heights)), terms, held, scales)
+        var model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, held, scales)
         var hidden = RangeEnd.beyond(model, at)
-        var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, modes), heights)
+        var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
-            model = ResponseModel(series.withReference(designs.along(modes, heights)), terms, held, scales)
+            model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, held, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             if (round < rounds) {
-                bands = WaterVariances.next(fit, residuals(model, at), modes)
+                bands = WaterVariances.next(fit, residuals(model, at), waves)
                 hidden = RangeEnd.beyond(model, at)
-                fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, modes), heights)
+                fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
             }
         }
         val residuals = residuals(model, at)
-        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), modes, before?.behind.orEmpty())
+        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), waves, before?.behind.orEmpty())
     }
 
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
@@ -328,9 +319,6 @@ internal class BlindSearch private constructor(
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> =
         designs.seen(terms, numbers, waters, held)
-
-    /** The phase along the track of a wave with [east] and [north] radians per metre, length n. */
-    fun phases(east: Double, north: Double) = DoubleArray(n) { east * track.x[it] + north * track.y[it] }
 
     private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
         if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, MOST)

@@ -42,4 +42,18 @@ internal object BlindTerms {
         add(Term(Cause.SATURATION))
         if (spread > EVEN && hasShape) add(Term(Cause.POSITION_OFFSET))
     }
+
+    /**
+     * Whether [term], as [found] has it, makes readings late by next to nothing: the smoothed way itself is off by as
+     * much, which explains a little.
+     */
+    fun isLittle(term: Term, found: BlindState): Boolean {
+        val number = found.model.slotOrNull(term)?.let { found.numbers[it] } ?: return false
+        val least = SmallShifts.LEAST_ROWS * found.model.series.period
+        return when (term.cause) {
+            Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < least
+            Cause.POSITION_OFFSET -> abs(number) < least * found.model.scales.ordinarySpeed
+            else -> false
+        }
+    }
 }

@@ -114,7 +114,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val settled =
             BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
         val isNone = (term.cause == Cause.SATURATION && goOn(found)) ||
-            (isLittle(term, found.numbers[slot]) && ratio < BEYOND_FIXES)
+            (BlindTerms.isLittle(term, found) && ratio < BEYOND_FIXES)
         val isReal = !isNone && (term.cause == Cause.SATURATION || own.any { isShown(found, columns, it, inflation) })
         return if (isReal) settled else settled.atMost(0.0)
     }
@@ -131,16 +131,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val reach = BlindAnswer.REACH * sqrt(maxOf(variance, 0.0))
         if (parameter.logarithmic) return reach < MOST_REACH
         return !parameter.neutral.isFinite() || abs(found.numbers[i] - parameter.neutral) > reach
-    }
-
-    /**
-     * Whether [term] of [number] makes readings late by next to nothing: the smoothed way itself is off by as much, which
-     * explains a little.
-     */
-    private fun isLittle(term: Term, number: Double): Boolean = when (term.cause) {
-        Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < SmallShifts.LEAST_ROWS * series.period
-        Cause.POSITION_OFFSET -> abs(number) < SmallShifts.LEAST_ROWS * series.period * scales.ordinarySpeed
-        else -> false
     }
 
     /** Whether readings go on beyond the ends of the range that [found] has, more than noise takes them. */

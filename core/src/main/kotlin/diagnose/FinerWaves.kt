@@ -32,7 +32,7 @@ internal object FinerWaves {
         val longest = state.modes.shortest
         val waves = (0 until WAVES).flatMap { k ->
             val length = longest * (1 - (1 - 1 / SHORTER) * (k + 0.5) / WAVES)
-            val phase = search.phases(2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
+            val phase = phases(search.track, 2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
             listOf(DoubleArray(phase.size) { cos(phase[it]) }, DoubleArray(phase.size) { sin(phase[it]) })
         }
         var found = 0.0
@@ -45,4 +45,8 @@ internal object FinerWaves {
         }
         return found / expected
     }
+
+    /** The phase along [track] of a wave with [east] and [north] radians per metre. */
+    private fun phases(track: SmoothTrack, east: Double, north: Double) =
+        DoubleArray(track.x.size) { east * track.x[it] + north * track.y[it] }
 }

@@ -46,10 +46,7 @@ internal class SmallShifts(private val last: ModelFit) {
     /** What is to be said of those among [named] that are shifts of next to nothing; none if there are none. */
     fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
         named.filter { (trial, set) -> shift(trial.term, set)?.let { abs(it) < LEAST_ROWS * period } == true }
-            .map { (trial, _) ->
-                "The ${trial.term.cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way " +
-                    "a log is sampled do as much."
-            }
+            .map { (trial, _) -> caution(trial.term.cause) }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */
     private fun shift(term: Term, set: List<Cause>): Double? {
@@ -95,6 +92,11 @@ internal class SmallShifts(private val last: ModelFit) {
     }
 
     companion object {
+        /** What is to be said of [cause] where it is named for a shift of next to nothing. */
+        fun caution(cause: Cause): String =
+            "The ${cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way a log is sampled " +
+                "do as much."
+
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1
 

@@ -5,6 +5,7 @@ import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import java.util.stream.IntStream
 import kotlin.math.PI
+import kotlin.math.expm1
 import kotlin.math.sin
 import kotlin.math.tanh
 import kotlin.random.Random
@@ -128,6 +129,27 @@ class BlindDiagnosisTest {
         val result = Diagnosis(MeasuredSeries(lagged.times, x, y, wild, null)).run()
         assertEquals(Verdict.Named(listOf(Cause.OUTLIERS)), result.verdict)
         assertEquals(5.0, result.baseline.parameters.first().value, 0.2)
+    }
+
+    /** Clear, and no more than fixes and clocks are off. */
+    @Test
+    fun aShiftOfNextToNothingIsNamedWithACaution() {
+        val parts = 20
+        val random = java.util.Random(7)
+        var reading = truth[0]
+        val values = DoubleArray(n) { i ->
+            repeat(parts) { k ->
+                val at = i - 1 + (k + 0.5) / parts - 0.08
+                val east = 15 * sin(at / 19)
+                val north = 15 * sin(at / 25 + 1)
+                val water = sin(east / 4) + sin(north / 5 + 1) + sin((east + north) / 7)
+                reading += -expm1(-1 / (parts * 5.0)) * (water - reading)
+            }
+            reading + 0.002 * random.nextGaussian()
+        }
+        val result = Diagnosis(MeasuredSeries(track.times, x, y, values, null)).run()
+        assertTrue(causes(result.verdict).any { it in BlindTerms.OF_LAG }, "${result.verdict}")
+        assertContains(result.warnings.joinToString(" "), "a shift of less than a tenth of a row")
     }
 
     @Test
