@@ -42,7 +42,9 @@ internal class BlindDiagnosis(
         val loose = BlindOutliers(base)
         if (loose.rows.isNotEmpty()) {
             loose.rows.forEach { search.used[it] = false }
-            base = search.stepped(search.improved(search.evened(base)))
+            base = search.improved(search.evened(base))
+            // Wild readings hide that steps are held; they do not make them look so.
+            if (!search.held) base = search.stepped(base)
         }
         return answer(base)
     }
