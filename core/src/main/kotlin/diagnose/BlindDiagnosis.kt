@@ -55,18 +55,15 @@ internal class BlindDiagnosis(
         val still = search.still(found)
         val lags = listOf(found, still).filter { it.score > found.score - FAR_CHANGE }.distinct()
             .let { all -> loops.all(all) { state -> BlindLag(search, state).also { it.likeliest } } }
-        val lag = lags.maxBy { it.likeliest }
+        lag = lags.maxBy { it.likeliest }
         val base = lag.timeConstant
-        this.lag = lag
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === found) round(start, still) else round(start)
         // A truth that is held over steps is ahead by half of one: what shifts readings as much may do for that.
-        if (!isTurned) {
-            first.shift()?.let {
-                search.turned(base, it.score - BlindLag.MUCH)
-            }?.let { return answer(it, true) }
-        }
+        val shift = if (isTurned) null else first.shift()
+        val turned = shift?.let { search.turned(base, it.score - BlindLag.MUCH) }
+        if (turned != null) return answer(turned, isTurned = true)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: round(last)
@@ -90,11 +87,14 @@ internal class BlindDiagnosis(
             // That something is there is told by the surest cause, which it is by the likeliest; rounding comes last, for
             // in readings that are rounded nothing else can be looked for.
             val sure = round.causes.filter { it.pValue < settings.level }
-            val first = round.causes.filterIndexed { i, trial ->
-                trial.term?.cause != Cause.QUANTISATION && round.adjustedCauses[i] < STRICTER * settings.level
+            val likeliest = sure.maxBy { it.likelier }
+            val best = if (likeliest.term?.cause ==
+                Cause.QUANTISATION
+            ) {
+                beforeRounding(round) ?: likeliest
+            } else {
+                likeliest
             }
-            val isRounded = sure.maxBy { it.likelier }.term?.cause == Cause.QUANTISATION
-            val best = (if (isRounded) first else sure).ifEmpty { sure }.maxBy { it.likelier }
             // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
             // named for its shadow. A response that rings is like many others.
             val look = round.strongestLook
@@ -114,6 +114,11 @@ internal class BlindDiagnosis(
         if (chosen.size == settings.mostCauses && ended?.state !== chosen.last().state) ended = null
         return needed(chosen)
     }
+
+    /** The likeliest of the causes of [round] that are as sure as a first one must be, but rounding; null if none is. */
+    private fun beforeRounding(round: BlindRound): BlindTrial? = round.causes.filterIndexed { i, trial ->
+        trial.term?.cause != Cause.QUANTISATION && round.adjustedCauses[i] < STRICTER * settings.level
+    }.maxByOrNull { it.likelier }
 
     /** [chosen] without what the others have made needless; what is left keeps its rounds. */
     private fun needed(chosen: List<BlindStep>): List<BlindStep> {

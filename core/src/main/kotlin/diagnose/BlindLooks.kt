@@ -160,9 +160,7 @@ internal class BlindLooks(
         val best = powers.indices.maxBy { powers[it] / beside(powers, it) }
         val closer = powers(tries.residual, lowest + (best - 1) * step, step / CLOSER, 2 * CLOSER + 1)
         val frequency = lowest + (best - 1) * step + closer.indices.maxBy { closer[it] } * step / CLOSER
-        val waves = listOf<(Double) -> Double>(::cos, ::sin).map { shape ->
-            DoubleArray(n) { shape(2 * PI * frequency * (series.times[it] - series.times[0])) }
-        }
+        val waves = listOf(wave(frequency, ::cos), wave(frequency, ::sin))
         val period = "%.3g".format(Locale.ROOT, 1 / frequency)
         // Noise has its own colours: a period must stand out of those beside it.
         val near = maxOf(0, best - BESIDE)..minOf(count - 1, best + BESIDE)
@@ -174,15 +172,18 @@ internal class BlindLooks(
         )
     }
 
+    private fun wave(frequency: Double, shape: (Double) -> Double) =
+        DoubleArray(n) { shape(2 * PI * frequency * (series.times[it] - series.times[0])) }
+
     /**
      * How much of [z] goes with each of [count] frequencies from [lowest] on, [step] Hz apart: of white noise on average
      * its square sum.
      */
     private fun powers(z: DoubleArray, lowest: Double, step: Double, count: Int): DoubleArray {
-        val cosines = DoubleArray(n) { cos(2 * PI * lowest * (series.times[it] - series.times[0])) }
-        val sines = DoubleArray(n) { sin(2 * PI * lowest * (series.times[it] - series.times[0])) }
-        val turnCosines = DoubleArray(n) { cos(2 * PI * step * (series.times[it] - series.times[0])) }
-        val turnSines = DoubleArray(n) { sin(2 * PI * step * (series.times[it] - series.times[0])) }
+        val cosines = wave(lowest, ::cos)
+        val sines = wave(lowest, ::sin)
+        val turnCosines = wave(step, ::cos)
+        val turnSines = wave(step, ::sin)
         return DoubleArray(count) {
             var even = 0.0
             var odd = 0.0

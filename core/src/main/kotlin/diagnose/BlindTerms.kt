@@ -48,12 +48,7 @@ internal object BlindTerms {
      * much, which explains a little.
      */
     fun isLittle(term: Term, found: BlindState): Boolean {
-        val number = found.model.slotOrNull(term)?.let { found.numbers[it] } ?: return false
-        val least = SmallShifts.LEAST_ROWS * found.model.series.period
-        return when (term.cause) {
-            Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number < least
-            Cause.POSITION_OFFSET -> abs(number) < least * found.model.scales.ordinarySpeed
-            else -> false
-        }
+        val late = SmallShifts.late(term, found.model, found.numbers) ?: return false
+        return abs(late) < SmallShifts.LEAST_ROWS * found.model.series.period
     }
 }

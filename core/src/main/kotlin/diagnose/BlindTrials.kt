@@ -303,9 +303,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
         val p = pValue(null, ratio, degrees, between(unlike, without), unlike)
-        return BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p).lessSure(
-            BlindLook.DOUBT,
-        )
+        val settled = BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p)
+        return settled.lessSure(BlindLook.DOUBT)
     }
 
     /** What is new in the columns of [look] beside the model's [own]. */

@@ -49,17 +49,8 @@ internal class SmallShifts(private val last: ModelFit) {
             .map { (trial, _) -> caution(trial.term.cause) }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */
-    private fun shift(term: Term, set: List<Cause>): Double? {
-        // A number of the base that was given has no place of its own.
-        val number = model.slotOrNull(term)?.let { last.numbers.getOrNull(it) } ?: return null
-        return when (term.cause) {
-            Cause.DEAD_TIME -> number
-            Cause.POSITION_OFFSET -> number / model.scales.ordinarySpeed
-            // A short second lag does what a dead time does.
-            Cause.SECOND_ORDER_RESPONSE -> number.takeIf { Cause.DEAD_TIME in set }
-            else -> null
-        }
-    }
+    private fun shift(term: Term, set: List<Cause>): Double? =
+        late(term, model, last.numbers).takeIf { term.cause != Cause.SECOND_ORDER_RESPONSE || Cause.DEAD_TIME in set }
 
     /** Whether what [term] does to the readings is less than a dead time of a row would. */
     private fun isLessThanARow(term: Term): Boolean {
@@ -92,6 +83,18 @@ internal class SmallShifts(private val last: ModelFit) {
     }
 
     companion object {
+        /** By how much the readings are late for [term] of [model] with [numbers], s; null where that is not what it does. */
+        fun late(term: Term, model: ResponseModel, numbers: DoubleArray): Double? {
+            // A number of the base that was given has no place of its own.
+            val number = model.slotOrNull(term)?.let(numbers::getOrNull) ?: return null
+            return when (term.cause) {
+                // A short second lag does what a dead time does.
+                Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE -> number
+                Cause.POSITION_OFFSET -> number / model.scales.ordinarySpeed
+                else -> null
+            }
+        }
+
         /** What is to be said of [cause] where it is named for a shift of next to nothing. */
         fun caution(cause: Cause): String =
             "The ${cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way a log is sampled " +

@@ -107,11 +107,8 @@ class MapCommand : WorkCommand("map") {
 
     override fun work() {
         if (cell != null && gridSize != null) throw failure("--grid: expected either --grid or --cell, found both")
-        if (calibrate != null &&
-            wantedEpsilon != null
-        ) {
-            throw failure("--calibrate: expected --epsilon auto, found a number")
-        }
+        val isContrary = calibrate != null && wantedEpsilon != null
+        if (isContrary) throw failure("--calibrate: expected --epsilon auto, found a number")
         requireUsed()
         val file = Path.of(log)
         val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }

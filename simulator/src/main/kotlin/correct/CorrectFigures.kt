@@ -34,7 +34,13 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
 
     private fun stretch(shown: IntRange): String {
         val count = shown.last - shown.first + 1
-        return if (count == result.series.size) "all $count readings" else "the $count in a row that differ most"
+        return if (count ==
+            result.series.size
+        ) {
+            "all $count readings"
+        } else {
+            "the $count readings in a row that differ most"
+        }
     }
 
     /** The stretch of at most [SHOWN] readings with the largest differences between measured and corrected. */

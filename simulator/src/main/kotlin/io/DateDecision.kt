@@ -40,8 +40,9 @@ internal class DateDecision private constructor(val order: DateOrder?, val why: 
             var firstLine = 0L
             var isNeeded = false
             look(content, layout, column) { text, line ->
-                val order = DateText.parts(text)?.order
-                isNeeded = DateText.parts(text) != null && (order == null || order == given)
+                val parts = DateText.parts(text)
+                val order = parts?.order
+                isNeeded = parts != null && (order == null || order == given)
                 if (first == null && order != null) {
                     first = text
                     firstLine = line

@@ -145,10 +145,8 @@ class MapFigures(private val map: SurveyMap) {
         }
         val caption =
             "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
-                "is that of the range taken for the water, ${digits(
-                    map.prior.lower,
-                )} to ${digits(map.prior.upper)}. Cells without a " +
-                "bound and those whose bounds crossed have no width. Of ${counts(field)}."
+                "is that of the range taken for the water, ${digits(map.prior.lower)} to ${digits(map.prior.upper)}. " +
+                "Cells without a bound and those whose bounds crossed have no width. Of ${counts(field)}."
         return MapFigure("bounds-width", figure, caption)
     }
 

@@ -62,9 +62,8 @@ class MapSummary(private val map: SurveyMap) {
     private fun gaps() = if (map.gaps.count == 0L) {
         "none longer than ${digits(statistics.gapLimit)} s"
     } else {
-        "${map.gaps.count} longer than ${digits(
-            statistics.gapLimit,
-        )} s, the longest ${duration(statistics.longestStep)}"
+        "${map.gaps.count} longer than ${digits(statistics.gapLimit)} s, " +
+            "the longest ${duration(statistics.longestStep)}"
     }
 
     private fun values() = buildString {
@@ -136,10 +135,8 @@ class MapSummary(private val map: SurveyMap) {
                 "none can be told from ${shift.legs} legs; ${LagShift.FEWEST_LEGS} are needed"
             !shift.isClear -> "none can be told from this log; up to ${digits(shift.limit, 3)} s were tried either way"
             else ->
-                "opposite legs agree best, to ${wording.value(
-                    shift.mismatch,
-                )}, with readings taken ${ShiftWording.moved(shift.seconds)}" +
-                    reserve(mismatch)
+                "opposite legs agree best, to ${wording.value(shift.mismatch)}, with readings taken " +
+                    ShiftWording.moved(shift.seconds) + reserve(mismatch)
         }
     }
 
