@@ -1,5 +1,7 @@
 package stillwater.estimate
 
+import kotlin.math.PI
+import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
 
@@ -8,9 +10,9 @@ import kotlin.math.sqrt
  *
  * A visit goes one of four ways: up all along, down all along, up and then level, down and then level. Each is a Kalman
  * filter on the sensor's state, its rate and the truth of the cell before, with the likelihood of what it saw; of the moments at
- * which it may have come to rest the likeliest is kept. On leaving, the likeliest way counts. Level means the truth is
- * the state; moving all along bounds the truth on one side. Scaled values. Eqs. (18) to (20) of
- * core/docs/SelfCalibratingEstimator.md. O(1) a reading, no allocation once the cells' memory has grown.
+ * which it may have come to rest the likeliest is kept. On leaving, the likeliest way counts. Level beyond doubt means the
+ * truth is the state; moving, or level by a chance reading or two, bounds the truth on one side. Scaled values. Section "Slew
+ * limit" of core/docs/SelfCalibratingEstimator.md. O(1) a reading, no allocation once the cells' memory has grown.
  */
 internal class SlewFilter : ReadingPlayer {
     override val filters: Int get() = WAYS
@@ -19,6 +21,9 @@ internal class SlewFilter : ReadingPlayer {
     private var noise = 1.0
     private var lastSeconds = Double.NaN
     private var lastElapsed = 0.0
+
+    /** How far the sensor moves between two readings. */
+    private var lastStep = 1.0
 
     /** Slot of the cell the boat is in; below 0 if it is in none. */
     var here: Int = LagBank.NONE
@@ -105,6 +110,7 @@ internal class SlewFilter : ReadingPlayer {
         }
         lastSeconds = seconds
         lastElapsed = elapsed
+        if (elapsed > 0) lastStep = maxOf(ways[R] * elapsed, LEAST_STEP)
         // Level ways first: they start where the moving ones were.
         for (way in 0..1) rest(LEVEL + way, way, elapsed, value)
         for (way in 0..1) {
@@ -180,6 +186,22 @@ internal class SlewFilter : ReadingPlayer {
         return best
     }
 
+    /**
+     * Whether the sensor has come to rest beyond doubt: a cell never reached is gone through many times, and a single wild
+     * last reading among those would make it known for ever.
+     */
+    private fun isAtRest() = movingOn() < BEYOND_DOUBT
+
+    /** Probability that the sensor has not come to rest in the present visit. */
+    private fun movingOn(): Double {
+        val level = minOf(ways[LEVEL * STRIDE + SCORE], ways[(LEVEL + 1) * STRIDE + SCORE])
+        val moving = minOf(ways[UP * STRIDE + SCORE], ways[DOWN * STRIDE + SCORE])
+        return 1 / (1 + exp((moving - level) / 2))
+    }
+
+    /** Whether [way] began upwards, level or not. */
+    private fun isUpwards(way: Int) = way == UP || way == LEVEL
+
     /** Whether up and down are as likely, as with the first reading of all: it bounds nothing. */
     private fun isOpen() = ways[UP * STRIDE + SCORE] == ways[DOWN * STRIDE + SCORE]
 
@@ -187,13 +209,14 @@ internal class SlewFilter : ReadingPlayer {
     private fun settle() {
         val best = best()
         val isOpen = isOpen()
+        val movingOn = movingOn()
         for (way in 0 until WAYS) if (way != best) ways.copyInto(ways, way * STRIDE, best * STRIDE, (best + 1) * STRIDE)
         if (before != LagBank.NONE) pool(before)
         val slot = here
         before = LagBank.NONE
         remember(slot)
-        if (best >= LEVEL) {
-            freedomBefore--
+        if (best >= LEVEL) freedomBefore--
+        if (movingOn < BEYOND_DOUBT) {
             before = maxOf(slot, LagBank.NONE)
             for (way in 0 until WAYS) {
                 val at = way * STRIDE
@@ -203,20 +226,22 @@ internal class SlewFilter : ReadingPlayer {
                 ways[at + RQ] = ways[at + SR]
             }
         } else {
-            // It may have come to rest in the last step after all.
+            // It may have come to rest in the last step after all: a bound is what was reached before.
             val step = ways[R] * lastElapsed
+            val bound = CERTAIN * sqrt(ways[SS]) + if (best < LEVEL) step else 0.0
             for (way in 0 until WAYS) {
                 ways[way * STRIDE + SQ] = 0.0
                 ways[way * STRIDE + RQ] = 0.0
                 ways[way * STRIDE + SS] += step * step / 12
             }
-            val beyond = CERTAIN * sqrt(ways[SS])
             val at = slot * SLOT
             if (isOpen || slot < 0) return
-            if (best == UP) {
-                memory[at + LOWER] = maxOf(memory[at + LOWER], ways[S] - beyond + HALF)
+            memory[at + RESTING] = 1 - movingOn
+            if (memory[at + INFORMATION] == 0.0) memory[at + MEAN] = ways[S]
+            if (isUpwards(best)) {
+                memory[at + LOWER] = maxOf(memory[at + LOWER], ways[S] - bound + HALF)
             } else {
-                memory[at + UPPER] = maxOf(memory[at + UPPER], HALF - ways[S] - beyond)
+                memory[at + UPPER] = maxOf(memory[at + UPPER], HALF - ways[S] - bound)
             }
         }
     }
@@ -243,24 +268,55 @@ internal class SlewFilter : ReadingPlayer {
         }
         memory[at + MEAN] += information / (known + information) * (ways[Q] - memory[at + MEAN])
         memory[at + INFORMATION] = known + information
+        memory[at + VISITS]++
+    }
+
+    /**
+     * Variance, in the truth of the cell with [slot], of what is the same in each visit and no number of them makes smaller:
+     * the moment of coming to rest, and what rounding to steps of [resolution] hides. Eq. (17a).
+     */
+    fun common(slot: Int, resolution: Double): Double {
+        val deviation = sqrt(noise)
+        val visits = maxOf(1.0, if (isKnown(slot)) memory[slot * SLOT + VISITS] else 0.0)
+        val share = visits / information(slot) / noise
+        val early = maxOf(1.0, deviation / lastStep) * noise * deviation / lastStep / 12 * share * share
+        if (resolution == 0.0) return early
+        val before = maxOf(0.0, noise / (resolution * resolution) - 1.0 / 12)
+        return early + resolution * resolution / (2 * PI * PI) * exp(-4 * PI * PI * before)
     }
 
     /** Information on the truth of the cell with [slot], 0 if it was never reached. */
     fun information(slot: Int): Double {
         var information = if (isKnown(slot)) memory[slot * SLOT + INFORMATION] else 0.0
         val at = best() * STRIDE
-        if (slot == here && best() >= LEVEL) information += 1 / ways[at + SS]
+        if (slot == here && isAtRest()) information += 1 / ways[at + SS]
         if (slot == before) information += 1 / ways[at + QQ]
         return information
     }
 
-    /** The truth of the cell with [slot]: if it was never reached, the middle of its bounds. */
+    /** Probability that the truth of the cell with [slot], never reached beyond doubt, was not reached in the last visit. */
+    fun movingOn(slot: Int): Double = when {
+        slot == here && !isOpen() -> movingOn()
+        isKnown(slot) -> 1 - memory[slot * SLOT + RESTING]
+        else -> 1.0
+    }
+
+    /**
+     * The truth of the cell with [slot]: if it was never reached beyond doubt, where the sensor has come to rest if that is
+     * likelier than not, or else the middle of its bounds.
+     */
     fun truth(slot: Int): Double {
         val information = information(slot)
-        if (information == 0.0) return (lower(slot) + upper(slot)) / 2
+        if (information == 0.0) {
+            val lower = lower(slot)
+            val upper = upper(slot)
+            if (movingOn(slot) > HALF || lower >= upper) return (lower + upper) / 2
+            val last = if (slot == here && !isOpen()) ways[best() * STRIDE + S] else memory[slot * SLOT + MEAN]
+            return last.coerceIn(lower, upper)
+        }
         var sum = if (isKnown(slot)) memory[slot * SLOT + MEAN] * memory[slot * SLOT + INFORMATION] else 0.0
         val at = best() * STRIDE
-        if (slot == here && best() >= LEVEL) sum += ways[at + S] / ways[at + SS]
+        if (slot == here && isAtRest()) sum += ways[at + S] / ways[at + SS]
         if (slot == before) sum += ways[at + Q] / ways[at + QQ]
         return sum / information
     }
@@ -269,7 +325,7 @@ internal class SlewFilter : ReadingPlayer {
     fun lower(slot: Int): Double {
         val way = best()
         val known = if (isKnown(slot)) memory[slot * SLOT + LOWER] - HALF else -HALF
-        if (slot != here || way != UP || isOpen()) return known
+        if (slot != here || !isUpwards(way) || isOpen()) return known
         return maxOf(known, ways[way * STRIDE + S] - CERTAIN * sqrt(ways[way * STRIDE + SS]))
     }
 
@@ -277,47 +333,59 @@ internal class SlewFilter : ReadingPlayer {
     fun upper(slot: Int): Double {
         val way = best()
         val known = if (isKnown(slot)) HALF - memory[slot * SLOT + UPPER] else HALF
-        if (slot != here || way != DOWN || isOpen()) return known
+        if (slot != here || isUpwards(way) || isOpen()) return known
         return minOf(known, ways[way * STRIDE + S] + CERTAIN * sqrt(ways[way * STRIDE + SS]))
     }
 
     private fun isKnown(slot: Int) = (slot + 1) * SLOT <= memory.size
 
-    private companion object {
-        const val WAYS = 4
-        const val UP = 0
-        const val DOWN = 1
-        const val LEVEL = 2
+    companion object {
+        /** Lower end of the prior; its upper end is as far above 0. */
+        const val LEAST = -0.5
 
-        const val STRIDE = 13
-        const val S = 0
-        const val R = 1
-        const val Q = 2
-        const val SS = 3
-        const val SR = 4
-        const val SQ = 5
-        const val RR = 6
-        const val RQ = 7
-        const val QQ = 8
-        const val MISFIT = 9
-        const val SCORE = 10
-        const val SUCCESSION = 11
-        const val INNOVATION = 12
+        private const val WAYS = 4
+        private const val UP = 0
+        private const val DOWN = 1
+        private const val LEVEL = 2
+
+        private const val STRIDE = 13
+        private const val S = 0
+        private const val R = 1
+        private const val Q = 2
+        private const val SS = 3
+        private const val SR = 4
+        private const val SQ = 5
+        private const val RR = 6
+        private const val RQ = 7
+        private const val QQ = 8
+        private const val MISFIT = 9
+        private const val SCORE = 10
+        private const val SUCCESSION = 11
+        private const val INNOVATION = 12
 
         /** Of a cell: truth, information, and how far its bounds are from the prior's ends. */
-        const val SLOT = 4
-        const val MEAN = 0
-        const val INFORMATION = 1
-        const val LOWER = 2
-        const val UPPER = 3
-        const val FIRST_SLOTS = 128
+        private const val SLOT = 6
+        private const val MEAN = 0
+        private const val INFORMATION = 1
+        private const val LOWER = 2
+        private const val UPPER = 3
+
+        /** Probability of having come to rest in the last visit, where that was not beyond doubt. */
+        private const val RESTING = 4
+
+        /** Visits that its truth is of. */
+        private const val VISITS = 5
+        private const val FIRST_SLOTS = 128
 
         /** Half the width of the prior. */
-        const val HALF = 0.5
+        private const val HALF = -LEAST
 
         /** A bound lies so many standard deviations beyond the state that sets it. */
-        const val CERTAIN = 2.0
-        const val LEAST_STEP = 1e-9
-        const val LEAST_SHARE = 1e-6
+        private const val CERTAIN = 2.0
+
+        /** Largest probability of moving on with which a truth counts as reached: odds of e⁵, as [SensorChoice] asks of models. */
+        private const val BEYOND_DOUBT = 0.0067
+        private const val LEAST_STEP = 1e-9
+        private const val LEAST_SHARE = 1e-6
     }
 }

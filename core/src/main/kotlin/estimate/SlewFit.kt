@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import kotlin.math.abs
+import kotlin.math.round
 import kotlin.math.sqrt
 
 /** The slew-limited sensor as a [SensorFit]: its parameter is the rate r. */
@@ -26,6 +27,9 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     var moves: Boolean = false
         private set
 
+    /** Step to which readings are rounded, 0 if they are not. */
+    private var resolution = 0.0
+
     override fun take(slot: Int, seconds: Double, value: Double) {
         filter.take(slot, seconds, value)
         learn()
@@ -35,6 +39,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     override suspend fun calibrate(tape: Recording) {
         moves = false
+        resolution = resolution(tape)
         val noise = firstNoise(tape)
         val count = slopes(tape)
         tape.spend(tape.size)
@@ -58,6 +63,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** As [other] is, but for what it knows of the cells. */
     fun becomeLike(other: SlewFit) {
         moves = other.moves
+        resolution = other.resolution
         start = other.start
         if (other.rate > 0) filter.reset(other.rate, other.relativeUncertainty, other.noiseVariance)
         judgeAs(other)
@@ -130,6 +136,20 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         return maxOf(median * median / MEDIAN_SQUARED, LEAST_NOISE * LEAST_NOISE)
     }
 
+    /** The least difference of successive readings of [tape], if all others are multiples of it; 0 otherwise. */
+    private fun resolution(tape: Recording): Double {
+        var least = Double.POSITIVE_INFINITY
+        for (i in 1 until tape.size) {
+            val difference = abs(tape.value(i) - tape.value(i - 1))
+            if (difference > NOTHING && difference < least) least = difference
+        }
+        for (i in 1 until tape.size) {
+            val steps = abs(tape.value(i) - tape.value(i - 1)) / least
+            if (!(abs(steps - round(steps)) < WHOLE)) return 0.0
+        }
+        return if (least.isFinite()) least else 0.0
+    }
+
     override fun truth(slot: Int): Double {
         asked = slot
         return filter.truth(slot)
@@ -137,11 +157,47 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
     override fun variance(): Double {
         val information = filter.information(asked)
-        if (information > 0) return 1 / information
-        // A truth never reached lies anywhere between its bounds.
-        val reach = (filter.upper(asked) - filter.lower(asked)) / 2 / SensorChoice.quantile(freedom)
+        if (information > 0) return 1 / information + filter.common(asked, resolution)
+        look()
+        val reach = (highest - lowest) / 2 / SensorChoice.quantile(freedom)
         return reach * reach
     }
+
+    override fun lean(): Double {
+        if (filter.information(asked) > 0) return 0.0
+        look()
+        return (highest + lowest) / 2 - filter.truth(asked)
+    }
+
+    /**
+     * The 95 % interval of a truth that was not reached beyond doubt: at rest where the sensor is, or anywhere between the bounds
+     * if it moves on, by the probability of either. What is left out is at the end that no reading set: in water that hangs
+     * together the truth is rather near to what was seen.
+     */
+    private fun look() {
+        val value = filter.truth(asked)
+        lowest = filter.lower(asked)
+        highest = filter.upper(asked)
+        val left = LEFT_OUT / maxOf(LEFT_OUT, filter.movingOn(asked)) * (highest - lowest)
+        val isUp = lowest > SlewFilter.LEAST
+        val isDown = highest < -SlewFilter.LEAST
+        val least = lowest
+        val most = highest
+        if (isUp && isDown) {
+            lowest += left / 2
+            highest -= left / 2
+        } else if (isUp) {
+            highest -= left
+        } else if (isDown) {
+            lowest += left
+        }
+        // A state at rest is known as well to either side.
+        if (isUp && value < (least + most) / 2) highest = maxOf(highest, minOf(most, 2 * value - least))
+        if (isDown && value > (least + most) / 2) lowest = minOf(lowest, maxOf(least, 2 * value - most))
+    }
+
+    private var lowest = 0.0
+    private var highest = 0.0
 
     private companion object {
         const val ROUNDS = 2
@@ -156,6 +212,13 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         /** How far the rate may be off the grid, relative. */
         const val KNOWN = 0.03
         const val LEAST_NOISE = 1e-5
+
+        /** Difference of readings that no digit makes, scaled, and how far from a multiple the sum of digits may be. */
+        const val NOTHING = 1e-9
+        const val WHOLE = 1e-3
+
+        /** Of a belief. */
+        const val LEFT_OUT = 0.05
 
         /** Square of the median of a standard normal's size, times 6, the variance of a second difference. */
         const val MEDIAN_SQUARED = 0.6745 * 0.6745 * 6
