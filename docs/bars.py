@@ -45,7 +45,7 @@ class Bars:
     def run(self, *arguments, preset="noisy", moves=MOVES):
         """Rows of results.csv and bounds.csv by field, filter, planner, move and boats."""
         words = ["benchmark", "--preset", preset, "--seed", self.seed, "--checkpoints", ",".join(map(str, moves))]
-        words += [*arguments, "--environments", self.environments]
+        words += ([] if "--environments" in arguments else ["--environments", self.environments]) + list(arguments)
         if tuple(words) not in self.found:
             print(" ".join(words), file=sys.stderr, flush=True)
             with tempfile.TemporaryDirectory() as out:
@@ -242,23 +242,30 @@ def logs(bars):
 PARTS = {part.__name__: part for part in (unknown, bounded, sensors, slew, prior, intervals, settled, boats, logs)}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def drive(parts, usage, head=()):
+    """Runs the parts that the command line asks for, below the lines of a table's head."""
+    parser = argparse.ArgumentParser(description=usage, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", required=True)
-    parser.add_argument("--only", default=",".join(PARTS))
+    parser.add_argument("--only", default=",".join(parts))
     parser.add_argument("--program", default=os.environ.get("STILLWATER", "java -jar simulator/target/stillwater.jar"))
     parser.add_argument("--environments", default="100")
     given = parser.parse_args()
     wanted = given.only.split(",")
-    unheard = [name for name in wanted if name not in PARTS]
+    unheard = [name for name in wanted if name not in parts]
     if unheard:
-        parser.error(f"expected some of {', '.join(PARTS)}, found {', '.join(unheard)}")
+        parser.error(f"expected some of {', '.join(parts)}, found {', '.join(unheard)}")
     bars = Bars(shlex.split(given.program), given.seed, given.environments)
-    print("| what | bar | found, uniform / Gaussian | |\n|---|---|---|---|")
+    for line in head:
+        print(line, flush=True)
     for name in wanted:
-        PARTS[name](bars)
-    print(f"\n{bars.missed} missed.", file=sys.stderr)
-    sys.exit(1 if bars.missed else 0)
+        parts[name](bars)
+    return bars
+
+
+def main():
+    missed = drive(PARTS, __doc__, ("| what | bar | found, uniform / Gaussian | |", "|---|---|---|---|")).missed
+    print(f"\n{missed} missed.", file=sys.stderr)
+    sys.exit(1 if missed else 0)
 
 
 if __name__ == "__main__":
