@@ -44,7 +44,7 @@ internal class BlindAnswer(
         // What goes with the boat alone is no lag's of either kind, nor the water's.
         val isBoats = chosen.isEmpty() && end.isOfBoat(strongest)
         val asIs = if (isBoats) Double.POSITIVE_INFINITY else end.looksAsIs[strongest].ratio
-        val verdict = verdict(all, left.first(), asIs, chosen)
+        val verdict = verdict(all, left.first(), looks[strongest].sureness, asIs, chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
@@ -74,14 +74,23 @@ internal class BlindAnswer(
         )
     }
 
-    /** Where [left] is the strongest of what is left, and [asIs] what it is worth on the last model as that is. */
-    private fun verdict(all: List<List<Cause>>, left: Dependence, asIs: Double, chosen: List<BlindStep>): Verdict {
+    /**
+     * Where [left] is the strongest of what is left, with [sureness], and [asIs] what it is worth on the last model as
+     * that is.
+     */
+    private fun verdict(
+        all: List<List<Cause>>,
+        left: Dependence,
+        sureness: Double,
+        asIs: Double,
+        chosen: List<BlindStep>,
+    ): Verdict {
         val isOpen = lag.isOpen(settings.separation)
         // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
-        val weakest = chosen.minOfOrNull { it.trial.ratio }
+        val weakest = chosen.minOfOrNull { it.trial.sureness }
         val outweighs = when {
             isOpen && asIs > LEFT * lag.seen -> true
-            weakest != null -> left.ratio > LEFT * weakest
+            weakest != null -> sureness > LEFT * weakest
             else -> !isOpen
         }
         val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel && outweighs

@@ -6,14 +6,16 @@ import kotlin.math.exp
 /**
  * Numbers that were found, and what they leave.
  *
- * @property left square sum of the residuals once the water has taken what it can. @property residuals readings less
- *   what the model shows of the water before that.
+ * @property left square sum of the residuals once the water has taken what it can, times what makes up in the likelihood
+ *   for water that is bound more tightly ([BlindDeterminant]). @property residuals readings less what the model shows of
+ *   the water before that.
  */
 internal class BlindPoint(val numbers: DoubleArray, val residuals: DoubleArray, val left: Double)
 
 /** Levenberg-Marquardt with the water free to take what it can at each step; the water's part is that of [state]. */
-internal class BlindDescent(private val state: BlindState) {
+internal class BlindDescent(search: BlindSearch, private val state: BlindState) {
     private val n = state.residuals.size
+    private val determinant by lazy { BlindDeterminant(search, state) }
     private val values = state.model.series.values
 
     /** What [model] at [numbers] leaves. */
@@ -23,11 +25,22 @@ internal class BlindDescent(private val state: BlindState) {
         for (i in 0 until n) r[i] = values[i] - r[i]
         val white = state.fit.whitened(r)
         val taken = state.fit.taken(white)
-        return Tried(BlindPoint(numbers, r, state.fit.left(white, taken)), white, taken)
+        val bound = determinant.at(model, numbers)
+        val left = state.fit.left(white, taken)
+        return Tried(BlindPoint(numbers, r, left * exp(bound / state.fit.rows)), white, taken, left, bound)
     }
 
-    /** A point, its residuals whitened, and what the water takes of them. */
-    private class Tried(val point: BlindPoint, val white: DoubleArray, val taken: DoubleArray)
+    /**
+     * A point, its residuals [white] whitened, what the water has [taken] of them and [left], and how much more tightly
+     * it is [bound].
+     */
+    private class Tried(
+        val point: BlindPoint,
+        val white: DoubleArray,
+        val taken: DoubleArray,
+        val left: Double,
+        val bound: Double,
+    )
 
     /** The best numbers of [model], whose truth is the state's water, near [start] in at most [steps] steps. */
     fun from(model: ResponseModel, start: DoubleArray, free: BooleanArray, steps: Int): BlindPoint {
@@ -41,7 +54,11 @@ internal class BlindDescent(private val state: BlindState) {
             val matrix = Array(white.size) { i ->
                 DoubleArray(white.size) { j -> dot(white[i], white[j]) - dot(halves[i], halves[j]) }
             }
-            val pull = DoubleArray(white.size) { dot(white[it], best.white) - dot(halves[it], best.taken) }
+            // Where rows · ln left + ln det H is least.
+            val share = best.left / (2 * state.fit.rows)
+            val pull = DoubleArray(white.size) {
+                dot(white[it], best.white) - dot(halves[it], best.taken) - share * binding(model, best, indices[it])
+            }
             val system = SymmetricSystem(matrix, pull)
             val before = best.point.left
             var tries = 0
@@ -57,6 +74,16 @@ internal class BlindDescent(private val state: BlindState) {
             if (!(before - best.point.left > ENOUGH * before / n)) return best.point
         }
         return best.point
+    }
+
+    /** How fast water is bound more tightly as parameter [i] of [model] grows on the scale it is fitted on. */
+    private fun binding(model: ResponseModel, from: Tried, i: Int): Double {
+        val isShown = i == ResponseModel.TIME_CONSTANT ||
+            model.terms.any { it.cause in BlindSearch.LINEAR && i - model.slot(it) in 0 until model.width(it) }
+        if (!isShown) return 0.0
+        val numbers = from.point.numbers
+        val step = step(model, numbers, i)
+        return (determinant.at(model, stepped(model, numbers, i, step)) - from.bound) / step
     }
 
     private fun moved(model: ResponseModel, at: DoubleArray, free: List<Int>, step: DoubleArray): DoubleArray {
@@ -78,18 +105,27 @@ internal class BlindDescent(private val state: BlindState) {
 
         /** How what [model] shows changes with parameter [i] on the scale it is fitted on, length n. */
         fun derivative(model: ResponseModel, numbers: DoubleArray, i: Int): DoubleArray {
-            val parameter = model.parameters[i]
-            val size = if (parameter.logarithmic) STEP else STEP * maxOf(abs(numbers[i]), scale(model, parameter))
-            val moved = numbers.copyOf()
-            val forward = if (parameter.logarithmic) numbers[i] * exp(size) else numbers[i] + size
-            val sign = if (forward > parameter.upper) -1 else 1
-            moved[i] = if (parameter.logarithmic) numbers[i] * exp(sign * size) else numbers[i] + sign * size
+            val step = step(model, numbers, i)
+            val moved = stepped(model, numbers, i, step)
             val after = DoubleArray(model.series.size)
             val before = DoubleArray(model.series.size)
             model.predict(moved, after)
             model.predict(numbers, before)
-            for (r in after.indices) after[r] = (after[r] - before[r]) / (sign * size)
+            for (r in after.indices) after[r] = (after[r] - before[r]) / step
             return after
+        }
+
+        /** A small step of parameter [i] on the scale it is fitted on, within its range. */
+        private fun step(model: ResponseModel, numbers: DoubleArray, i: Int): Double {
+            val parameter = model.parameters[i]
+            val size = if (parameter.logarithmic) STEP else STEP * maxOf(abs(numbers[i]), scale(model, parameter))
+            val forward = if (parameter.logarithmic) numbers[i] * exp(size) else numbers[i] + size
+            return if (forward > parameter.upper) -size else size
+        }
+
+        private fun stepped(model: ResponseModel, numbers: DoubleArray, i: Int, step: Double): DoubleArray {
+            val isLogarithmic = model.parameters[i].logarithmic
+            return numbers.copyOf().also { it[i] = if (isLogarithmic) it[i] * exp(step) else it[i] + step }
         }
 
         private fun scale(model: ResponseModel, parameter: Parameter): Double = when (parameter.unit) {

@@ -98,7 +98,7 @@ internal class BlindDiagnosis(
             // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
             // named for its shadow. A response that rings is like many others.
             val look = round.strongestLook
-            val ahead = look?.let { i -> round.looks[i].worth - sure.maxOf { it.worth } } ?: Double.NEGATIVE_INFINITY
+            val ahead = look?.let { i -> round.looks[i].surely - sure.maxOf { it.surely } } ?: Double.NEGATIVE_INFINITY
             val isShadow = ahead > settings.separation
             if (look != null && isShadow && ahead > BlindLag.MUCH && !round.isOfWater(look)) break
             val state = added(round.state, best)

@@ -112,6 +112,9 @@ internal class BlindFit private constructor(
     /** L⁻¹ of row [i] of the derivatives, L Lᵀ the posterior's precision. */
     fun halfRow(i: Int): DoubleArray = factor.half(design.row(i))
 
+    /** Heights of which the posterior's covariance is that over the noise's variance, for [signs] of unit covariance. */
+    fun drawn(signs: DoubleArray): DoubleArray = factor.back(signs)
+
     /** [column] whitened. */
     fun whitened(column: DoubleArray): DoubleArray = DoubleArray(n).also { design.noise.whiten(column, it) }
 

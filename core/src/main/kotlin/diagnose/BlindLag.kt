@@ -35,7 +35,7 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         var best = state
         repeat(REFINEMENTS) {
             val free = BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }
-            val found = BlindDescent(best).from(best.model, best.numbers, free, STEPS)
+            val found = BlindDescent(search, best).from(best.model, best.numbers, free, STEPS)
             val next = search.settled(
                 best.model.terms,
                 found.numbers,

@@ -178,7 +178,7 @@ internal class BlindRound(
             found.score > rest -> trying.among(best - rest)
             // It explains most of what water that changes does: something changed, and both are in the answer.
             still !== state && found.score - best > (rest - best) / 2 && trying.pValue < settings.level ->
-                trying.beside(search.climbed(search.with(state, trying)))
+                trying.beside(search.climbed(search.with(state, trying))).among(best - rest)
             else -> trying.instead(best - rest)
         }
     }
@@ -282,7 +282,8 @@ internal class BlindRound(
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
-        return tries.settled(begun.look, refitted, best)
+        val lost = if (search.isStill(refitted.state)) maxOf(state.score - still.score, 0.0) else 0.0
+        return tries.settled(begun.look, refitted, best).onLess(lost)
     }
 
     /** Whether waves that the water is not given may look like [look] as much as [trial] says. */

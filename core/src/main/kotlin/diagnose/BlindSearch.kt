@@ -225,7 +225,7 @@ internal class BlindSearch private constructor(
 
     /** [state] with the numbers that fit better, and the water for them. */
     fun improved(state: BlindState): BlindState {
-        val found = BlindDescent(state).from(state.model, state.numbers, free(state.model), STEPS)
+        val found = BlindDescent(this, state).from(state.model, state.numbers, free(state.model), STEPS)
         return settled(state.model.terms, found.numbers, state.fit.design.noise, state.variances, before = state)
     }
 

@@ -10,6 +10,7 @@ import kotlin.math.abs
  * @property ratio twice the gain in log-likelihood over what the scores' correlation inflates it.
  * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how
  *   stretches of the log agree about it. @property state the model with it where water and noise were fitted to it.
+ *   @property sureness the ratio that [pValue] is of: against water that does not change where the trial is on such.
  */
 internal class BlindTrial(
     val term: Term?,
@@ -22,6 +23,7 @@ internal class BlindTrial(
     val degrees: Int,
     val pValue: Double,
     val state: BlindState? = null,
+    val sureness: Double = ratio,
     private val halves: Double = 0.0,
 ) {
     /** Whether the two halves of the log contradict each other about the size of it, at 1 %. */
@@ -29,6 +31,9 @@ internal class BlindTrial(
 
     /** The ratio less what as many meaningless numbers would gain on average, doubled as AIC does. */
     val worth: Double get() = ratio - 2 * degrees
+
+    /** The same of [sureness]. */
+    val surely: Double get() = sureness - 2 * degrees
 
     /** Twice the gain in log-likelihood, of which nothing was taken off. */
     val gain: Double get() = ratio * inflation
@@ -48,16 +53,23 @@ internal class BlindTrial(
     /** This trial where its p-value is too small by [times]. */
     fun lessSure(times: Double) = changed(ratio, minOf(1.0, times * pValue))
 
+    /** This trial where the model that it is on is less likely by [score] than the one that others are held against. */
+    fun onLess(score: Double) = changed(ratio, pValue, sureness = sureness + score / inflation)
+
     /** This trial, as sure as it is, in the model [other]. */
     fun beside(other: BlindState) = changed(ratio, pValue, other)
 
-    private fun changed(ratio: Double, pValue: Double, state: BlindState? = this.state) =
-        BlindTrial(term, name, model, point, change, ratio, inflation, degrees, pValue, state, halves)
+    private fun changed(
+        ratio: Double,
+        pValue: Double,
+        state: BlindState? = this.state,
+        sureness: Double = this.sureness,
+    ) = BlindTrial(term, name, model, point, change, ratio, inflation, degrees, pValue, state, sureness, halves)
 
     /** This trial where its ratio is [most] at most. */
     fun atMost(most: Double): BlindTrial {
         val weaker = minOf(ratio, maxOf(most, 0.0))
-        return changed(weaker, maxOf(pValue, Evidence.pValue(weaker, degrees)))
+        return changed(weaker, maxOf(pValue, Evidence.pValue(weaker, degrees)), sureness = minOf(sureness, weaker))
     }
 
     private companion object {

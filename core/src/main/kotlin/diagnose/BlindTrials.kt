@@ -9,7 +9,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private val series = state.model.series
     private val scales = search.scales
     private val n = series.size
-    private val descent = BlindDescent(state)
+    private val descent = BlindDescent(search, state)
     private val base = descent.from(state.model, state.numbers, search.free(state.model), BASE_STEPS)
     private val z = state.fit.residual(base.residuals)
 
@@ -112,7 +112,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
         val settled =
-            BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, halves)
+            BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, ratio, halves)
         val isNone = (term.cause == Cause.SATURATION && goOn(found)) ||
             (BlindTerms.isLittle(term, found) && ratio < BEYOND_FIXES)
         val isReal = !isNone && (term.cause == Cause.SATURATION || own.any { isShown(found, columns, it, inflation) })

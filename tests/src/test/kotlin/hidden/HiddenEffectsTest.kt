@@ -46,6 +46,18 @@ class HiddenEffectsTest {
         assertEquals("unexplained", cases.last().answer.verdict)
     }
 
+    /**
+     * Seeds of the work on it: a jump and water that changes, each held against the other on a base of its own; and two
+     * lags that no step led to while a fit did not know how tightly the water is bound.
+     */
+    @Test
+    fun whatChangesAndWhatNoStepLedToIsTold() {
+        val cases = HiddenCampaign.run(listOf(198_071L, 194_036L, 196_034L), withReference = false, directory)
+        val hidden = listOf(HiddenEffect.STEPS, HiddenEffect.TIME_VARYING, HiddenEffect.SECOND_ORDER)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
     @Test
     fun whatIsHiddenBesideCoarseRoundingIsNamedToo() {
