@@ -148,8 +148,8 @@ public class SelfCalibratingEstimator(
 
     /** Cells follow what was learned of the sensor since they were written. */
     private fun refresh() {
-        val most = if (learner.isComplete) REFRESHED_EARLY else REFRESHED
-        repeat(minOf(most, unrefreshed)) {
+        // While all readings are kept what is known of the sensor still changes much.
+        repeat(minOf(unrefreshed, if (learner.isComplete) visitedCount else REFRESHED)) {
             if (++refreshed >= visitedCount) {
                 refreshed = 0
                 compareWithFallback()
@@ -271,12 +271,9 @@ public class SelfCalibratingEstimator(
     public companion object {
         /**
          * Cells whose value and bounds are brought up to date each time the boat moves on, besides the last two: one for each
-         * reading of the stay, but no more than these.
+         * reading of the stay, but no more than these once not all readings are kept.
          */
         public const val REFRESHED: Int = 4
-
-        /** The same while all readings are kept: what is known of the sensor still changes much. */
-        public const val REFRESHED_EARLY: Int = 8
 
         /** Largest distance of a usable reading from the prior's middle, in widths of the prior. */
         public const val FARTHEST: Double = 100.0
