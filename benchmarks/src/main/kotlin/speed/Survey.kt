@@ -53,6 +53,14 @@ internal class Survey(val grid: Grid, moves: Int) {
         for (i in 0 until size) estimator.update(BoatTime(i.toDouble()), xs[i], ys[i], values[i], Conditions.NONE)
     }
 
+    /** The same, and after each cell's readings asks for the map and has [look] at the boat's cell there. */
+    inline fun read(estimator: FieldEstimator, look: (map: FieldMap, cell: Int) -> Unit) {
+        for (i in 0 until size) {
+            estimator.update(BoatTime(i.toDouble()), xs[i], ys[i], values[i], Conditions.NONE)
+            if (i % SAMPLES == SAMPLES - 1) look(estimator.map, grid.cellAt(xs[i], ys[i]))
+        }
+    }
+
     internal companion object {
         const val SAMPLES = 10
         const val SEED = 20_261_121

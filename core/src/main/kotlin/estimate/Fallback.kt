@@ -26,6 +26,9 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
 
     /** Farther from the first cell than any other is. */
     private val outside = grid.centerX(0) - 2 * (grid.columns * grid.cellWidth + grid.rows * grid.cellHeight)
+    private var lastCell = Grid.OUTSIDE
+    private var x = Double.NaN
+    private var y = Double.NaN
     private var seconds = 0.0
     private var apart = 0.0
     private var added = 0.0
@@ -41,7 +44,12 @@ internal class Fallback(private val grid: Grid, prior: Interval) {
     fun take(cell: Int, isUsed: Boolean, seconds: Double, value: Double, conditions: Conditions) {
         this.seconds = seconds
         if (isUsed) spread(cell, value)
-        filter.update(BoatTime(seconds), grid.centerX(cell), grid.centerY(cell), value, conditions)
+        if (cell != lastCell) {
+            lastCell = cell
+            x = grid.centerX(cell)
+            y = grid.centerY(cell)
+        }
+        filter.update(BoatTime(seconds), x, y, value, conditions)
     }
 
     private fun spread(cell: Int, value: Double) {

@@ -97,13 +97,7 @@ internal class LagBank : ReadingPlayer {
             for (i in 0 until NODES) keeps[i] = exp(-elapsed * exp(-(node + (i - 1) * step)))
             keepsFor = elapsed
         }
-        for (i in 0 until NODES) {
-            val innovation = predictAndCorrect(i * STRIDE, keeps[i], value)
-            if (i == 1) {
-                succession += innovation * lastInnovation
-                lastInnovation = innovation
-            }
-        }
+        for (i in 0 until NODES) predictAndCorrect(i * STRIDE, keeps[i], value)
         freedom++
     }
 
@@ -205,12 +199,8 @@ internal class LagBank : ReadingPlayer {
         freedom--
     }
 
-    /**
-     * Eqs. (3) to (5) at one node, whose state starts at [at] and of which [keep] is left after the elapsed time.
-     *
-     * @return the innovation over its standard deviation.
-     */
-    private fun predictAndCorrect(at: Int, keep: Double, value: Double): Double {
+    /** Eqs. (3) to (5) at one node, whose state starts at [at] and of which [keep] is left after the elapsed time. */
+    private fun predictAndCorrect(at: Int, keep: Double, value: Double) {
         val f = states
         val gain = 1 - keep
         // s ← s + g (ψ − s)
@@ -235,7 +225,11 @@ internal class LagBank : ReadingPlayer {
         f[at + SP] -= forTruth * f[at + SS]
         f[at + SQ] -= forPrevious * f[at + SS]
         f[at + SS] -= forState * f[at + SS]
-        return innovation / sqrt(variance)
+        // Asked of the middle filter only.
+        if (at != STRIDE) return
+        val scaled = innovation / sqrt(variance)
+        succession += scaled * lastInnovation
+        lastInnovation = scaled
     }
 
     /** Pools a visit, whose truth and variance are at [mean] and [variance] in the state, with the slot's others, if any. */

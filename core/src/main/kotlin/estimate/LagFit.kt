@@ -35,10 +35,10 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     }
 
     /** The most likely time constant τ, s. */
-    val timeConstant: Double get() = exp(bank.node + offset)
+    val timeConstant: Double get() = upToDate().let { exp(bank.node + offset) }
 
     /** Standard deviation of ln τ. */
-    val relativeUncertainty: Double get() = 1 / sqrt(information)
+    val relativeUncertainty: Double get() = upToDate().let { 1 / sqrt(information) }
 
     override val here: Int get() = maxOf(bank.current, LagBank.NONE)
     override val before: Int get() = maxOf(bank.previous, LagBank.NONE)
@@ -56,14 +56,13 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         judgeAs(other)
     }
 
-    override fun take(slot: Int, seconds: Double, value: Double) {
+    override fun add(slot: Int, seconds: Double, value: Double) {
         val moves = follows && slot != bank.current && abs(offset) > bank.step / 2
         if (moves) bank.move(offset.coerceIn(-bank.step, bank.step))
         bank.take(slot, seconds, value)
-        learn()
     }
 
-    override fun leave() = bank.leave()
+    override fun end() = bank.leave()
 
     /** Starts over with the time constant that explains the tape best: a coarse search, then Newton's steps. */
     override suspend fun calibrate(tape: Recording) {
@@ -123,10 +122,10 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     }
 
     /** Reads time constant and noise off the bank's parabola, eqs. (9) to (11). */
-    private fun learn() {
+    override fun readOff() {
         val curvature = maxOf(0.0, bank.curvature())
-        val slope = bank.slope() / noiseVariance + (mean - bank.node) * priorInformation
-        information = curvature / noiseVariance + priorInformation
+        val slope = bank.slope() / settledNoise + (mean - bank.node) * priorInformation
+        information = curvature / settledNoise + priorInformation
         offset = (slope / information).coerceIn(-FARTHEST_OFFSET * bank.step, FARTHEST_OFFSET * bank.step)
         val place = offset / bank.step
         val left = LagBank.interpolate(bank.misfit(0), bank.misfit(1), bank.misfit(2), place)
@@ -134,6 +133,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     }
 
     override fun truth(slot: Int): Double {
+        upToDate()
         asked = slot
         low = bank.truth(slot, 0)
         middle = bank.truth(slot, 1)

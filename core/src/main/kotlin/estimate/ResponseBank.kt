@@ -101,7 +101,7 @@ internal class ResponseBank : ReadingPlayer {
         }
         val flatness = if (comparesKinds) 1.0 else kind.flatness
         visitVariance = maxOf(priorVariance, minOf(flatness * priorVariance, 1 / LagBank.LEAST_RATIO))
-        bank.clear(visitVariance)
+        bank.clear(kind.lags, visitVariance)
         memory.fill(0.0)
         freedom = 0.0
         pooledMisfit = 0.0
@@ -138,7 +138,7 @@ internal class ResponseBank : ReadingPlayer {
     override fun take(slot: Int, seconds: Double, value: Double) {
         if (lastSlot == LagBank.NONE) {
             for (i in 0 until nodes) {
-                bank.begin(i, kind.lags)
+                bank.begin(i)
                 current[i] = ELSEWHERE
                 clocks[i] = seconds
             }
@@ -211,7 +211,7 @@ internal class ResponseBank : ReadingPlayer {
     /** The scaled truth of the cell with [slot] at filter [i]. */
     fun truth(slot: Int, i: Int): Double {
         var sum = 0.0
-        if (isPooled(slot)) sum = memory[slot * SLOT + 2 * i] * memory[slot * SLOT + 2 * i + 1]
+        if (isRemembered(slot)) sum = memory[slot * SLOT + 2 * i] * memory[slot * SLOT + 2 * i + 1]
         val branch = branch()
         if (slot == current[i]) sum += bank.truth(i, branch) / bank.variance(i, branch)
         if (slot == previous[i]) sum += bank.truthBefore(i, branch) / bank.varianceBefore(i, branch)
@@ -220,7 +220,7 @@ internal class ResponseBank : ReadingPlayer {
 
     /** The information on the truth of the cell with [slot] at filter [i], over the noise's variance. */
     fun information(slot: Int, i: Int): Double {
-        var information = if (isPooled(slot)) memory[slot * SLOT + 2 * i + 1] else 0.0
+        var information = if (isRemembered(slot)) memory[slot * SLOT + 2 * i + 1] else 0.0
         val own = 1 / visitVariance
         val branch = branch()
         if (slot == current[i]) information += 1 / bank.variance(i, branch) - own
@@ -228,7 +228,8 @@ internal class ResponseBank : ReadingPlayer {
         return information + 1 / priorVariance
     }
 
-    private fun isPooled(slot: Int) = (slot + 1) * SLOT <= memory.size && memory[slot * SLOT + 1] > 0
+    /** Whether there is memory for it: of no information where nothing was pooled, which a filter does when it is due there. */
+    private fun isRemembered(slot: Int) = (slot + 1) * SLOT <= memory.size
 
     /** Pools the visit to [slot] that filter [i] is in, or was in before, with the cell's others. */
     private fun pool(i: Int, slot: Int, before: Boolean) {

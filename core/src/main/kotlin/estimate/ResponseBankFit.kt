@@ -39,10 +39,10 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private var startFirst = belief.mean
 
     /** The most likely first parameter. */
-    val first: Double get() = bank.first + placeFirst * bank.firstStep
+    val first: Double get() = upToDate().let { bank.first + placeFirst * bank.firstStep }
 
     /** The most likely second parameter. */
-    val second: Double get() = bank.second + placeSecond * bank.secondStep
+    val second: Double get() = upToDate().let { bank.second + placeSecond * bank.secondStep }
 
     /** Logarithm of the time constant, s, or of its mean or sum. */
     val logTime: Double get() = kind.logTime(first, second)
@@ -53,20 +53,21 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** Variance of [first]. */
     val firstVariance: Double
-        get() = (certain(1 / curveFirst) + tilt * tilt * alongRidge) * bank.firstStep * bank.firstStep
+        get() = alongRidge.let { (certain(1 / curveFirst) + tilt * tilt * it) * bank.firstStep * bank.firstStep }
 
     /** Variance of [second]. */
     val secondVariance: Double get() = alongRidge * bank.secondStep * bank.secondStep
 
     /** Covariance of [first] and [second]. */
-    val covariance: Double get() = -tilt * alongRidge * bank.firstStep * bank.secondStep
+    val covariance: Double get() = alongRidge.let { -tilt * it * bank.firstStep * bank.secondStep }
 
     /** A variance in steps squared: once the nodes stay where they are, the surface is not exact to better than this. */
     private fun certain(variance: Double) = if (follows) maxOf(variance, EXACT * EXACT) else variance
 
     /** Variance of the second parameter, in its steps squared. */
     private val alongRidge: Double
-        get() = spreadSecond * ridge.tightness + if (follows) ridge.offset * ridge.offset + EXACT * EXACT else 0.0
+        get() = upToDate().let { spreadSecond * ridge.tightness } +
+            if (follows) ridge.offset * ridge.offset + EXACT * EXACT else 0.0
 
     /** From now on there is no tape to start over from. */
     fun follow() {
@@ -102,12 +103,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     override val here: Int get() = bank.here
     override val before: Int get() = bank.before
 
-    override fun take(slot: Int, seconds: Double, value: Double) {
-        bank.take(slot, seconds, value)
-        learn()
-    }
+    override fun add(slot: Int, seconds: Double, value: Double) = bank.take(slot, seconds, value)
 
-    override fun leave() = bank.leave()
+    override fun end() = bank.leave()
 
     /** The first fit starts from this time constant, s; later ones from the last. */
     fun startFrom(timeConstant: Double) {
@@ -116,11 +114,11 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** A coarse search over both parameters, then Newton's steps within a region that shrinks with the uncertainty. */
     override suspend fun calibrate(tape: Recording) {
-        settle(tape)
+        fit(tape)
         measureRidge(tape)
     }
 
-    private suspend fun settle(tape: Recording) {
+    private suspend fun fit(tape: Recording) {
         limit(tape)
         if (!isFitted) search(tape)
         descend(tape)
@@ -181,7 +179,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         isFitted = false
         startSecond = kind.least.coerceAtLeast(0.0)
         limit(tape)
-        noiseVariance = lag.noiseVariance
+        assume(lag.noiseVariance)
         // Two lags are looked at where the shorter is a little, with the sum that the one has.
         startFirst = ln(lag.timeConstant) + kind.bend(GLANCE * widest())
         bank.comparesKinds = true
@@ -264,6 +262,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         startSecond = bestSecond
         cost(tape, bestFirst, bestSecond)
         judge(bank.misfit(0), bank.freedom, bank.succession)
+        settle()
     }
 
     /** The least cost so far: others are gone through as long as they can come below it. */
@@ -300,9 +299,9 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         tape.play(bank)
     }
 
-    private fun learn() {
+    override fun readOff() {
         for (i in 0 until ResponseBank.NODES) surface.set(i, bank.misfit(i))
-        val scale = 1 / (2 * noiseVariance)
+        val scale = 1 / (2 * settledNoise)
         val spread = bank.firstStep / belief.spread
         curveFirst = maxOf(0.0, surface.curveFirst * scale) + spread * spread
         slopeFirst = -surface.slopeFirst * scale + (belief.mean - bank.first) / belief.spread * spread
@@ -322,7 +321,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         var least = Double.POSITIVE_INFINITY
         for (i in 0 until ResponseBank.NODES) least = minOf(least, bank.misfit(i))
         judge(
-            maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * noiseVariance),
+            maxOf(surface.at(placeFirst, placeSecond), least - MOST_BELOW * settledNoise),
             bank.freedom,
             bank.succession,
         )
@@ -339,6 +338,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     private fun determinant() = curveFirst * curveSecond - curveBoth * curveBoth
 
     override fun truth(slot: Int): Double {
+        upToDate()
         asked = slot
         for (i in 0 until ResponseBank.NODES) surface.set(i, bank.truth(slot, i))
         return surface.at(placeFirst, placeSecond)

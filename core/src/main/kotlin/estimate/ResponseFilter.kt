@@ -3,24 +3,30 @@ package stillwater.estimate
 import kotlin.math.exp
 import kotlin.math.sqrt
 
-/** The filters of a [ResponseBank]: two lags in a row, the truth here and in the cell before, and their covariances. */
+/**
+ * The filters of a [ResponseBank]: one lag or two in a row, the truth here and in the cell before, and their covariances.
+ *
+ * Of a single lag there is no first: what is said of it here is neither kept nor used.
+ */
 internal class ResponseFilter {
     private val states = DoubleArray(2 * ResponseBank.NODES * STRIDE)
     private val rates = DoubleArray(4 * ResponseBank.NODES)
     private val keeps = DoubleArray(4 * ResponseBank.NODES)
     private val keptFor = DoubleArray(2 * ResponseBank.NODES)
     private var priorVariance = 1.0
+    private var isSingle = false
 
     private fun at(i: Int, branch: Int) = (2 * i + branch) * STRIDE
 
-    /** Time constants of both lags, s; 0 is none. */
+    /** Time constants of both lags, s; the second is not used where there is one. */
     fun set(i: Int, branch: Int, timeConstant: Double, secondLag: Double) {
         rates[2 * (2 * i + branch)] = 1 / timeConstant
         rates[2 * (2 * i + branch) + 1] = 1 / secondLag
         keptFor[2 * i + branch] = Double.NaN
     }
 
-    fun clear(priorVariance: Double) {
+    fun clear(lags: Int, priorVariance: Double) {
+        isSingle = lags == 1
         this.priorVariance = priorVariance
         states.fill(0.0)
     }
@@ -49,8 +55,8 @@ internal class ResponseFilter {
         states.copyInto(states, at(i, 1 - branch), at(i, branch), at(i, branch) + STRIDE)
     }
 
-    /** Sensor and water unknown; a single lag is its own first. */
-    fun begin(i: Int, lags: Int) {
+    /** Sensor and water unknown. */
+    fun begin(i: Int) {
         for (branch in 0..1) {
             val at = at(i, branch)
             states.fill(0.0, at, at + MISFIT)
@@ -58,7 +64,6 @@ internal class ResponseFilter {
             states[at + SS] = priorVariance
             states[at + PP] = priorVariance
             states[at + QQ] = priorVariance
-            if (lags == 1) states[at + AS] = priorVariance
             states[at + INNOVATION] = 0.0
         }
     }
@@ -82,12 +87,25 @@ internal class ResponseFilter {
         val number = 2 * i + branch
         if (elapsed != keptFor[number]) {
             keeps[2 * number] = exp(-elapsed * rates[2 * number])
-            keeps[2 * number + 1] = exp(-elapsed * rates[2 * number + 1])
+            if (!isSingle) keeps[2 * number + 1] = exp(-elapsed * rates[2 * number + 1])
             keptFor[number] = elapsed
         }
-        val f = states
         val at = at(i, branch)
-        val keep = keeps[2 * number]
+        if (isSingle) predictSingle(at, keeps[2 * number]) else predict(at, keeps[2 * number], keeps[2 * number + 1])
+    }
+
+    private fun predictSingle(at: Int, keep: Double) {
+        val f = states
+        val gain = 1 - keep
+        // s ← s + g (ψ − s)
+        f[at + S] += gain * (f[at + P] - f[at + S])
+        f[at + SQ] = keep * f[at + SQ] + gain * f[at + PQ]
+        f[at + SS] = keep * keep * f[at + SS] + 2 * keep * gain * f[at + SP] + gain * gain * f[at + PP]
+        f[at + SP] = keep * f[at + SP] + gain * f[at + PP]
+    }
+
+    private fun predict(at: Int, keep: Double, hold: Double) {
+        val f = states
         val gain = 1 - keep
         // a ← a + g (ψ − a)
         f[at + A] += gain * (f[at + P] - f[at + A])
@@ -96,7 +114,6 @@ internal class ResponseFilter {
         f[at + AP] = keep * f[at + AP] + gain * f[at + PP]
         f[at + AQ] = keep * f[at + AQ] + gain * f[at + PQ]
         // s ← s + g′ (a − s)
-        val hold = keeps[2 * number + 1]
         val follow = 1 - hold
         f[at + S] += follow * (f[at + A] - f[at + S])
         f[at + SS] = hold * hold * f[at + SS] + 2 * hold * follow * cross + follow * follow * f[at + AA]
@@ -110,7 +127,6 @@ internal class ResponseFilter {
         val at = at(i, branch)
         val innovation = value - f[at + S]
         val variance = f[at + SS] + 1
-        val a = f[at + AS]
         val s = f[at + SS]
         val p = f[at + SP]
         val q = f[at + SQ]
@@ -118,15 +134,10 @@ internal class ResponseFilter {
         val inverse = 1 / variance
         val share = innovation * inverse
         f[at + MISFIT] += innovation * share
-        f[at + A] += a * share
         f[at + S] += s * share
         f[at + P] += p * share
         f[at + Q] += q * share
-        val forA = a * inverse
-        f[at + AA] -= forA * a
-        f[at + AS] -= forA * s
-        f[at + AP] -= forA * p
-        f[at + AQ] -= forA * q
+        if (!isSingle) correctFirst(at, share, inverse)
         val forS = s * inverse
         f[at + SS] -= forS * s
         f[at + SP] -= forS * p
@@ -140,6 +151,18 @@ internal class ResponseFilter {
         val scaled = innovation / sqrt(variance)
         f[at + SUCCESSION] += scaled * f[at + INNOVATION]
         f[at + INNOVATION] = scaled
+    }
+
+    /** The lag that the other one follows, before anything else is corrected but values. */
+    private fun correctFirst(at: Int, share: Double, inverse: Double) {
+        val f = states
+        val a = f[at + AS]
+        val forA = a * inverse
+        f[at + A] += a * share
+        f[at + AA] -= forA * a
+        f[at + AS] -= forA * f[at + SS]
+        f[at + AP] -= forA * f[at + SP]
+        f[at + AQ] -= forA * f[at + SQ]
     }
 
     private companion object {

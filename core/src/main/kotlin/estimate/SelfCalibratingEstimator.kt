@@ -31,8 +31,8 @@ import kotlin.math.sqrt
  * Source: own result, core/docs/SelfCalibratingEstimator.md; sums of innovations as in Schweppe 1965,
  * doi:10.1109/TIT.1965.1053737. The first [SelfCalibratingSettings.recalled] readings are kept and gone through again
  * each time their number has grown by half, so a reading is O(1) on average and at worst O(recalled); no call allocates
- * once the cells' memory has grown. New parameters change all cells: the map follows a cell a reading, [REFRESHED], and
- * the boat's own and the one before when it is asked for. Confined to one thread.
+ * once the cells' memory has grown. New parameters change all cells: the map follows some cells each time the boat moves
+ * on, [REFRESHED], and the boat's own and the one before when it is asked for. Confined to one thread.
  *
  * @param grid the cells.
  * @param prior the range of the field: a cell's value before it is measured has its midpoint, and, for what is
@@ -56,6 +56,7 @@ public class SelfCalibratingEstimator(
     private var visited = IntArray(FIRST_CELLS)
     private var visitedCount = 0
     private var refreshed = 0
+    private var unrefreshed = 0
     private var lastCell = Grid.OUTSIDE
     private var lastSlot = LagBank.NONE
     private val fallback = Fallback(grid, prior)
@@ -120,14 +121,20 @@ public class SelfCalibratingEstimator(
         if (learner.add(slots[cell], seconds, scaled, place)) writeAll()
         val slot = choice.crossings.slot(slots[cell], place)
         if (slot < 0) unplaced++
-        if (slot != lastSlot) writeDue()
+        val movesOn = slot != lastSlot
+        if (movesOn) {
+            writeDue()
+            refresh()
+        }
         lastSlot = slot
+        unrefreshed++
         if (learner.learn()) {
             writeAll()
             return
         }
         if (!learner.isComplete) choice.follow()
         val wasExplained = isExplained
+        val before = choice.active.before
         if (slot != Crossings.PASSED_OVER) choice.take(slot, seconds, scaled)
         if (isExplained != wasExplained) {
             // Bounds that no longer hold, or hold again, do so in all cells.
@@ -135,14 +142,21 @@ public class SelfCalibratingEstimator(
             return
         }
         isDue = true
-        if (!choice.canWait) writeDue()
-        repeat(REFRESHED) {
+        // Water that is seen late: this is the last that the visit says of the cell.
+        if (!movesOn && before != LagBank.NONE && before != choice.active.before) write(before)
+    }
+
+    /** Cells follow what was learned of the sensor since they were written. */
+    private fun refresh() {
+        // While all readings are kept what is known of the sensor still changes much.
+        repeat(minOf(unrefreshed, if (learner.isComplete) visitedCount else REFRESHED)) {
             if (++refreshed >= visitedCount) {
                 refreshed = 0
                 compareWithFallback()
             }
             write(refreshed)
         }
+        unrefreshed = 0
     }
 
     /**
@@ -255,8 +269,11 @@ public class SelfCalibratingEstimator(
     private fun quantile(fit: SensorFit) = SensorChoice.quantile(fit.freedom)
 
     public companion object {
-        /** Cells whose value and bounds are brought up to date with each reading, besides the last two. */
-        public const val REFRESHED: Int = 1
+        /**
+         * Cells whose value and bounds are brought up to date each time the boat moves on, besides the last two: one for each
+         * reading of the stay, but no more than these once not all readings are kept.
+         */
+        public const val REFRESHED: Int = 4
 
         /** Largest distance of a usable reading from the prior's middle, in widths of the prior. */
         public const val FARTHEST: Double = 100.0

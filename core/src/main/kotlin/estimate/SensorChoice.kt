@@ -48,6 +48,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     var isExplained: Boolean = true
         private set
     private var isWhite = true
+    private var lastSlot = LagBank.NONE
+    private var unsettled = 0
 
     /** Whether the readings bear out that the water changes at borders only, or are too few to say; see [EvenCells]. */
     var areCellsEven: Boolean = true
@@ -56,9 +58,6 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     /** Whether that holds of all readings: false if it does of each visit only, because a cell's water changed. */
     var isWaterSteady: Boolean = true
         private set
-
-    /** Whether a reading in a cell tells of that cell and the one before, and of no other, whenever it comes. */
-    val canWait: Boolean get() = isExplained && active === lag
 
     val timeConstant: Double get() = (active as? ResponseBankFit)?.let { exp(it.logTime) } ?: lag.timeConstant
 
@@ -75,8 +74,17 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     override val filters: Int get() = MOST_FILTERS
 
     override fun take(slot: Int, seconds: Double, value: Double) {
+        if (slot != lastSlot || ++unsettled > LONGEST_UNSETTLED) settle()
+        lastSlot = slot
         active.take(slot, seconds, value)
         rival?.take(slot, seconds, value)
+    }
+
+    /** Reads the parameters off all that was taken, and judges what they leave: before a visit, and before a fit. */
+    fun settle() {
+        unsettled = 0
+        active.settle()
+        rival?.settle()
         judge()
     }
 
@@ -86,6 +94,8 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
     }
 
     override fun leave() {
+        settle()
+        lastSlot = LagBank.NONE
         active.leave()
         rival?.leave()
     }
@@ -230,6 +240,9 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         /** A model with smaller logarithm of the odds against it is still possible. */
         private const val POSSIBLE = 5.0
         private const val HOPELESS = 50.0
+
+        /** Readings in one cell after which the parameters are settled and the model is judged at the latest. */
+        private const val LONGEST_UNSETTLED = 16
 
         /** Filters of two models of two parameters, an asymmetric one among them. */
         private const val MOST_FILTERS = 21

@@ -13,22 +13,34 @@ import kotlin.math.sqrt
 internal abstract class SensorFit(protected val belief: SelfCalibratingSettings) {
     /** σ², variance of the readings about the sensor's state, scaled. */
     var noiseVariance: Double = FIRST_NOISE * FIRST_NOISE
-        protected set
+        get() = upToDate().let { field }
+        private set
 
     /** Sum of squares left at the best parameters, the weak belief about σ included. */
     var misfit: Double = 0.0
+        get() = upToDate().let { field }
         private set
 
     /** Readings, and agreements between visits, beyond the numbers fitted, the weak belief about σ included. */
     var freedom: Double = FIRST_FREEDOM
+        get() = upToDate().let { field }
         private set
 
     /** Whether successive innovations are not clearly alike, eq. (13). */
     var isWhite: Boolean = true
+        get() = upToDate().let { field }
         private set
 
     /** Whether successive innovations are not even half as alike as speaks against the model. */
     var isClearlyWhite: Boolean = true
+        get() = upToDate().let { field }
+        private set
+
+    /** Whether readings were taken since the parameters were read off. */
+    private var isBehind = false
+
+    /** [noiseVariance] when the parameters were last settled: what they are read off with, whenever they are asked for. */
+    protected var settledNoise: Double = noiseVariance
         private set
 
     /** Slot of the cell the sensor is in, [LagBank.NONE] if not known. */
@@ -40,11 +52,45 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
     /** Fits the parameters to [tape] and is then as if it had taken all of it. */
     abstract suspend fun calibrate(tape: Recording)
 
-    /** Takes a reading in the cell with [slot]; equal slots in a row are one visit. */
-    abstract fun take(slot: Int, seconds: Double, value: Double)
+    /** Takes a reading in the cell with [slot]; equal slots in a row are one visit. [settle] comes before a visit. */
+    fun take(slot: Int, seconds: Double, value: Double) {
+        add(slot, seconds, value)
+        isBehind = true
+    }
 
     /** The boat left without a reading of where it went. */
-    abstract fun leave()
+    fun leave() {
+        end()
+        isBehind = true
+    }
+
+    /** [take], as far as the filters go. */
+    protected abstract fun add(slot: Int, seconds: Double, value: Double)
+
+    /** [leave], as far as the filters go. */
+    protected abstract fun end()
+
+    /** Reads parameters and noise off the filters, with [settledNoise] for the noise, and judges them. */
+    protected abstract fun readOff()
+
+    /** What was taken since the parameters were read off shows in them: for each that is asked for. */
+    protected fun upToDate() {
+        if (!isBehind) return
+        isBehind = false
+        readOff()
+    }
+
+    /** Reads the parameters off, and with what is left the noise that they are read off with from now on. */
+    fun settle() {
+        upToDate()
+        settledNoise = noiseVariance
+    }
+
+    /** The same of filters that have gone through a tape. */
+    protected fun learn() {
+        isBehind = true
+        settle()
+    }
 
     /** Truth of the cell with [slot]. */
     abstract fun truth(slot: Int): Double
@@ -58,9 +104,16 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
      */
     open fun lean(): Double = 0.0
 
+    /** Takes [variance] for the noise's. */
+    protected fun assume(variance: Double) {
+        isBehind = false
+        noiseVariance = variance
+        settledNoise = variance
+    }
+
     /** Judged as [other] was. */
     protected fun judgeAs(other: SensorFit) {
-        noiseVariance = other.noiseVariance
+        assume(other.noiseVariance)
         misfit = other.misfit
         freedom = other.freedom
         isWhite = other.isWhite

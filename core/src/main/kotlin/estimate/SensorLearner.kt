@@ -88,6 +88,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
 
         /** What is to be fitted. */
         fun begin(): SensorChoice {
+            latest.settle()
             if (next !== latest) next.becomeLike(latest)
             return next
         }

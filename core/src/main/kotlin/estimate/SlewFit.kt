@@ -30,12 +30,9 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** Step to which readings are rounded, 0 if they are not. */
     private var resolution = 0.0
 
-    override fun take(slot: Int, seconds: Double, value: Double) {
-        filter.take(slot, seconds, value)
-        learn()
-    }
+    override fun add(slot: Int, seconds: Double, value: Double) = filter.take(slot, seconds, value)
 
-    override fun leave() = filter.leave()
+    override fun end() = filter.leave()
 
     override suspend fun calibrate(tape: Recording) {
         moves = false
@@ -48,7 +45,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         val fastest = maxOf(slopes[count - 1], fastestStep(tape, sqrt(noise)))
         if (!(fastest > 0)) return
         moves = true
-        noiseVariance = noise
+        assume(noise)
         scan(tape, maxOf(slowest, fastest / WIDEST), fastest)
         // What is left says how much noise there is, and that how far to trust the rate.
         repeat(ROUNDS) {
@@ -69,7 +66,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         judgeAs(other)
     }
 
-    private fun learn() = judge(filter.misfit, filter.freedom, filter.succession)
+    override fun readOff() = judge(filter.misfit, filter.freedom, filter.succession)
 
     private suspend fun score(tape: Recording, rate: Double): Double {
         filter.reset(rate, KNOWN, noiseVariance)
