@@ -4,6 +4,8 @@ import kotlin.math.PI
 import kotlin.math.atan
 import kotlin.math.atan2
 import kotlin.math.cos
+import kotlin.math.exp
+import kotlin.math.ln
 import kotlin.math.sin
 import kotlin.math.sqrt
 
@@ -42,8 +44,20 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     /** First index of the stretch that a point is in. */
     val first: IntArray
 
+    /** Logarithm of the boat's speed over the reference speed; 0 where unknown. */
+    private val logSpeeds: DoubleArray
+    private val logSums by lazy {
+        val sorted = logSpeeds.sortedArray()
+        // A boat that stands has no say in what the others' speeds do.
+        val usual = sorted[(TAIL * (size - 1)).toInt()]..sorted[((1 - TAIL) * (size - 1)).toInt()]
+        DoubleArray(size + 1).also { for (i in 0 until size) it[i + 1] = it[i] + logSpeeds[i].coerceIn(usual) }
+    }
+
     private val stretches: List<Stretch>
     private val values: DoubleArray
+
+    /** Whether the boat's speed is known, and that it changed. */
+    val hasSpeeds: Boolean get() = series.hasSpeeds
 
     /** The same for another thread. */
     fun copy() = PhaseCorrection(series)
@@ -52,9 +66,7 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     val size: Int get() = times.size
 
     init {
-        val starts = (0 until series.size).filter {
-            it == 0 || series.times[it] - series.times[it - 1] > series.gapLimit
-        }
+        val starts = (0 until series.size).filter { it == 0 || series.isAfterGap(it) }
         val counts = starts.indices.map { k ->
             val last = (starts.getOrNull(k + 1) ?: series.size) - 1
             ((series.times[last] - series.times[starts[k]]) / step).toInt() + 1
@@ -64,6 +76,7 @@ internal class PhaseCorrection(private val series: TrackSeries) {
         xs = DoubleArray(total)
         ys = DoubleArray(total)
         values = DoubleArray(total)
+        logSpeeds = DoubleArray(total)
         first = IntArray(total)
         var at = 0
         stretches = starts.indices.map { k ->
@@ -81,6 +94,7 @@ internal class PhaseCorrection(private val series: TrackSeries) {
                 xs[at] = between(series.xs)
                 ys[at] = between(series.ys)
                 values[at] = between(series.values)
+                logSpeeds[at] = ln(series.pace(if (share < HALF) row else next, 1.0))
                 first[at] = begin
                 at++
             }
@@ -113,28 +127,77 @@ internal class PhaseCorrection(private val series: TrackSeries) {
      * into [out], length [size]. Modified.
      */
     fun correct(response: Response, out: DoubleArray, earlier: Double = 0.0) {
+        if (response.flowExponent > 0) return correctByFlow(response, out, earlier)
         for (stretch in stretches) correct(stretch, response, out, earlier)
+    }
+
+    /**
+     * For a lag that follows the boat's speed: the inverse of τ(t) ṡ = f − s is f = s + τ(t) ṡ, local in time. With the
+     * amplitude that a lag of the geometric mean τ̄ leaves, that is (1) at τ̄ and beside it (τ(t) − τ̄) ż / √(1 + ω² τ̄²):
+     * fast changes become τ(t) / τ̄ as large, which is 1 on geometric average, so that no exponent has a head start by
+     * making all values smaller. Speeds are means over τ either way, because those from fixes are rough.
+     */
+    private fun correctByFlow(response: Response, out: DoubleArray, earlier: Double) {
+        val reach = (response.lags.single().rising / step).toInt()
+        val logs = DoubleArray(size) {
+            val from = maxOf(first[it], it - reach)
+            val to = minOf(size - 1, it + reach)
+            -response.flowExponent * (logSums[to + 1] - logSums[from]) / (to + 1 - from)
+        }
+        val usual = exp(logs.average())
+        val mean = response.lags.single().rising * usual
+        val times = DoubleArray(size) { exp(logs[it]) }
+        for (stretch in stretches) {
+            correct(stretch, Response(lags = listOf(ResponseLag(mean))), out, earlier)
+            slopes(stretch, mean, earlier)
+            for (i in 0 until stretch.size) {
+                val at = stretch.begin + i
+                out[at] += mean * (times[at] / usual - 1) * (stretch.workRe[i] / stretch.fourier.size + stretch.slope)
+            }
+        }
+    }
+
+    /** What slope a lag of [mean], s, leaves, [earlier], s, without that of the stretch's line. */
+    private fun slopes(stretch: Stretch, mean: Double, earlier: Double) {
+        val n = stretch.fourier.size
+        for (k in 0..n / 2) {
+            val omega = if (2 * k == n) 0.0 else frequency(k, n)
+            // Softened where only noise is, which would else be larger here than there, and cost more than the water says.
+            val soft = 1 / (1 + (omega * maxOf(SLOPE_REACH * step, mean * SOFT)).let { it * it })
+            val size = soft * omega / sqrt(1 + omega * omega * mean * mean)
+            val c = -size * sin(omega * earlier)
+            val s = size * cos(omega * earlier)
+            turn(stretch, k, c, s)
+            if (k in 1 until n - k) turn(stretch, n - k, c, -s)
+        }
+        stretch.fourier.transform(stretch.workRe, stretch.workIm, backwards = true)
     }
 
     private fun correct(stretch: Stretch, response: Response, out: DoubleArray, earlier: Double) {
         val n = stretch.fourier.size
         val isOneSided = response.lags.any { it.rising != it.falling }
         if (isOneSided) slopes(stretch)
-        for (k in 0 until n) {
+        for (k in 0..n / 2) {
             val omega = frequency(k, n)
             val phase = omega * earlier + phase(response, omega)
             // The turn at the highest frequency would not be a real number's.
             val c = cos(phase)
             val s = if (2 * k == n) 0.0 else sin(phase)
-            stretch.workRe[k] = stretch.re[k] * c - stretch.im[k] * s
-            stretch.workIm[k] = stretch.re[k] * s + stretch.im[k] * c
-            if (isOneSided) addOneSided(stretch, response, k, omega)
+            turn(stretch, k, c, s)
+            // The other half is of real numbers, too: the same turn the other way.
+            if (k in 1 until n - k) turn(stretch, n - k, c, -s)
         }
+        if (isOneSided) for (k in 0 until n) addOneSided(stretch, response, k, frequency(k, n))
         stretch.fourier.transform(stretch.workRe, stretch.workIm, backwards = true)
         for (i in 0 until stretch.size) {
             out[stretch.begin + i] = stretch.workRe[i] / n + stretch.offset +
                 stretch.slope * (i * step + response.meanDelay + earlier)
         }
+    }
+
+    private fun turn(stretch: Stretch, k: Int, c: Double, s: Double) {
+        stretch.workRe[k] = stretch.re[k] * c - stretch.im[k] * s
+        stretch.workIm[k] = stretch.re[k] * s + stretch.im[k] * c
     }
 
     private fun frequency(k: Int, n: Int) = 2 * PI * (if (2 * k <= n) k else k - n) / (n * step)
@@ -189,7 +252,12 @@ internal class PhaseCorrection(private val series: TrackSeries) {
     }
 
     private companion object {
+        const val HALF = 0.5
+        const val SOFT = 0.2
         const val ENDS = 5
+
+        /** Share of points at either end of the speeds that are taken for as fast or slow as those next to them. */
+        const val TAIL = 0.05
         const val SLOPE_REACH = 3
     }
 }

@@ -91,7 +91,7 @@ public class ReferenceLearner(
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
-        if (count < FEWEST) return null
+        if (count < FEWEST || (kind == ResponseKind.FLOW && !series.hasSpeeds)) return null
         val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
         if (kind == ResponseKind.SLEW) {
             val slopes = (0 until series.size - 1).filter { usable[it] && usable[it + 1] }.map {
@@ -184,7 +184,7 @@ public class ReferenceLearner(
             follow(response.lags[1], shown)
             for (i in shown.indices) shown[i] = (1 - response.slowShare) * fast[i] + response.slowShare * shown[i]
         } else {
-            for (stage in response.lags) follow(stage, shown)
+            for (stage in response.lags) follow(stage, shown, response.flowExponent)
         }
         if (response.slewRate.isInfinite()) return
         for (i in 1 until shown.size) {
@@ -195,8 +195,8 @@ public class ReferenceLearner(
         }
     }
 
-    /** What a lag of [stage] makes of [inputs], in their place. Modified. */
-    private fun follow(stage: ResponseLag, inputs: DoubleArray) {
+    /** What a lag of [stage], changed by the speed with [exponent], makes of [inputs], in their place. Modified. */
+    private fun follow(stage: ResponseLag, inputs: DoubleArray, exponent: Double = 0.0) {
         var before = inputs[0]
         for (i in 1 until inputs.size) {
             val dt = series.times[i] - series.times[i - 1]
@@ -205,7 +205,8 @@ public class ReferenceLearner(
                 before = input
                 continue
             }
-            lag.set(if (input > inputs[i - 1]) stage.rising else stage.falling, dt)
+            val pace = if (exponent > 0) series.pace(i, exponent) else 1.0
+            lag.set(if (input > inputs[i - 1]) stage.rising else stage.falling, dt * pace)
             if (held) before = input
             inputs[i] = lag.keep * inputs[i - 1] + lag.before * before + lag.now * input
             before = input

@@ -26,6 +26,8 @@ public data class ResponseLag(val rising: Double, val falling: Double = rising) 
  * @property slewRate largest rate of change, sensor units/s, above 0; infinite without a limit.
  * @property slowShare w, dimensionless, within 0..1: above 0 the two lags are not in a row but beside each other, and
  *   the sensor shows (1 − w) of the first and w of the second.
+ * @property flowExponent p, dimensionless, within 0..2: the time constants are those at a reference speed v₀ of the boat,
+ *   and (v / v₀)^−p as long at the speed v; 0 for lags that are always the same. Not beside a dead time or a limit.
  * @throws IllegalArgumentException if a number is out of its range, or there are more than two lags.
  */
 public data class Response(
@@ -33,12 +35,17 @@ public data class Response(
     val lags: List<ResponseLag> = emptyList(),
     val slewRate: Double = Double.POSITIVE_INFINITY,
     val slowShare: Double = 0.0,
+    val flowExponent: Double = 0.0,
 ) {
     init {
         require(deadTime >= 0 && deadTime.isFinite()) { "deadTime ($deadTime s) must be at least 0 and finite" }
         require(lags.size <= MOST_LAGS) { "lags (${lags.size}) must be at most $MOST_LAGS" }
         require(slowShare in 0.0..1.0) { "slowShare ($slowShare) must be within 0..1" }
         require(slowShare == 0.0 || lags.size == 2) { "slowShare ($slowShare) is of two lags, found ${lags.size}" }
+        require(flowExponent in 0.0..MOST_EXPONENT) { "flowExponent ($flowExponent) must be within 0..$MOST_EXPONENT" }
+        require(flowExponent == 0.0 || (deadTime == 0.0 && slewRate.isInfinite())) {
+            "flowExponent ($flowExponent) is of lags alone, found a dead time or a limit"
+        }
         require(slewRate > 0) { "slewRate ($slewRate sensor units/s) must be above 0" }
     }
 
@@ -60,8 +67,16 @@ public data class Response(
         return copy(deadTime = 0.0, lags = lags.map { if (it === longest) shorter else it })
     }
 
-    /** The response as the stages of a [stillwater.sensor.SensorSpec]. */
-    public fun stages(): List<SensorStage> = buildList {
+    /**
+     * The response as the stages of a [stillwater.sensor.SensorSpec].
+     *
+     * @param referenceSpeed v₀ of [flowExponent], m/s; not used without one.
+     */
+    public fun stages(referenceSpeed: Double = Double.NaN): List<SensorStage> = buildList {
+        if (flowExponent > 0) {
+            add(SensorStage.FlowLag(lags.single().rising, referenceSpeed, flowExponent))
+            return@buildList
+        }
         if (deadTime > 0) add(SensorStage.Delay(deadTime))
         if (slowShare > 0) {
             val (fast, slow) = lags.map { (it.rising + it.falling) / 2 }
@@ -78,6 +93,9 @@ public data class Response(
     public companion object {
         /** Lags in a row that are undone together. */
         public const val MOST_LAGS: Int = 2
+
+        /** Largest [flowExponent]. */
+        public const val MOST_EXPONENT: Double = 2.0
         private const val SHORTEST_PART = 0.01
     }
 }
@@ -116,6 +134,9 @@ public enum class ResponseKind(public val label: String, public val parameters: 
         listOf("dead_time_s", "fast_time_constant_s", "slow_time_constant_s", "slow_share"),
     ),
 
+    /** One exponential lag, the longer the slower the boat; its time constant at the reference speed. */
+    FLOW("flow-dependent-lag", listOf("time_constant_s", "exponent")),
+
     /** Follows at once, but no faster than a rate. */
     SLEW("slew-limit", listOf("rate_per_s")),
     ;
@@ -137,6 +158,10 @@ public enum class ResponseKind(public val label: String, public val parameters: 
             ASYMMETRIC -> Response(lags = listOf(ResponseLag(parameters[0], parameters[1])))
             TWO_PATH -> beside(0.0, parameters)
             DEAD_TIME_AND_TWO_PATH -> beside(parameters[0], parameters.copyOfRange(1, parameters.size))
+            FLOW -> {
+                val exponent = minOf(parameters[1], Response.MOST_EXPONENT)
+                Response(lags = listOf(ResponseLag(parameters[0])), flowExponent = exponent)
+            }
             SLEW -> Response(slewRate = parameters[0])
         }
     }
@@ -152,7 +177,7 @@ public enum class ResponseKind(public val label: String, public val parameters: 
         NONE -> false
         DEAD_TIME_AND_LAG -> other == FIRST_ORDER || other == DEAD_TIME || other == NONE
         DEAD_TIME_AND_TWO_PATH -> other == TWO_PATH || DEAD_TIME_AND_LAG.contains(other) || other == DEAD_TIME_AND_LAG
-        ASYMMETRIC, TWO_PATH -> other == FIRST_ORDER || other == NONE
+        ASYMMETRIC, TWO_PATH, FLOW -> other == FIRST_ORDER || other == NONE
         else -> other == NONE
     }
 
@@ -183,8 +208,11 @@ public enum class ResponseKind(public val label: String, public val parameters: 
     }
 
     /** Largest value of parameter [index] that [response] tells from larger ones, in its unit. */
-    internal fun most(index: Int): Double =
-        if (parameters[index] == TWO_PATH.parameters.last()) LARGEST_SHARE else Double.POSITIVE_INFINITY
+    internal fun most(index: Int): Double = when (parameters[index]) {
+        TWO_PATH.parameters.last() -> LARGEST_SHARE
+        FLOW.parameters.last() -> Response.MOST_EXPONENT
+        else -> Double.POSITIVE_INFINITY
+    }
 
     /** Whether it has a slow path; its share is then the last parameter. */
     public val hasTwoPaths: Boolean get() = this == TWO_PATH || this == DEAD_TIME_AND_TWO_PATH
@@ -193,7 +221,7 @@ public enum class ResponseKind(public val label: String, public val parameters: 
     internal fun isSlow(index: Int): Boolean = parameters[index] == TWO_PATH.parameters[1]
 
     /** Whether something is believed of parameter [index] beforehand: of the slow path's time and share. */
-    internal fun isBelieved(index: Int): Boolean = isSlow(index) || most(index).isFinite()
+    internal fun isBelieved(index: Int): Boolean = hasTwoPaths && (isSlow(index) || most(index).isFinite())
 
     public companion object {
         /** Standard deviation of what is believed beforehand of the logarithm of a slow path's ratio and share. */

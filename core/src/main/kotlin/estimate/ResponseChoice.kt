@@ -67,7 +67,12 @@ public class ResponseChoice private constructor(
         private const val DRAWS = 2000
 
         /** Kinds that give way to an open one that they contain. */
-        private val RICH = setOf(ResponseKind.ASYMMETRIC, ResponseKind.TWO_PATH, ResponseKind.DEAD_TIME_AND_TWO_PATH)
+        private val RICH = setOf(
+            ResponseKind.ASYMMETRIC,
+            ResponseKind.TWO_PATH,
+            ResponseKind.DEAD_TIME_AND_TWO_PATH,
+            ResponseKind.FLOW,
+        )
 
         /**
          * The choice among [candidates], at least one, of the same log.

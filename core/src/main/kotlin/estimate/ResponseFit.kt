@@ -53,6 +53,7 @@ internal class ResponseFit(
             ResponseKind.DEAD_TIME_AND_TWO_PATH -> listOf(0.2, 0.6).map { early ->
                 logs(delay * early, delay * (FAST - early).coerceAtLeast(0.1), delay * 6, 0.07)
             }
+            ResponseKind.FLOW -> listOf(logs(delay, 0.3), logs(delay, 1.2))
             ResponseKind.ASYMMETRIC -> listOf(logs(delay * MORE, delay / MORE), logs(delay / MORE, delay * MORE))
         }
     }

@@ -174,6 +174,7 @@ public class RevisitLearner private constructor(
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (found.isEmpty() || kind == ResponseKind.SLEW) return null
+        if (kind == ResponseKind.FLOW && !even.hasSpeeds) return null
         val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
         return fit.best(delay)
     }

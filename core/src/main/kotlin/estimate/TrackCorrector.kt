@@ -31,6 +31,9 @@ public class CorrectedTrack internal constructor(
     public val outlying: BooleanArray,
     public val clipped: BooleanArray = BooleanArray(values.size),
 ) {
+    /** Half the intervals' width on average, sensor units. */
+    public val meanHalfWidth: Double get() = lower.indices.sumOf { upper[it] - lower[it] } / (2 * maxOf(1, lower.size))
+
     /** The same values, with intervals that hold those of [other] as well, which is possible too but less likely. */
     public fun holding(other: CorrectedTrack): CorrectedTrack =
         within({ minOf(lower[it], other.lower[it]) }, { maxOf(upper[it], other.upper[it]) })
@@ -78,7 +81,8 @@ public class TrackCorrector(
 
     /** One response with all that goes with it. */
     private inner class Part(val response: Response, val along: AlongTrack, val weight: Double) {
-        val sides = SensorSides(series, response, resolution)
+        val timed = series.inTimeOf(response)
+        val sides = SensorSides(timed, response, resolution)
     }
 
     /** The field if [candidates] are the responses that the log leaves open. */
@@ -122,9 +126,9 @@ public class TrackCorrector(
         track.upper[row] = maxOf(track.upper[row], series.values[row] + resolution / 2)
     }
 
-    private fun stretch(rows: IntRange, sides: SensorSides): Stretch {
+    private fun stretch(rows: IntRange, timed: TrackSeries, sides: SensorSides): Stretch {
         val stretch = Stretch(
-            series.times.copyOfRange(rows.first, rows.last + 1),
+            timed.times.copyOfRange(rows.first, rows.last + 1),
             DoubleArray(rows.last - rows.first + 1) { series.values[rows.first + it] - level },
             sides.silent.copyOfRange(rows.first, rows.last + 1),
             sides.rising.copyOfRange(rows.first, rows.last + 1),
@@ -151,11 +155,11 @@ public class TrackCorrector(
         mixture: NormalMixture,
         outlying: BooleanArray,
     ) {
-        val stretch = stretch(rows, part.sides)
+        val stretch = stretch(rows, part.timed, part.sides)
         val mean = DoubleArray(stretch.size)
         val variance = DoubleArray(stretch.size)
-        val agitation = agitation(stretch, part.response, part.along)
-        TrackSmoother(stretch, part.response, part.along, agitation, series.medianStep).smooth(mean, variance)
+        val agitation = agitation(stretch, part.response, part.along, part.timed.medianStep)
+        TrackSmoother(stretch, part.response, part.along, agitation, part.timed.medianStep).smooth(mean, variance)
         for (row in from until to) {
             val i = row - rows.first
             val side = if (!part.sides.silent[row]) {
@@ -174,9 +178,9 @@ public class TrackCorrector(
     private val level = if (series.size == 0) 0.0 else series.values.average()
 
     /** How much livelier than usual the water is at each reading, from the readings' own surprises. */
-    private fun agitation(stretch: Stretch, response: Response, along: AlongTrack): DoubleArray {
+    private fun agitation(stretch: Stretch, response: Response, along: AlongTrack, step: Double): DoubleArray {
         val factor = DoubleArray(stretch.size) { 1.0 }
-        val smoother = TrackSmoother(stretch, response, along, factor, series.medianStep)
+        val smoother = TrackSmoother(stretch, response, along, factor, step)
         repeat(ADAPTATIONS) {
             smoother.logLikelihood()
             if (it == ADAPTATIONS - 1) OutlierSearch(stretch, smoother::logLikelihood).mark(smoother.surprises.copyOf())
@@ -200,7 +204,9 @@ public class TrackCorrector(
     private fun fitted(response: Response): AlongTrack {
         var sample = 0..0
         pieces(SAMPLE) { rows, _, _ -> if (rows.last - rows.first > sample.last - sample.first) sample = rows }
-        val stretch = stretch(sample, SensorSides(series, response, resolution))
+        val timed = series.inTimeOf(response)
+        val step = timed.medianStep
+        val stretch = stretch(sample, timed, SensorSides(timed, response, resolution))
         val calm = DoubleArray(stretch.size) { 1.0 }
         val tame = stretch.values.filterIndexed { i, _ -> !stretch.outlying[i] }
         val spread = sqrt(tame.sumOf { it * it } / maxOf(1, tame.size)).coerceAtLeast(LEAST + resolution)
@@ -211,12 +217,12 @@ public class TrackCorrector(
         fun total(logs: DoubleArray, smoothness: Smoothness): Double {
             // A weak belief keeps what the readings leave open within the log's own scales.
             val belief = (logs[0] - ln(spread)).let { it * it / 8 } +
-                (logs[1] + ln(RATE_STEPS * series.medianStep)).let { it * it / 32 }
-            return TrackSmoother(stretch, response, at(logs, smoothness), calm, series.medianStep).logLikelihood() -
+                (logs[1] + ln(RATE_STEPS * step)).let { it * it / 32 }
+            return TrackSmoother(stretch, response, at(logs, smoothness), calm, step).logLikelihood() -
                 belief
         }
         val start =
-            doubleArrayOf(ln(spread), -ln(RATE_STEPS * series.medianStep), maxOf(least, ln(spread * FIRST_NOISE)))
+            doubleArrayOf(ln(spread), -ln(RATE_STEPS * step), maxOf(least, ln(spread * FIRST_NOISE)))
         return Smoothness.entries.map { smoothness ->
             val best = Search.simplex(start, doubleArrayOf(0.7, 1.0, 1.0), EVALUATIONS, CLOSE) { total(it, smoothness) }
             at(best, smoothness) to total(best, smoothness)
@@ -230,7 +236,7 @@ public class TrackCorrector(
         var begin = 0
         while (begin < series.size) {
             var end = begin + 1
-            while (end < series.size && series.times[end] - series.times[end - 1] <= series.gapLimit) end++
+            while (end < series.size && !series.isAfterGap(end)) end++
             var from = begin
             while (from < end) {
                 val to = minOf(end, from + most)

@@ -42,7 +42,8 @@ public class UndoableSensor private constructor(
         for (stage in shown.reversed()) {
             for (i in values.indices) values[i] = before(stage, values[i], series, i, conditions)
         }
-        return TrackSeries(times(series, conditions), series.xs, series.ys, values)
+        val scaled = series.withValues(values)
+        return if (timeConstant == null) scaled else scaled.retimed(times(series, conditions))
     }
 
     private fun before(

@@ -126,8 +126,17 @@ class CorrectFiles(
             put("lateness_s", finite(result.agreement.lateness))
             put("spread", finite(result.agreement.spread))
             put("widened", result.agreement.isContradicted && result.origin != SensorOrigin.GIVEN)
-            put("unevenness_s", finite(result.learned.unevenness))
+            // Null where crossings show it better, or nothing was learned from passes.
+            put("unevenness_s", result.learned.unevenness(result.agreement)?.let(::finite))
             put("widened_for_unevenness", result.isWidenedForUnevenness)
+        }
+        result.wander?.let {
+            putJsonObject("zero") {
+                put("still_probability", finite(it.still))
+                put("wander_at_end", finite(it.walked))
+                // Null where the legs do not speak for it.
+                put("mean_half_width", summary.wanderedHalfWidth?.let(::finite))
+            }
         }
         result.margin?.let {
             putJsonObject("reference") {

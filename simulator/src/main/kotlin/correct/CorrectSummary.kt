@@ -93,7 +93,8 @@ internal class CorrectSummary(
             "${parameterName(candidate.kind.parameters[i])} $value" +
                 " (${least(candidate, i, count)} to ${most(candidate, i, count)})"
         }
-        return "${candidate.kind.label}: $parameters"
+        val at = if (candidate.kind == ResponseKind.FLOW) " (at ${digits(result.series.referenceSpeed, 2)} m/s)" else ""
+        return "${candidate.kind.label}$at: $parameters"
     }
 
     private fun isTime(candidate: CandidateResponse, i: Int) =
@@ -119,6 +120,7 @@ internal class CorrectSummary(
 
     private fun parameterName(name: String) = when (name) {
         RATE -> "rate per s"
+        REFERENCE_SPEED -> "reference speed in m/s"
         else -> name.removeSuffix("_s").replace('_', ' ') + if (name.endsWith("_s")) " in s" else ""
     }
 
@@ -129,8 +131,10 @@ internal class CorrectSummary(
     val hintedHalfWidths: Pair<Double, Double>?
         get() = result.hinted?.let { halfWidth(result.unhinted) to halfWidth(it) }
 
-    private fun halfWidth(track: CorrectedTrack) =
-        track.lower.indices.sumOf { track.upper[it] - track.lower[it] } / (2 * maxOf(1, track.lower.size))
+    /** The same if the zero wandered, sensor units; null where that does not look likely. */
+    val wanderedHalfWidth: Double? get() = result.wandered?.let(::halfWidth)
+
+    private fun halfWidth(track: CorrectedTrack) = track.meanHalfWidth
 
     private fun interval(): String {
         val other = hintedHalfWidths?.let { (without, with) ->
@@ -292,7 +296,7 @@ internal class CorrectSummary(
                 }
                 add("the reference does not show how the sensor responds: $fault; $instead")
             }
-            result.choice?.hinted?.let { add(hint(it)) }
+            result.choice?.hinted?.takeIf { result.hinted != null }?.let { add(hint(it)) }
             if (isFlat(result.series.values)) {
                 add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }
@@ -319,6 +323,7 @@ internal class CorrectSummary(
 
     private companion object {
         const val RATE = "rate_per_s"
+        const val REFERENCE_SPEED = "reference_speed_m_per_s"
 
         /** Times below such a part of the distance of rows are none, however narrow their interval. */
         const val STEP_PARTS = 10

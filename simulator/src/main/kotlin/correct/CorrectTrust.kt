@@ -45,7 +45,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     /** What the user should know, one line each. */
     val warnings: List<String>
-        get() = listOfNotNull(misfit(), contradicted(), uneven(), unchecked(), limited())
+        get() = listOfNotNull(misfit(), contradicted(), uneven(), wandered(), unchecked(), limited())
 
     /** The reference knows better than the intervals. */
     private fun misfit(): String? {
@@ -79,19 +79,36 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     /** What passes beside each other say of a response that is not the same everywhere. */
     private fun uneven(): String? {
         if (!isUneven) return null
-        return "no response tried is the same all along the track: passes beside each other differ as if times were " +
-            "wrong by ${digits(result.learned.unevenness, 2)} s beyond what fixes may be off, here by more and there " +
-            "by less, as with a lag that follows the flow or the temperature, a rate limit that was not recognised, " +
-            "or fixes that are off. The intervals were widened by it; they may still be too narrow where the lag is " +
-            "longest. diagnose looks for the cause"
+        val late = digits(result.learned.unevenness(agreement) ?: 0.0, 2)
+        return "passes beside each other differ as if times were wrong by $late s beyond what fixes may be off, here " +
+            "by more and there by less, as with a lag that follows the flow or the temperature, a rate limit that " +
+            "was not recognised, or fixes that are off by more. The intervals were widened by it; they may still be " +
+            "too narrow where the lag is longest. diagnose looks for the cause"
+    }
+
+    /** What legs beside each other say of the zero. */
+    private fun wandered(): String? {
+        val wander = result.wander?.takeIf { it.isSeen } ?: return null
+        val wide = digits(result.wandered?.meanHalfWidth ?: return null, 2)
+        return "legs beside each other differ as if the sensor's zero had wandered by some " +
+            "${digits(wander.walked, 2)}$unitAfter by the end of the log, or as water with a front between them, or " +
+            "that all changed meanwhile, does: the log does not tell which. Values and intervals are for a zero that " +
+            "kept still; if it wandered, the intervals are $wide$unitAfter either way"
+    }
+
+    /** What of the zero would not be seen. */
+    private fun zero(): String {
+        val zero = "They do not hold a sensor whose zero wanders or that fouls"
+        val wander = result.wander?.takeIf { !it.isSeen && it.walked > 0 } ?: return zero
+        return "$zero, by some ${digits(wander.walked, 2)}$unitAfter at the end of this log without being seen"
     }
 
     private fun unchecked(): String? {
         if (!agreement.ratio.isNaN() || result.origin !in LEARNED) return null
         return "${crossings()}, and intervals are checked where two passes read the same place, " +
             "${TrackAgreement.FEWEST} places at least: unchecked, they hold if the sensor is one of those named. " +
-            "They do not hold a sensor whose zero wanders or that fouls, which looks like water that differs from " +
-            "leg to leg; nor all of a lag that changes along the track or of a rate limit that was not recognised. " +
+            "${zero()}, which looks like water that differs from leg to leg; nor all of a lag that changes along the " +
+            "track or of a rate limit that was not recognised. " +
             "A few legs across the others would check them"
     }
 

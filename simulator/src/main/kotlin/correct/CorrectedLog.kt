@@ -10,6 +10,7 @@ import stillwater.estimate.TrackCorrector
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UndoableSensor
 import stillwater.estimate.UnusableReadings
+import stillwater.estimate.ZeroWander
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
 import stillwater.io.SquareReach
@@ -45,8 +46,9 @@ enum class SensorOrigin(val label: String) {
  * @property hinted the same with intervals that do; null where it hints at nothing.
  * @property statistics of the readings. @property before legs as measured, or null. @property after legs as corrected.
  * @property agreement whether the track agrees with itself where it comes back, before its intervals were widened
- * for it. @property margin how far the reference lies outside [track]'s intervals before they were widened for that;
- * null where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of
+ * for it. @property wander how far the sensor's zero may have wandered; null where that was not looked for, because
+ * crossings or a reference show it. @property margin how far the reference lies outside [track]'s intervals before they
+ * were widened for that; null where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of
  * the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
  */
@@ -62,6 +64,7 @@ class CorrectedLog internal constructor(
     val before: LegMismatch?,
     val after: LegMismatch?,
     val agreement: TrackAgreement,
+    internal val wander: ZeroWander?,
     internal val margin: ReferenceMargin?,
     internal val unusable: UnusableReadings,
     private val conditions: Map<String, DoubleArray> = emptyMap(),
@@ -78,6 +81,9 @@ class CorrectedLog internal constructor(
      */
     val track: CorrectedTrack get() = hinted?.takeIf { choice?.hinted?.isBounded == true } ?: unhinted
 
+    /** The intervals if the zero wandered as the log would have it; null where that does not look likely. */
+    internal val wandered: CorrectedTrack? by lazy { wander?.takeIf { it.isSeen }?.widened(track) }
+
     /** Whether intervals were widened for delays that differ along the track: where no crossing shows them better. */
     internal val isWidenedForUnevenness: Boolean get() = learned.isUneven(agreement)
 
@@ -86,7 +92,7 @@ class CorrectedLog internal constructor(
     /** The water if the sensor had no lag: readings smoothed as [track] is, and calibrated, with nothing undone. */
     private val smoothedValues: DoubleArray? by lazy {
         if (before == null || origin == SensorOrigin.NOTHING) return@lazy null
-        val sensor = UndoableSensor.of(SensorSpec("", spec.stages))
+        val sensor = UndoableSensor.of(SensorSpec("", learned.calibration))
         val scaled = sensor.calibrated(series, conditions)
         TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(NO_LAG).values
     }
@@ -114,7 +120,7 @@ class CorrectedLog internal constructor(
         return HeldOutLegs(CorrectedLegs(before, series.values), passes, plain) { rows ->
             val learned = SensorLearning.byRevisits(series.at(rows), hasFixes = log.frame != null)
             if (learned.choice == null) return@HeldOutLegs null
-            val values = corrected(series, learned.likely, learned.stages, resolution).values
+            val values = corrected(series, learned.likely, learned.calibration, resolution).values
             legs(series, values)?.let { CorrectedLegs(it, values) }
         }.scores()
     }
@@ -124,6 +130,9 @@ class CorrectedLog internal constructor(
         const val REFERENCE = "reference"
 
         private const val FEWEST = 30
+
+        /** Parts of a metre per second to which the reference speed is rounded. */
+        private const val ROUND = 100.0
         private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
         /**
@@ -158,7 +167,10 @@ class CorrectedLog internal constructor(
                 val expected = "at least $FEWEST readings of ${log.quantity}"
                 throw LogProblem(log.file, null, null, expected, "${pass.readings}")
             }
-            val series = rows.series()
+            val plain = rows.series()
+            val others = withSpeed(plain, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
+            // Along a transect in any unit no speed is known.
+            val series = if (log.oneDimensional) plain else plain.withSpeedOf(others)
             SquareReach.require(log, series.values, rows.references())
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
@@ -174,16 +186,13 @@ class CorrectedLog internal constructor(
                 else -> SensorLearning.byRevisits(series, unusable, log.frame != null)
             }
             val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
-            val others = withSpeed(series, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
             fun corrected(likely: List<LikelyResponse>) =
-                corrected(series, likely, spec.stages, resolution, others, unusable)
+                corrected(series, likely, learned.calibration, resolution, others, unusable)
             val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
             val agreed = learned.agreed(narrow, agreement)
-            val hint = learned.hinted?.let { agreed.holding(corrected(listOf(it))) }
-            fun margin(track: CorrectedTrack) = ReferenceMargin.of(series, track, rows.references())
+            val margin = ReferenceMargin.of(series, agreed, rows.references())
                 .takeIf { learned.origin == SensorOrigin.REFERENCE }
-            val (margin, hintMargin) = listOf(agreed, hint).map { it?.let(::margin) }
             val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,
@@ -192,12 +201,14 @@ class CorrectedLog internal constructor(
                 learned,
                 spec,
                 unhinted,
-                hint?.let { unhinted.holding(hintMargin?.widened(it) ?: it) },
+                // Where a reference says how far intervals have to reach, a hint has nothing to add.
+                learned.hinted?.takeIf { margin?.isEnough != true }?.let { unhinted.holding(corrected(listOf(it))) },
                 statistics,
                 legs(series, series.values),
                 legs(series, unhinted.values),
                 agreement,
-                hintMargin?.takeIf { learned.choice?.hinted?.isBounded == true } ?: margin,
+                learned.wander(series, narrow, agreement),
+                margin,
                 unusable,
                 others,
             )
@@ -222,6 +233,12 @@ class CorrectedLog internal constructor(
         private fun withSpeed(series: TrackSeries, conditions: Map<String, DoubleArray>): Map<String, DoubleArray> {
             val measured = MeasuredSeries(series.times, series.xs, series.ys, series.values, null, conditions)
             return conditions + (Conditions.SPEED to measured.speed)
+        }
+
+        private fun TrackSeries.withSpeedOf(conditions: Map<String, DoubleArray>): TrackSeries {
+            val speeds = conditions.getValue(Conditions.SPEED)
+            val usual = speeds.filter { it > 0 }.sorted().let { it.getOrNull(it.size / 2) } ?: return this
+            return withSpeeds(speeds, maxOf(Math.round(usual * ROUND) / ROUND, 1 / ROUND))
         }
 
         /** Without a step the readings are taken as they are; where they hardly change theirs is not to be seen. */

@@ -28,8 +28,11 @@ internal class ReferenceMargin private constructor(
     val heldOut: Double,
     val factor: Double,
 ) {
+    /** Whether there are rows enough to tell how wide intervals have to be. */
+    val isEnough: Boolean get() = rows >= FEWEST
+
     /** Whether intervals are too narrow by more than chance. */
-    val isMisfit: Boolean get() = rows >= FEWEST && factor > MISFIT
+    val isMisfit: Boolean get() = isEnough && factor > MISFIT
 
     /** [track] with intervals that hold the reference as often as they say. */
     fun widened(track: CorrectedTrack): CorrectedTrack = if (isMisfit) track.scaledBy(factor) else track

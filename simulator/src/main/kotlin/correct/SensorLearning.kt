@@ -17,6 +17,7 @@ import stillwater.estimate.TrackAgreement
 import stillwater.estimate.TrackCorrector
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UnusableReadings
+import stillwater.estimate.ZeroWander
 import stillwater.estimate.rateLimit
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
@@ -35,7 +36,8 @@ import kotlin.random.Random
  * @property readings what was learned on. @property blocks runs held against others. @property withoutReference
  * readings without one. @property held whether the reference looks held over each step. @property fault why the
  * reference was not learned from, or null. @property isPart whether usable readings were too many to learn on all.
- * @property unevenness by how much delays of single runs scatter beyond what fixes may be off, s.
+ * @property scatter by how much delays of single runs scatter beyond what fixes may be off, s, where passes tell; once
+ * asked for, because it takes a while.
  * @property stillBoat why passes of the usable readings teach nothing, as the boat lay still; null where it did not.
  */
 internal data class Learned(
@@ -51,17 +53,33 @@ internal data class Learned(
     val hinted: LikelyResponse? = null,
     val isPart: Boolean = false,
     val stillBoat: String? = null,
-    val unevenness: Double = 0.0,
+    private val scatter: Lazy<Double>? = null,
 ) {
+    /** What is undone of [stages] before the [likely] responses are: of a given sensor all that is not in its response. */
+    val calibration: List<SensorStage>
+        get() = if (origin == SensorOrigin.GIVEN) stages else stages.filterIsInstance<SensorStage.Calibration>()
+
     /** Whether delays differ along a track on which too few crossings, see [agreement], show that better. */
-    fun isUneven(agreement: TrackAgreement): Boolean = unevenness > 0 && agreement.ratio.isNaN()
+    fun isUneven(agreement: TrackAgreement): Boolean = (unevenness(agreement) ?: 0.0) > 0
+
+    /** By how much delays of single runs scatter, s; null where crossings, see [agreement], show it better, or nothing. */
+    fun unevenness(agreement: TrackAgreement): Double? = scatter?.takeIf { agreement.ratio.isNaN() }?.value
+
+    /**
+     * How far the zero may have wandered on [track], the correction of [series]; null where crossings, see [agreement],
+     * show it better, or the sensor was not learned from passes.
+     */
+    fun wander(series: TrackSeries, track: CorrectedTrack, agreement: TrackAgreement): ZeroWander? {
+        val isLooked = agreement.ratio.isNaN() && (origin == SensorOrigin.REVISITS || origin == SensorOrigin.RATE)
+        return if (isLooked) ZeroWander.of(series, track) else null
+    }
 
     /** [track] with the intervals that passes ask for. */
     fun agreed(track: CorrectedTrack, agreement: TrackAgreement): CorrectedTrack = when {
         // What a given sensor's intervals are is the giver's: they are told of, not changed. "Passes" of a boat that
         // lay still are none, and have no say in the intervals either.
         origin == SensorOrigin.GIVEN || stillBoat != null -> track
-        isUneven(agreement) -> agreement.widened(track, unevenness)
+        isUneven(agreement) -> agreement.widened(track, unevenness(agreement) ?: 0.0)
         else -> agreement.widened(track)
     }
 }
@@ -92,7 +110,9 @@ internal object SensorLearning {
     private const val MOST_ROUGHNESS = 0.5
 
     /** Responses before a rate limit: of a slow path what is left of the readings says too little. */
-    private val BEFORE_LIMIT = ResponseKind.entries.filterNot { it == ResponseKind.SLEW || it.hasTwoPaths }
+    private val BEFORE_LIMIT = ResponseKind.entries.filterNot {
+        it == ResponseKind.SLEW || it == ResponseKind.FLOW || it.hasTwoPaths
+    }
     private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
     /**
@@ -114,7 +134,7 @@ internal object SensorLearning {
         val (part, learner) = learnable(series)
         val choice = choice(learner, ResponseKind.entries - ResponseKind.SLEW) { learner.copy() }
             ?: return nothing(part.size)
-        val stages = choice.first.response.stages()
+        val stages = choice.first.response.stages(series.referenceSpeed)
         return Learned(
             SensorOrigin.REVISITS,
             choice,
@@ -124,7 +144,7 @@ internal object SensorLearning {
             learner.blocks,
             hinted = choice.likelyHint(),
             isPart = part.size < series.size,
-            unevenness = learner.unevenness(choice.first.response),
+            scatter = lazy { learner.unevenness(choice.first.response) },
         )
     }
 
@@ -145,7 +165,8 @@ internal object SensorLearning {
      * say of the lag before it. Where it is at its limit that is a guess, first one that knows of no lag and then one
      * by the lag found.
      */
-    private fun byRate(series: TrackSeries, rate: Double): Learned {
+    private fun byRate(all: TrackSeries, rate: Double): Learned {
+        val series = all.middle(MOST_LEARNED)
         val limit = ResponseKind.SLEW.response(rate)
         val alone = listOf(LikelyResponse(listOf(limit), 1.0))
         val nothing = Learned(SensorOrigin.RATE, null, alone, limit.stages(), series.size)
@@ -153,7 +174,7 @@ internal object SensorLearning {
             LikelyResponse(open.responses.map { it.copy(slewRate = rate) }, open.weight)
 
         fun learned(freed: DoubleArray): Learned {
-            val (part, learner) = learnable(TrackSeries(series.times, series.xs, series.ys, freed))
+            val (part, learner) = learnable(series.withValues(freed))
             val choice = choice(learner, BEFORE_LIMIT) { learner.copy() } ?: return nothing
             return Learned(
                 SensorOrigin.RATE,
@@ -162,8 +183,8 @@ internal object SensorLearning {
                 choice.first.response.copy(slewRate = rate).stages(),
                 part.size,
                 learner.blocks,
-                isPart = part.size < series.size,
-                unevenness = learner.unevenness(choice.first.response),
+                isPart = part.size < all.size,
+                scatter = lazy { learner.unevenness(choice.first.response) },
             )
         }
         val first = learned(TrackCorrector(series).correct(alone).values)
@@ -221,7 +242,8 @@ internal object SensorLearning {
             if (held) LikelyResponse(open.responses.map { it.sooner(part.medianStep / 2) }, open.weight) else open
         val response = choice.first.response
         val (gain, offset) = learner.calibration(response)
-        val stages = response.stages() + SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
+        val calibration = SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
+        val stages = response.stages(series.referenceSpeed) + calibration
         return Learned(
             SensorOrigin.REFERENCE,
             choice,
@@ -269,11 +291,6 @@ internal object SensorLearning {
         }
         return if (found.isEmpty()) null else ResponseChoice.of(found, Random(SEED))
     }
-}
-
-internal fun TrackSeries.at(rows: List<Int>): TrackSeries {
-    fun of(values: DoubleArray) = DoubleArray(rows.size) { values[rows[it]] }
-    return TrackSeries(of(times), of(xs), of(ys), of(values))
 }
 
 private fun UnusableReadings.at(rows: List<Int>) = UnusableReadings(

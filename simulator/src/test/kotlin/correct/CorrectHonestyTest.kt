@@ -14,6 +14,7 @@ import stillwater.sensor.SensorStage
 import java.nio.file.Path
 import java.util.Locale
 import kotlin.io.path.readLines
+import kotlin.io.path.readText
 import kotlin.io.path.writeText
 import kotlin.math.exp
 import kotlin.math.sin
@@ -87,6 +88,10 @@ class CorrectHonestyTest {
         val ends = Regex("""time constant in s \S+ \((\S+) to (\S+)\)""").find(result.stdout)?.groupValues.orEmpty()
         assertEquals(3, ends.size, result.stdout)
         assertTrue(ends[1] < ends[2], result.stdout)
+        // Nobody looked for what a reference shows better.
+        val summary = directory.resolve("results/summary.json").readText()
+        assertContains(summary, "\"unevenness_s\": null")
+        assertFalse("still_probability" in summary, summary)
     }
 
     @Test
@@ -198,8 +203,11 @@ class CorrectHonestyTest {
         }
         val result = correct(legs(late))
         assertEquals(0, result.statusCode, result.output)
-        assertContains(result.stderr, "no response tried is the same all along the track")
+        assertContains(result.stderr, "here by more and there by less")
         assertContains(result.stdout, "widened by how unevenly late passes beside each other are")
+        val summary = directory.resolve("results/summary.json").readText()
+        assertFalse("\"unevenness_s\": null" in summary, summary)
+        assertContains(summary, "\"still_probability\": ")
         assertContains(result.stderr, "a sensor whose zero wanders")
     }
 
