@@ -143,14 +143,18 @@ internal class BlindAnswer(
         }
         add(
             "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
-                "${three(search.modes.finest)} m; a gain or an offset cannot be seen. Errors on held-out blocks are " +
-                "those of a forecast from other passes and the rows before.",
+                "${three(search.modes.finest)} ${series.placeUnit}; a gain or an offset cannot be seen. Errors on " +
+                "held-out blocks are those of a forecast from other passes and the rows before.",
         )
         if (lag.isSeen) {
             add(
                 "The readings lag the water by ${three(lag.timeConstant.timeConstant)} s as a first-order lag, or by " +
                     "${three(lag.delay)} s as a dead time" +
-                    if (lag.isOpen(settings.separation)) "." else ", which explains less.",
+                    when {
+                        lag.isDeadTime -> ", which explains more."
+                        lag.isOpen(settings.separation) -> "."
+                        else -> ", which explains less."
+                    },
             )
             add(
                 "The correction of a track (correct) compares passes over the same place alone, without a model of " +

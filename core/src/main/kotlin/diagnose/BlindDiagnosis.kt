@@ -35,8 +35,8 @@ internal class BlindDiagnosis(
             val near = "%.2g".format(Locale.ROOT, wave / Passes.NEAR)
             return BlindAnswer.none(
                 series,
-                "no pass comes within $near m of another, so that nothing tells the water's own changes from what " +
-                    "the sensor makes of them",
+                "no pass comes within $near ${series.placeUnit} of another, so that nothing tells the water's own " +
+                    "changes from what the sensor makes of them",
             )
         }
         val loose = BlindOutliers(base)

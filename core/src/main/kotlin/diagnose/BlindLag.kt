@@ -104,6 +104,9 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     fun isOpen(separation: Double): Boolean = isSeen && !isNeitherAlone &&
         (preference < separation || BlindEvidence.between(deadTime, timeConstant) < SURE || isShared)
 
+    /** Whether a dead time alone is far likelier than a lag alone, and stretches of the log agree. */
+    val isDeadTime: Boolean by lazy { -preference > MUCH && BlindEvidence.between(timeConstant, deadTime) > SURE }
+
     /**
      * Whether some of the lag is rather a dead time, but stretches of the log do not agree about that: that a dead time
      * alone is less likely than a lag alone then says nothing of which it is. The lag alone is within the model with

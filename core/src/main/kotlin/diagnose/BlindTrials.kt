@@ -115,7 +115,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, ratio, halves)
         val isNone = (term.cause == Cause.SATURATION && goOn(found)) ||
             (BlindTerms.isLittle(term, found) && ratio < BEYOND_FIXES)
-        val isReal = !isNone && (term.cause == Cause.SATURATION || own.any { isShown(found, columns, it, inflation) })
+        // What a second number is says nothing where the one that makes an effect of it may be nothing: a share's time.
+        val makers = own.filter { found.model.parameters[it].neutral.isFinite() }.ifEmpty { own }
+        val isReal =
+            !isNone && (term.cause == Cause.SATURATION || makers.any { isShown(found, columns, it, inflation) })
         return if (isReal) settled else settled.atMost(0.0)
     }
 

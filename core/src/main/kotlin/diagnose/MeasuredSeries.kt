@@ -51,6 +51,10 @@ public class MeasuredSeries(
     /** Number of rows. */
     public val size: Int get() = times.size
 
+    /** What places are in, in words: along a line, as a profile of pressures, they may be in any unit. */
+    internal val placeUnit: String
+        get() = if (y.isNotEmpty() && y.all { it == y[0] }) "units of the position" else "m"
+
     /** From the first row to the last, s. */
     internal val duration: Double = if (times.size < 2) 0.0 else times.last() - times.first()
 

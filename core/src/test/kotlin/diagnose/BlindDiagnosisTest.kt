@@ -134,12 +134,26 @@ class BlindDiagnosisTest {
     /** Clear, and no more than fixes and clocks are off. */
     @Test
     fun aShiftOfNextToNothingIsNamedWithACaution() {
+        val result = Diagnosis(shifted(-0.08)).run()
+        assertTrue(causes(result.verdict).any { it in BlindTerms.OF_LAG }, "${result.verdict}")
+        assertContains(result.warnings.joinToString(" "), "a shift of less than a tenth of a row")
+    }
+
+    /** A second path whose share of the readings may as well be none makes up for it, at a time that is known. */
+    @Test
+    fun aProbeThatIsHardlyAheadHasNoSecondPath() {
+        val verdict = Diagnosis(shifted(0.07)).run().verdict
+        assertFalse(Cause.TWO_PATH_RESPONSE in causes(verdict), "$verdict")
+    }
+
+    /** Readings of the water [ahead] s later, through a lag of 5 s. */
+    private fun shifted(ahead: Double): MeasuredSeries {
         val parts = 20
         val random = java.util.Random(7)
         var reading = truth[0]
         val values = DoubleArray(n) { i ->
             repeat(parts) { k ->
-                val at = i - 1 + (k + 0.5) / parts - 0.08
+                val at = i - 1 + (k + 0.5) / parts + ahead
                 val east = 15 * sin(at / 19)
                 val north = 15 * sin(at / 25 + 1)
                 val water = sin(east / 4) + sin(north / 5 + 1) + sin((east + north) / 7)
@@ -147,9 +161,7 @@ class BlindDiagnosisTest {
             }
             reading + 0.002 * random.nextGaussian()
         }
-        val result = Diagnosis(MeasuredSeries(track.times, x, y, values, null)).run()
-        assertTrue(causes(result.verdict).any { it in BlindTerms.OF_LAG }, "${result.verdict}")
-        assertContains(result.warnings.joinToString(" "), "a shift of less than a tenth of a row")
+        return MeasuredSeries(track.times, x, y, values, null)
     }
 
     @Test

@@ -151,12 +151,8 @@ class BenchmarkCommand : WorkCommand("benchmark") {
                 json -> echo(BenchmarkJson.text(result, written))
                 !quiet -> show(result)
             }
-            for (warning in warnings) echo("stillwater benchmark: warning: $warning", err = true)
-            if (!quiet &&
-                !json
-            ) {
-                echo(wrote(written, out, "report.html"))
-            }
+            if (!quiet) for (warning in warnings) echo("stillwater benchmark: warning: $warning", err = true)
+            if (!quiet && !json) echo(wrote(written, out, "report.html"))
         }
     }
 

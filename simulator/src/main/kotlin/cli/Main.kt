@@ -69,7 +69,7 @@ internal fun run(command: CliktCommand, args: Array<String>, isTraced: Boolean, 
         failed(message, path, BAD_INPUT)
     } catch (full: OutOfMemoryError) {
         val megabytes = Runtime.getRuntime().maxMemory() / (1L shl 20)
-        val remedy = "give Java more (java -Xmx2g -jar ...), ask for fewer cells, or give correct a shorter log"
+        val remedy = "give Java more (java -Xmx2g -jar ...), ask for fewer cells, or give a shorter log"
         failed("$megabytes MB of memory are not enough; $remedy", full, BAD_INPUT)
     } catch (
         @Suppress("TooGenericExceptionCaught") bug: Throwable,

@@ -7,6 +7,7 @@ import stillwater.diagnose.Estimate
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
+import stillwater.report.counted
 import kotlin.math.abs
 
 /**
@@ -50,16 +51,19 @@ class Diagnosed(
         log.heading?.let { add(it.sentence) }
         // What was taken for what in a log that is not written plainly is not to be found in the report alone.
         if (',' in log.format) add("The log was read as ${log.format}.")
-        for ((reason, count) in log.pass.skipped) add("$count rows left out: $reason.")
+        for ((reason, count) in log.pass.skipped) add("${counted(count, "row")} left out: $reason.")
         for (warning in log.pass.warnings) add("${warning.replaceFirstChar { it.uppercase() }}.")
         if (log.missing > 0) {
-            add("${log.missing} rows left out: no number in the column ${log.reference}.")
+            add("${counted(log.missing, "row")} left out: no number in the column ${log.reference}.")
             add(
                 "How the truth went between the rows with one is not known: up to half their distance may look like " +
                     "a delay or an offset of place.",
             )
         }
-        if (log.cut > 0) add("${log.cut} rows at the end were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
+        if (log.cut > 0) {
+            val were = if (log.cut == 1L) "was" else "were"
+            add("${counted(log.cut, "row")} at the end $were not looked at: ${DiagnosisLog.MOST_ROWS} are the most.")
+        }
     }
 
     /** The answer in one sentence. */
