@@ -8,8 +8,8 @@ import kotlin.math.sqrt
 /**
  * Chooses the sensor model of a [SelfCalibratingEstimator] from the readings.
  *
- * The first-order lag is fitted always. The others are fitted where it leaves something to explain; the Bayesian
- * information criterion decides. Source: core/docs/SelfCalibratingEstimator.md, section "Choosing".
+ * The first-order lag is fitted always. The others are fitted where it leaves something to explain, as [isExplained] is
+ * judged; the Bayesian information criterion decides. Source: core/docs/SelfCalibratingEstimator.md, section "Choosing".
  */
 internal class SensorChoice(settings: SelfCalibratingSettings, private val tape: Recording) : ReadingPlayer {
     private val lag = LagFit(settings)
@@ -88,8 +88,15 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
         judge()
     }
 
+    /**
+     * Whether what [fit] leaves is white enough to say that it explains the readings: clearly so once what one left was
+     * not. Where the lag's is not, all others are tried: else it may hover between the two limits, neither explaining
+     * nor held against another.
+     */
+    private fun isWhite(fit: SensorFit) = if (isWhite) fit.isWhite else fit.isClearlyWhite
+
     private fun judge() {
-        isWhite = if (isWhite) active.isWhite else active.isClearlyWhite
+        isWhite = isWhite(active)
         isExplained = isWhite && areCellsEven && isWaterSteady
     }
 
@@ -152,9 +159,9 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
 
     private suspend fun criterion(fit: SensorFit, penalty: Double): Double {
         if (fit is ResponseBankFit) {
-            if (lag.isWhite && fit.glance(tape, lag) < WORTH_A_FIT) return Double.NaN
+            if (isWhite(lag) && fit.glance(tape, lag) < WORTH_A_FIT) return Double.NaN
             fit.startFrom(lag.timeConstant)
-        } else if (lag.isWhite) {
+        } else if (isWhite(lag)) {
             return Double.NaN
         }
         fit.calibrate(tape)
