@@ -91,7 +91,7 @@ internal class BlindAnswer(
         val outweighs = when {
             isOpen && asIs > LEFT * lag.seen -> true
             weakest != null -> sureness > LEFT * weakest
-            else -> !isOpen
+            else -> !isOpen || left.adjusted < CERTAIN
         }
         val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel && outweighs
         val sets = all + listOfNotNull(lagSet(isOpen))
@@ -294,6 +294,12 @@ internal class BlindAnswer(
 
     companion object {
         private const val LEFT = 0.25
+
+        /**
+         * Adjusted p-value below which what is left is told beside an open lag of whatever size: what the noise's model
+         * does not know of a real log gave 8e-6.
+         */
+        private const val CERTAIN = 1e-9
 
         /** Causes that halves of a log do not contradict: what happens once, and steps that all readings are on. */
         private val NOT_HALVED = BlindDiagnosis.SLOW + Cause.QUANTISATION
