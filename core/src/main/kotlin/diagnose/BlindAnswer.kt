@@ -152,7 +152,7 @@ internal class BlindAnswer(
                     "${three(lag.delay)} s as a dead time" +
                     when {
                         lag.isDeadTime -> ", which explains more."
-                        lag.isOpen(settings.separation) -> "."
+                        lag.isOpen(settings.separation) || lag.preference <= 0 -> "."
                         else -> ", which explains less."
                     },
             )

@@ -282,8 +282,9 @@ internal class BlindRound(
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
-        val lost = if (search.isStill(refitted.state)) maxOf(state.score - still.score, 0.0) else 0.0
-        return tries.settled(begun.look, refitted, best).onLess(lost)
+        val settled = tries.settled(begun.look, refitted, best)
+        if (still === state || !search.isStill(refitted.state)) return settled
+        return settled.onLess(best - maxOf(still.score, likewise(still, refitted.state)))
     }
 
     /** Whether waves that the water is not given may look like [look] as much as [trial] says. */

@@ -10,7 +10,7 @@ import kotlin.math.abs
  * @property ratio twice the gain in log-likelihood over what the scores' correlation inflates it.
  * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how
  *   stretches of the log agree about it. @property state the model with it where water and noise were fitted to it.
- *   @property sureness the ratio that [pValue] is of: against water that does not change where the trial is on such.
+ *   @property sureness the ratio against water that does not change, where the trial is on such; else [ratio].
  */
 internal class BlindTrial(
     val term: Term?,

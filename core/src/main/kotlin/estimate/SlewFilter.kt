@@ -22,8 +22,9 @@ internal class SlewFilter : ReadingPlayer {
     private var lastSeconds = Double.NaN
     private var lastElapsed = 0.0
 
-    /** How far the sensor moves between two readings. */
-    private var lastStep = 1.0
+    /** Mean of the logarithm of the time between two readings, s, and of how many. */
+    private var usualInterval = 0.0
+    private var intervals = 0
 
     /** Slot of the cell the boat is in; below 0 if it is in none. */
     var here: Int = LagBank.NONE
@@ -75,6 +76,8 @@ internal class SlewFilter : ReadingPlayer {
         freedomBefore = 0.0
         pooledMisfit = 0.0
         agreements = 0
+        usualInterval = 0.0
+        intervals = 0
     }
 
     override fun leave() {
@@ -110,7 +113,7 @@ internal class SlewFilter : ReadingPlayer {
         }
         lastSeconds = seconds
         lastElapsed = elapsed
-        if (elapsed > 0) lastStep = maxOf(ways[R] * elapsed, LEAST_STEP)
+        if (elapsed > 0) usualInterval += (ln(elapsed) - usualInterval) / ++intervals
         // Level ways first: they start where the moving ones were.
         for (way in 0..1) rest(LEVEL + way, way, elapsed, value)
         for (way in 0..1) {
@@ -277,9 +280,12 @@ internal class SlewFilter : ReadingPlayer {
      */
     fun common(slot: Int, resolution: Double): Double {
         val deviation = sqrt(noise)
-        val visits = maxOf(1.0, if (isKnown(slot)) memory[slot * SLOT + VISITS] else 0.0)
-        val share = visits / information(slot) / noise
-        val early = maxOf(1.0, deviation / lastStep) * noise * deviation / lastStep / 12 * share * share
+        var visits = if (isKnown(slot)) memory[slot * SLOT + VISITS] else 0.0
+        if (slot == here && isAtRest()) visits++
+        if (slot == before) visits++
+        val share = maxOf(1.0, visits) / information(slot) / noise
+        val step = maxOf(rate * exp(usualInterval), LEAST_STEP)
+        val early = maxOf(1.0, deviation / step) * noise * deviation / step / 12 * share * share
         if (resolution == 0.0) return early
         val before = maxOf(0.0, noise / (resolution * resolution) - 1.0 / 12)
         return early + resolution * resolution / (2 * PI * PI) * exp(-4 * PI * PI * before)

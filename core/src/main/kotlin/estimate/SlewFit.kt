@@ -181,8 +181,17 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         val least = lowest
         val most = highest
         if (isUp && isDown) {
-            lowest += left / 2
-            highest -= left / 2
+            // Where it has rather come to rest all that is left out is at the end far from there.
+            val isResting = filter.movingOn(asked) < HALF
+            val below = if (!isResting) {
+                HALF
+            } else if (value > (least + most) / 2) {
+                1.0
+            } else {
+                0.0
+            }
+            lowest += below * left
+            highest -= (1 - below) * left
         } else if (isUp) {
             highest -= left
         } else if (isDown) {
@@ -216,6 +225,7 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
 
         /** Of a belief. */
         const val LEFT_OUT = 0.05
+        const val HALF = 0.5
 
         /** Square of the median of a standard normal's size, times 6, the variance of a second difference. */
         const val MEDIAN_SQUARED = 0.6745 * 0.6745 * 6

@@ -57,7 +57,7 @@ class BlindDeterminantTest {
         fun truly(terms: List<Term>, numbers: DoubleArray) =
             search.settled(terms, numbers, state.fit.design.noise, state.variances, 0, before = state)
                 .fit.logDeterminant - state.fit.logDeterminant
-        for (share in listOf(0.9, 1.1)) {
+        for (share in listOf(0.7, 0.9, 1.1, 1.5)) {
             val numbers = state.numbers.copyOf().also { it[ResponseModel.TIME_CONSTANT] *= share }
             val expected = truly(emptyList(), numbers)
             val found = determinant.at(state.model, numbers)

@@ -58,6 +58,14 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
     }
 
+    /** A seed of the work on it: a curved calibration whose log tells a lag but not of which kind. */
+    @Test
+    fun whatIsCertainlyLeftBesideAnOpenLagIsUnexplained() {
+        val case = HiddenCampaign.run(listOf(199_041L), withReference = false, directory).single()
+        assertEquals(setOf(HiddenEffect.CURVED), case.truth.effects.keys)
+        assertEquals("unexplained", case.answer.verdict)
+    }
+
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
     @Test
     fun whatIsHiddenBesideCoarseRoundingIsNamedToo() {
