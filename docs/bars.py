@@ -131,8 +131,8 @@ def bounded(bars):
     later = [differences[move] for move in dense if move > BLIND]
     # Until then either has gone into a cell of which nothing is known: which is the better one is chance.
     error = max(at(extended, BLIND, *own, column="standard_error"))
-    bars.row(f"planner of bounded-extended not above the random walk at any of {len(dense)} checkpoints", "0",
-             f"below at all after move {BLIND}, by {-max(later):.2g} at the least; {differences[BLIND]:+.2g} at move {BLIND}, "
+    bars.row(f"planner of bounded-extended not above the random walk at any of {len(later)} checkpoints after move {BLIND}", "0",
+             f"below at all, by {-max(later):.2g} at the least; {differences[BLIND]:+.2g} at move {BLIND}, "
              f"where nothing is known to choose by (standard error {error:.2g})", max(later) <= 0)
 
 def kinds(bars):

@@ -28,7 +28,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     // The search: the least cost so far, whose it is, and whether the play under way can no longer come below it.
     private var least = 0.0
     private var leastIndex = 0
-    private val isBehind = { cost(0) > least && cost(1) > least && cost(2) > least }
+    private val isBeaten = { cost(0) > least && cost(1) > least && cost(2) > least }
 
     init {
         bank.reset(mean, WIDEST_STEP, noiseVariance)
@@ -95,7 +95,7 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         for (turn in -reach - 1..reach) {
             val k = if (turn < -reach) nearest else turn
             if (k == nearest && turn >= -reach) continue
-            play(tape, mean + 3 * k * WIDEST_STEP, WIDEST_STEP, isBehind)
+            play(tape, mean + 3 * k * WIDEST_STEP, WIDEST_STEP, isBeaten)
             for (i in 0..2) {
                 val cost = cost(i)
                 val index = 3 * k + i
@@ -116,9 +116,9 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         return bank.misfit(i) / noiseVariance + off * off * priorInformation
     }
 
-    private suspend fun play(tape: Recording, node: Double, step: Double, isBehind: () -> Boolean = Recording.NEVER) {
+    private suspend fun play(tape: Recording, node: Double, step: Double, isBeaten: () -> Boolean = Recording.NEVER) {
         bank.reset(node, step, noiseVariance)
-        tape.play(bank, isBehind)
+        tape.play(bank, isBeaten)
     }
 
     /** Reads time constant and noise off the bank's parabola, eqs. (9) to (11). */

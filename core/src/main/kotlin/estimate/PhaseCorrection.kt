@@ -135,14 +135,18 @@ internal class PhaseCorrection(private val series: TrackSeries) {
      * For a lag that follows the boat's speed: the inverse of τ(t) ṡ = f − s is f = s + τ(t) ṡ, local in time. With the
      * amplitude that a lag of the geometric mean τ̄ leaves, that is (1) at τ̄ and beside it (τ(t) − τ̄) ż / √(1 + ω² τ̄²):
      * fast changes become τ(t) / τ̄ as large, which is 1 on geometric average, so that no exponent has a head start by
-     * making all values smaller. Speeds are means over τ either way, because those from fixes are rough.
+     * making all values smaller. Speeds are means over τ either way, as far as there is no gap, because those from fixes are rough.
      */
     private fun correctByFlow(response: Response, out: DoubleArray, earlier: Double) {
         val reach = (response.lags.single().rising / step).toInt()
-        val logs = DoubleArray(size) {
-            val from = maxOf(first[it], it - reach)
-            val to = minOf(size - 1, it + reach)
-            -response.flowExponent * (logSums[to + 1] - logSums[from]) / (to + 1 - from)
+        val logs = DoubleArray(size)
+        for (stretch in stretches) {
+            val last = stretch.begin + stretch.size - 1
+            for (at in stretch.begin..last) {
+                val from = maxOf(stretch.begin, at - reach)
+                val to = minOf(last, at + reach)
+                logs[at] = -response.flowExponent * (logSums[to + 1] - logSums[from]) / (to + 1 - from)
+            }
         }
         val usual = exp(logs.average())
         val mean = response.lags.single().rising * usual

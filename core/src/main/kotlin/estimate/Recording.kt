@@ -33,13 +33,13 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
     fun meanStay(): Double = tape.meanStay(size)
 
     /**
-     * Goes through all with [player], or as far as what it found may still count: once [isBehind] says that it
+     * Goes through all with [player], or as far as what it found may still count: once [isBeaten] says that it
      * cannot, the rest is not gone through. It is told as done all the same, so that a fit is complete at the same
      * reading.
      */
-    suspend fun play(player: ReadingPlayer, isBehind: () -> Boolean = NEVER) {
+    suspend fun play(player: ReadingPlayer, isBeaten: () -> Boolean = NEVER) {
         crossings.leave()
-        play(player, 0, size, isBehind)
+        play(player, 0, size, isBeaten)
     }
 
     /** Goes with [player], which has gone through the first [size], through all that came since. */
@@ -54,14 +54,14 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
     /** For work other than going through readings, worth so many steps of a filter. */
     suspend fun spend(steps: Int) = parts.spend(steps.toDouble())
 
-    private suspend fun play(player: ReadingPlayer, start: Int, end: Int, isBehind: () -> Boolean) {
+    private suspend fun play(player: ReadingPlayer, start: Int, end: Int, isBeaten: () -> Boolean) {
         var from = start
         var counts = true
         while (from < end) {
             val to = minOf(from + AT_ONCE, end)
             if (counts) {
                 playAtOnce(player, from, to)
-                counts = !isBehind()
+                counts = !isBeaten()
             }
             parts.spend((to - from) * player.filters.toDouble())
             from = to

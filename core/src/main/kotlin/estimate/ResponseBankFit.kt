@@ -218,7 +218,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
         for (stretch in STRETCHES) {
             for (share in shares()) {
                 val second = if (kind == ResponseBankKind.DEAD_TIME) share * most else share
-                val cost = cost(tape, from + stretch, second, isBehind)
+                val cost = cost(tape, from + stretch, second, isBeaten)
                 if (cost < least || (cost == least && stretch < shortest)) {
                     least = cost
                     shortest = stretch
@@ -245,7 +245,7 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
             for (way in 0 until WAYS) {
                 val first = fromFirst + FIRST_WAY[way] * firstStep
                 val second = (fromSecond + SECOND_WAY[way] * secondStep).coerceIn(kind.least, most)
-                val cost = cost(tape, first, second, isBehind)
+                val cost = cost(tape, first, second, isBeaten)
                 if (cost < least) {
                     least = cost
                     bestFirst = first
@@ -267,17 +267,17 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
 
     /** The least cost so far: others are gone through as long as they can come below it. */
     private var least = 0.0
-    private val isBehind = { cost(bank.leastMisfit()) > least }
+    private val isBeaten = { cost(bank.leastMisfit()) > least }
 
     private suspend fun cost(
         tape: Recording,
         first: Double,
         second: Double,
-        isBehind: () -> Boolean = Recording.NEVER,
+        isBeaten: () -> Boolean = Recording.NEVER,
     ): Double {
         bank.resetMiddle(kind, first, second, noiseVariance)
-        tape.play(bank, isBehind)
-        return if (isBehind()) Double.POSITIVE_INFINITY else cost(bank.misfit(0))
+        tape.play(bank, isBeaten)
+        return if (isBeaten()) Double.POSITIVE_INFINITY else cost(bank.misfit(0))
     }
 
     private fun cost(misfit: Double): Double {

@@ -128,12 +128,13 @@ public class SelfCalibratingEstimator(
         }
         lastSlot = slot
         unrefreshed++
+        // A fit that begins judges, too, before any of it is done.
+        val wasExplained = isExplained
         if (learner.learn()) {
             writeAll()
             return
         }
         if (!learner.isComplete) choice.follow()
-        val wasExplained = isExplained
         val before = choice.active.before
         if (slot != Crossings.PASSED_OVER) choice.take(slot, seconds, scaled)
         if (isExplained != wasExplained) {
@@ -215,8 +216,10 @@ public class SelfCalibratingEstimator(
         lastCell = Grid.OUTSIDE
         fallback.leave()
         if (learner.add(LagBank.NONE, 0.0, 0.0)) writeAll()
+        val wasExplained = isExplained
         choice.leave()
         choice.crossings.leave()
+        if (isExplained != wasExplained) writeAll()
     }
 
     private fun touch(one: Int, other: Int): Boolean {

@@ -1,6 +1,7 @@
 package stillwater.estimate
 
 import org.junit.jupiter.api.Test
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.pow
 import kotlin.math.sin
@@ -49,6 +50,21 @@ class FlowDependentLagTest {
         // Two sines lose differently in amplitude: about a tenth of the water's 0.86.
         assertTrue(left(corrected) < 0.1, "${left(corrected)}")
         assertTrue(left(usual) > 2 * left(corrected), "${left(usual)} and ${left(corrected)}")
+    }
+
+    /** The same speeds behind the gap in turned order: their mean is the same, those next to the gap are not. */
+    @Test
+    fun speedsBehindAGapDoNotCountBeforeIt() {
+        val half = size / 2
+        val gapped = DoubleArray(size) { if (it < half) it.toDouble() else it + 1000.0 }
+        val one = DoubleArray(size) { if (it < half || it > half + half / 2) 0.5 else 2.0 }
+        val other = DoubleArray(size) { if (it < half) one[it] else one[size - 1 - (it - half)] }
+        val (first, second) = listOf(one, other).map { speeds ->
+            val series = TrackSeries(gapped, gapped, DoubleArray(size), truth).withSpeeds(speeds, 1.0)
+            DoubleArray(size).also { PhaseCorrection(series).correct(flow, it) }
+        }
+        for (i in 0 until half) assertEquals(first[i], second[i], 1e-6, "row $i")
+        assertTrue((half until size).any { abs(first[it] - second[it]) > 0.01 })
     }
 
     @Test

@@ -177,6 +177,49 @@ class SelfCalibratingEstimatorTest {
         }
     }
 
+    /** Whether a reading, an interruption or a fit that begins turns it, bounds that hold no longer change in all cells. */
+    @Test
+    fun allCellsFollowWhenReadingsAreNoLongerExplainedOrAreAgain() {
+        var left = 0
+        var begun = 0
+        for (seed in 22..27) {
+            val random = Random(seed)
+            val row = Grid.unit(30, 1)
+            val estimator = SelfCalibratingEstimator(row, Interval.UNIT, work = 300.0)
+            val sensor = SensorSpec("", listOf(SensorStage.TwoPath(2.0, 60.0, 0.1))).build(0.5, random)
+            val water = DoubleArray(row.size) { random.between(0.2, 0.8) }
+            var before = List(row.size) { estimator.map.lower(it) to estimator.map.upper(it) }
+            var wasExplained = true
+            fun check(visited: Int, what: String): Boolean {
+                val map = estimator.map
+                val now = List(row.size) { map.lower(it) to map.upper(it) }
+                val turned = estimator.isExplained != wasExplained
+                wasExplained = estimator.isExplained
+                val same = now.indices.count { now[it] == before[it] }
+                before = now
+                // Cells never visited, and few whose bounds are the prior's ends or a value either way.
+                if (turned) assertTrue(same <= row.size - visited + 3, "seed $seed $what: $same the same")
+                return turned
+            }
+            var time = 0.0
+            for (visit in 0 until 4 * row.size) {
+                val cell = if (visit / row.size % 2 == 0) visit % row.size else row.size - 1 - visit % row.size
+                repeat(6) {
+                    time++
+                    val state = sensor.step(water[cell], 1.0, Conditions.NONE) + 0.01 * random.between(-1.0, 1.0)
+                    estimator.update(BoatTime(time), cell + 0.5, 0.5, state)
+                    if (check(minOf(visit, row.size), "reading $time")) begun++
+                }
+                if (visit % 3 == 0) {
+                    time++
+                    estimator.update(BoatTime(time), -1.0, 0.5, 0.5)
+                    if (check(minOf(visit, row.size), "left $time")) left++
+                }
+            }
+        }
+        assertTrue(left > 0 && begun > 0, "$left $begun")
+    }
+
     @Test
     fun waterThatChangesWithinCellsIsFlaggedAndItsValuesDoNotRunAway() {
         for (seed in 931..936) {

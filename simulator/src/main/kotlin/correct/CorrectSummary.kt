@@ -308,8 +308,14 @@ internal class CorrectSummary(
                 add("at $silent readings the sensor ran at its limit and shows the water from one side only")
             }
             addAll(CorrectCautions(result, unitAfter).lines)
-            if (result.learned.isPart && result.origin == SensorOrigin.REVISITS) {
-                add("the sensor was learned on the ${result.learned.readings} readings in the middle of the log")
+            if (result.learned.isPart) {
+                val middle = "on the ${result.learned.readings} readings in the middle of the log"
+                if (result.origin == SensorOrigin.REVISITS) add("the sensor was learned $middle")
+                if (result.origin ==
+                    SensorOrigin.RATE
+                ) {
+                    add("the rate limit is of all readings, the lag before it $middle")
+                }
             }
             if (result.learned.held) {
                 add(

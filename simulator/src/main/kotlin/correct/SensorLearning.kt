@@ -169,7 +169,8 @@ internal object SensorLearning {
         val series = all.middle(MOST_LEARNED)
         val limit = ResponseKind.SLEW.response(rate)
         val alone = listOf(LikelyResponse(listOf(limit), 1.0))
-        val nothing = Learned(SensorOrigin.RATE, null, alone, limit.stages(), series.size)
+        val isPart = series.size < all.size
+        val nothing = Learned(SensorOrigin.RATE, null, alone, limit.stages(), series.size, isPart = isPart)
         fun limited(open: LikelyResponse) =
             LikelyResponse(open.responses.map { it.copy(slewRate = rate) }, open.weight)
 

@@ -175,7 +175,7 @@ class SensorChoiceTest {
     fun readsASlewLimitedSensorWhenItWaitsForIt() = assertBar(slewLimit, bar = 0.005, SensorKind.SLEW_LIMIT)
 
     /**
-     * Most cells are never reached. While their whole range counted, 0.98 to 0.985 held; it hid that 0.87 of the others did, of
+     * Most cells are never reached. While their whole range counted, too many held; it hid that 0.87 of the others did, of
      * which some were believed reached for a chance reading.
      */
     @Test
