@@ -124,7 +124,7 @@ def bounded(bars):
             best = min(at(rows, move, kind, planner)[place] for kind in ("bounded", "averaging")
                        for planner in ("random-walk", "lawnmower", "bounded"))
             ratio = best / at(extended, move, *own)[place]
-            bars.row(f"bounded-extended below the best of the report's six, {field} field, {move} moves", f"{bar} times",
+            bars.row(f"bounded-extended below the best of the report's six, {'uniform' if field == 'uniform' else 'Gaussian'} field, {move} moves", f"{bar} times",
                      f"{ratio:.3g} times", ratio >= bar)
     differences = {move: max(planned - walked for planned, walked in zip(
         at(extended, move, *own), at(extended, move, own[0], "random-walk"))) for move in dense}
