@@ -41,12 +41,14 @@ internal class BlindDeterminant(private val search: BlindSearch, private val sta
 
     private fun product(model: ResponseModel, numbers: DoubleArray): Double {
         val seen = search.seen(model.terms, numbers, waters)
-        val fading = numbers[ResponseModel.TIME_CONSTANT]
+        val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
+        // What was before the log, the same of all waters but for its height.
+        val fading = DoubleArray(times.size) { exp(-(times[it] - times[0]) / timeConstant) }
         var sum = 0.0
         for (k in seen.indices) {
             val before = heights[k].last()
             val column = seen[k]
-            for (i in column.indices) column[i] += before * exp(-(times[i] - times[0]) / fading)
+            for (i in column.indices) column[i] += before * fading[i]
             state.fit.design.noise.whiten(column, column)
             sum += dot(shown[k], column)
         }
@@ -61,8 +63,8 @@ internal class BlindDeterminant(private val search: BlindSearch, private val sta
         } + ("" to listOf(numbers[ResponseModel.TIME_CONSTANT]))
 
     private companion object {
-        /** Waters drawn: with a hundred waves that the log binds, the sum is off by some 4 %. */
-        const val DRAWS = 16
+        /** Waters drawn: with a hundred waves that the log binds, the sum is off by some 5 %. */
+        const val DRAWS = 8
         const val SEED = 20261122
     }
 }
