@@ -27,7 +27,7 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
          * log. Whenever some columns are there, [then] is told the first of them and the one behind the last.
          */
         fun write(out: List<DoubleArray>, then: (Int, Int) -> Unit) {
-            response(terms, numbers, modes.columns, held).of(modes.columns, loops, out, then)
+            response(terms, numbers, modes.columns, held).of(modes.columns, loops, out, bends(modes), then)
             val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
             for (i in 0 until n) out[size - 1][i] = exp(-(series.times[i] - series.times[0]) / timeConstant)
             then(size - 1, size)
@@ -42,6 +42,17 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         val (linear, own) = linear(terms, numbers)
         return Shown(linear, own, modes, held)
     }
+
+    /** The bends of the water that was shown last; null for more of them than are worth their memory. */
+    private fun bends(modes: WaterModes): LinearResponse.Bends? {
+        if (n.toLong() * modes.size > MOST_BENDS) return null
+        val known = bent
+        if (known != null && known.first === modes) return known.second
+        return LinearResponse.Bends(modes.size).also { bent = modes to it }
+    }
+
+    @Volatile
+    private var bent: Pair<WaterModes, LinearResponse.Bends>? = null
 
     private class Kept(val design: BlindDesign, val shown: Shown, val hidden: BooleanArray?) {
         fun isOf(shown: Shown, hidden: BooleanArray?, noise: BlindNoise) =
@@ -83,6 +94,10 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     fun along(modes: WaterModes, heights: DoubleArray): DoubleArray =
         Combination.of(modes.columns.asList(), heights, n, loops)
 
+    /** The waters of [modes] with each of [heights] along the track. */
+    fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> =
+        Combination.of(modes.columns.asList(), heights, n, loops)
+
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, held: Boolean): Array<DoubleArray> {
         val (linear, own) = linear(terms, numbers)
@@ -107,5 +122,8 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     private companion object {
         /** Designs that may be asked for again. */
         const val KEPT = 16
+
+        /** Numbers in the bends that are kept: thirty-two megabytes. */
+        const val MOST_BENDS = 4_000_000L
     }
 }

@@ -142,6 +142,9 @@ internal class BlindDesign(
     /** R [beta], length n. */
     fun times(beta: DoubleArray): DoubleArray = ofColumns { Combination.of(it, beta, n, loops) }
 
+    /** The same of each of [betas]. */
+    fun times(betas: Array<DoubleArray>): Array<DoubleArray> = ofColumns { Combination.of(it, betas, n, loops) }
+
     private companion object {
         const val STRETCH = 64
         const val AT_ONCE = 4

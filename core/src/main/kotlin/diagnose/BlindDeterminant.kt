@@ -30,8 +30,8 @@ internal class BlindDeterminant(private val search: BlindSearch, private val sta
         heights = Array(DRAWS) {
             state.fit.drawn(DoubleArray(state.fit.design.size) { if (random.nextBoolean()) 1.0 else -1.0 })
         }
-        waters = Array(DRAWS) { state.modes.along(heights[it]) }
-        shown = Array(DRAWS) { state.fit.design.times(heights[it]) }
+        waters = search.along(state.modes, heights)
+        shown = state.fit.design.times(heights)
         squares = product(state.model, state.numbers)
     }
 

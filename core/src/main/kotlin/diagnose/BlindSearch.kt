@@ -320,6 +320,9 @@ internal class BlindSearch private constructor(
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> =
         designs.seen(terms, numbers, waters, held)
 
+    /** The waters of [modes] with [heights] along the track. */
+    fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> = designs.along(modes, heights)
+
     private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
         if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, MOST)
     }

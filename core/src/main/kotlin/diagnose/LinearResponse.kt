@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import java.util.concurrent.atomic.AtomicReferenceArray
+
 /**
  * What a sensor whose parts are linear in the truth shows of many truths along one log, four of them at a time.
  *
@@ -25,14 +27,26 @@ internal class LinearResponse(
         val spare = DoubleArray(spline.size)
     }
 
+    /** The bends of truths that are shown again and again, kept by those that found them; for any number of threads. */
+    class Bends(truths: Int) {
+        private val found = AtomicReferenceArray<Array<DoubleArray>>((truths + AT_ONCE - 1) / AT_ONCE)
+
+        /** Those of the [group]-th four, as [find] finds them. */
+        fun of(group: Int, find: () -> Array<DoubleArray>): Array<DoubleArray> =
+            found[group] ?: find().also { found[group] = it }
+    }
+
     /**
      * Writes what is shown of each of [truths], length n, into the first of [shown]. Whenever some are there, [then] is
      * told the first of them and the one behind the last, so that they are done with while they are in the cache.
+     *
+     * @param bends of these truths; null where they are not kept.
      */
     fun of(
         truths: Array<DoubleArray>,
         loops: Loops,
         shown: List<DoubleArray>,
+        bends: Bends? = null,
         then: (Int, Int) -> Unit = { _, _ -> },
     ) {
         val groups = (truths.size + AT_ONCE - 1) / AT_ONCE
@@ -42,36 +56,52 @@ internal class LinearResponse(
                 val from = group * AT_ONCE
                 // Where columns are no multiple of four the last is done more than once, for nobody.
                 val own = Array(AT_ONCE) { truths[minOf(from + it, truths.size - 1)] }
-                show(own, Array(AT_ONCE) { if (from + it < truths.size) shown[from + it] else work.spare }, work)
+                val out = Array(AT_ONCE) { if (from + it < truths.size) shown[from + it] else work.spare }
+                val bent = when {
+                    !isBent(delay, path, slow?.first) -> work.bends
+                    bends != null -> bends.of(group) { bent(own) }
+                    else -> bent(own, work.bends)
+                }
+                show(own, bent, out, work)
                 then(from, minOf(from + AT_ONCE, truths.size))
             }
         }
     }
 
-    private fun show(truths: Array<DoubleArray>, out: Array<DoubleArray>, work: Work) {
+    /** Shows [truths] with the [bends] of their splines. */
+    private fun show(
+        truths: Array<DoubleArray>,
+        bends: Array<DoubleArray>,
+        out: Array<DoubleArray>,
+        work: Work,
+    ) {
         var seen = truths
-        bend(seen, work, delay, path, slow?.first)
+        var bent = bends
         if (delay != null) {
-            delay.of(seen, work.bends, work.late)
+            delay.of(seen, bent, work.late)
             seen = work.late
-            bend(seen, work, path, slow?.first)
+            if (isBent(path, slow?.first)) bent = bent(seen, work.bends)
         }
-        path.of(seen, work.bends, out)
+        path.of(seen, bent, out)
         if (slow != null) {
             val (own, share) = slow
-            own.of(seen, work.bends, work.other)
+            own.of(seen, bent, work.other)
             for (k in 0 until AT_ONCE) mix(out[k], work.other[k], share)
         }
         if (second != null) {
             for (k in 0 until AT_ONCE) out[k].copyInto(work.late[k])
-            bend(work.late, work, second)
+            if (isBent(second)) bent(work.late, work.bends)
             second.of(work.late, work.bends, out)
         }
     }
 
-    private fun bend(columns: Array<DoubleArray>, work: Work, vararg users: NeighbourSums?) {
-        if (users.any { it != null && it.isBent }) spline.bends(columns, work.bends)
-    }
+    private fun isBent(vararg users: NeighbourSums?) = users.any { it != null && it.isBent }
+
+    /** The bends of the splines through [columns], in [out]. */
+    private fun bent(
+        columns: Array<DoubleArray>,
+        out: Array<DoubleArray> = Array(AT_ONCE) { DoubleArray(spline.size) },
+    ): Array<DoubleArray> = out.also { spline.bends(columns, it) }
 
     private fun mix(out: DoubleArray, other: DoubleArray, share: Double) {
         for (i in out.indices) out[i] += share * (other[i] - out[i])

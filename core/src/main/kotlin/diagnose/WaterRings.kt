@@ -108,24 +108,29 @@ internal class WaterRings(
         }
     }
 
-    private fun ring(ring: Int, d: Double, spectrum: DoubleArray): Double {
-        val b = edges[ring] * edges[ring]
-        if (ring == 0) return spectrum[0] * kernel.at(edges[0] * d)
-        val a = edges[ring - 1] * edges[ring - 1]
-        return spectrum[ring] * (b * kernel.at(edges[ring] * d) - a * kernel.at(edges[ring - 1] * d)) / (b - a)
-    }
-
-    private fun covariance(spectrum: DoubleArray, d: Double): Double {
+    /** The covariance of all rings at a distance of [d] m, each times its variance and its [weight]. */
+    private inline fun sum(spectrum: DoubleArray, d: Double, weight: (Int) -> Double): Double {
         var sum = 0.0
-        for (k in edges.indices) if (spectrum[k] > 0) sum += ring(k, d, spectrum)
+        var inside = 0.0
+        var a = 0.0
+        for (k in edges.indices) {
+            val isCounted = spectrum[k] > 0
+            // A ring ends where the next one begins.
+            val isNeeded = isCounted || (k + 1 < edges.size && spectrum[k + 1] > 0)
+            val b = edges[k] * edges[k]
+            val disc = if (isNeeded) kernel.at(edges[k] * d) else 0.0
+            if (isCounted) {
+                sum += weight(k) * if (k == 0) spectrum[0] * disc else spectrum[k] * (b * disc - a * inside) / (b - a)
+            }
+            inside = disc
+            a = b
+        }
         return sum
     }
 
-    private fun ordered(spectrum: DoubleArray, d: Double): Double {
-        var sum = 0.0
-        for (k in 1 until edges.size) if (spectrum[k] > 0) sum += k * ring(k, d, spectrum)
-        return sum
-    }
+    private fun covariance(spectrum: DoubleArray, d: Double): Double = sum(spectrum, d) { 1.0 }
+
+    private fun ordered(spectrum: DoubleArray, d: Double): Double = sum(spectrum, d) { it.toDouble() }
 
     /** Between places of a curve: a hundredth of a radian of the shortest wave. */
     private val step = FINE / edges.last()

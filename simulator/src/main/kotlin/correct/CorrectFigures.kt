@@ -1,18 +1,30 @@
 package stillwater.correct
 
+import stillwater.estimate.CandidateStanding
 import stillwater.plot.Bar
 import stillwater.plot.Bars
 import stillwater.plot.Figure
 import stillwater.plot.LinePlot
 import stillwater.plot.Series
+import stillwater.plot.drawConcurrently
+import stillwater.survey.LegMismatch
 
 /** A figure with its file's name and what stands under it. */
 internal class CorrectFigure(val name: String, val figure: Figure, val caption: String)
 
 /** Draws a [CorrectedLog]. */
 internal class CorrectFigures(private val result: CorrectedLog, private val summary: CorrectSummary) {
-    /** All that there is something to draw for. */
-    fun draw(): List<CorrectFigure> = listOfNotNull(track(), legs(), evidence())
+    /** All that there is something to draw for, with their PNGs, on up to all cores. */
+    fun draw(): List<CorrectFigure> {
+        val before = result.before
+        val after = result.after
+        val drawings: List<() -> CorrectFigure> = buildList {
+            add { track() }
+            if (before != null && after != null) add { legs(before, after) }
+            result.choice?.let { add { evidence(it.standings) } }
+        }
+        return drawConcurrently(drawings) { it.figure }
+    }
 
     private fun track(): CorrectFigure {
         val shown = window()
@@ -63,9 +75,7 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
 
     private fun difference(i: Int) = (result.track.values[i] - result.series.values[i]).let { it * it }
 
-    private fun legs(): CorrectFigure? {
-        val before = result.before ?: return null
-        val after = result.after ?: return null
+    private fun legs(before: LegMismatch, after: LegMismatch): CorrectFigure {
         fun bar(name: String, mean: Double, error: Double): Bar {
             val reach = if (error.isNaN()) 0.0 else 2 * error
             return Bar(name, mean, maxOf(0.0, mean - reach), mean + reach)
@@ -88,8 +98,7 @@ internal class CorrectFigures(private val result: CorrectedLog, private val summ
         )
     }
 
-    private fun evidence(): CorrectFigure? {
-        val standings = result.choice?.standings ?: return null
+    private fun evidence(standings: List<CandidateStanding>): CorrectFigure {
         val figure = Bars(
             "What the log says about the sensor's response",
             "log score on held-out runs of the track, behind the best",

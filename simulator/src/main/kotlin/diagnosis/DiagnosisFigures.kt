@@ -10,6 +10,7 @@ import stillwater.plot.LinePlot
 import stillwater.plot.Mark
 import stillwater.plot.Series
 import stillwater.plot.TrackMap
+import stillwater.plot.drawConcurrently
 import kotlin.math.hypot
 import kotlin.math.sqrt
 
@@ -31,24 +32,27 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val stride = maxOf(1, n / MOST_POINTS)
     private val moves = hypot(spread(columns.x), spread(columns.y)) > 1e-9
 
-    /** All figures in the order in which a reader wants them. */
-    fun draw(): List<DiagnosisFigure> = buildList {
-        add(predicted())
-        causes().forEach { add(cause(it)) }
-        if (Cause.OUTLIERS in named) add(outliers())
-        if (Cause.TIME_VARYING_FIELD in named) result.revisits?.let { add(revisits(it)) }
-        add(against("time", "Time since the first row (s)", time))
-        add(against("value", "Predicted value of $quantity", result.baseline.predicted))
-        add(against("rate", "Predicted rate of change (${diagnosed.inUnit("sensor units")}/s)", rate()))
+    /** All figures in the order in which a reader wants them, with their PNGs, on up to all cores. */
+    fun draw(): List<DiagnosisFigure> = drawConcurrently(drawings()) { it.figure }
+
+    private fun drawings(): List<() -> DiagnosisFigure> = buildList {
+        add { predicted() }
+        causes().forEach { add { cause(it) } }
+        if (Cause.OUTLIERS in named) add { outliers() }
+        if (Cause.TIME_VARYING_FIELD in named) result.revisits?.let { add { revisits(it) } }
+        add { against("time", "Time since the first row (s)", time) }
+        add { against("value", "Predicted value of $quantity", result.baseline.predicted) }
+        add { against("rate", "Predicted rate of change (${diagnosed.inUnit("sensor units")}/s)", rate()) }
         if (moves) {
             // As they were tested.
-            add(against("speed", "Speed (m/s)", diagnosed.log.series.speed))
+            val series = diagnosed.log.series
+            add { against("speed", "Speed (m/s)", series.speed) }
             val custom = if (diagnosed.log.heading == null) "counter-clockwise from east" else "as logged"
-            add(against("heading", "Heading (degrees $custom)", degrees(diagnosed.log.series.heading)))
-            add(position())
+            add { against("heading", "Heading (degrees $custom)", degrees(series.heading)) }
+            add { position() }
         }
-        columns.condition(Conditions.TEMPERATURE)?.let { add(against("temperature", "Temperature (°C)", it)) }
-        add(correlation())
+        columns.condition(Conditions.TEMPERATURE)?.let { add { against("temperature", "Temperature (°C)", it) } }
+        add { correlation() }
     }
 
     private fun predicted(): DiagnosisFigure {

@@ -5,11 +5,16 @@ import java.nio.file.Path
 
 /** Runs seeds of the sealed generator through the finder; see docs/diagnosis.md for the command. */
 internal object HiddenCampaign {
-    /** The scored cases of [seeds], with logs and results in [directory]. */
+    /**
+     * The scored cases of [seeds], with logs and results in [directory].
+     *
+     * @param withGain whether what could be gained is found too: without a reference that takes as long as the rest.
+     */
     fun run(
         seeds: Iterable<Long>,
         withReference: Boolean,
         directory: Path,
+        withGain: Boolean = true,
         told: (ScoredCase) -> Unit = {},
     ): List<ScoredCase> =
         seeds.map { seed ->
@@ -18,7 +23,11 @@ internal object HiddenCampaign {
             case.write(log)
             val sensor = directory.resolve("believed.json").takeIf { case.writeSensor(it) }
             val answer = Finder.ask(log, withReference, directory.resolve("out"), sensor)
-            val left = if (withReference) case.leftByTruth else leftWithoutEffect(seed, case.truth, directory)
+            val left = when {
+                withReference -> case.leftByTruth
+                withGain -> leftWithoutEffect(seed, case.truth, directory)
+                else -> Double.NaN
+            }
             ScoredCase(seed, case.truth, answer, left).also(told)
         }
 

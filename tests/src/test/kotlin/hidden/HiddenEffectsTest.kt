@@ -12,6 +12,9 @@ class HiddenEffectsTest {
     @TempDir
     private lateinit var directory: Path
 
+    private fun blind(vararg seeds: Long) =
+        HiddenCampaign.run(seeds.toList(), withReference = false, directory, withGain = false)
+
     @Test
     fun theFinderNamesWhatIsHiddenAndSeldomWhatIsNot() {
         val cases = HiddenCampaign.run(70_000L..70_019L, withReference = true, directory)
@@ -38,7 +41,7 @@ class HiddenEffectsTest {
      */
     @Test
     fun withoutAReferenceWhatWasMissedIsTold() {
-        val cases = HiddenCampaign.run(listOf(195_263L, 195_157L, 191_018L, 190_008L), withReference = false, directory)
+        val cases = blind(195_263, 195_157, 191_018, 190_008)
         val hidden =
             listOf(HiddenEffect.POSITION, HiddenEffect.SECOND_ORDER, HiddenEffect.QUANTISATION, HiddenEffect.HEADING)
         assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
@@ -52,7 +55,7 @@ class HiddenEffectsTest {
      */
     @Test
     fun whatChangesAndWhatNoStepLedToIsTold() {
-        val cases = HiddenCampaign.run(listOf(198_071L, 194_036L, 196_034L), withReference = false, directory)
+        val cases = blind(198_071, 194_036, 196_034)
         val hidden = listOf(HiddenEffect.STEPS, HiddenEffect.TIME_VARYING, HiddenEffect.SECOND_ORDER)
         assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
@@ -61,7 +64,7 @@ class HiddenEffectsTest {
     /** A seed of the work on it: a curved calibration whose log tells a lag but not of which kind. */
     @Test
     fun whatIsCertainlyLeftBesideAnOpenLagIsUnexplained() {
-        val case = HiddenCampaign.run(listOf(199_041L), withReference = false, directory).single()
+        val case = blind(199_041).single()
         assertEquals(setOf(HiddenEffect.CURVED), case.truth.effects.keys)
         assertEquals("unexplained", case.answer.verdict)
     }
@@ -69,7 +72,7 @@ class HiddenEffectsTest {
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
     @Test
     fun whatIsHiddenBesideCoarseRoundingIsNamedToo() {
-        val case = HiddenCampaign.run(listOf(192_035L), withReference = false, directory).single()
+        val case = blind(192_035).single()
         assertEquals(setOf(HiddenEffect.FLOW, HiddenEffect.QUANTISATION), case.truth.effects.keys)
         assertTrue(case.bothFound, Scores(listOf(case)).markdown())
     }
