@@ -44,6 +44,12 @@ internal class BlindRound(
     /** What water that changes in time explains. It could imitate a drift: the two are held against each other. */
     val changing = maxOf(open.score - still.score, 0.0)
 
+    /** The same over what correlation inflates; nothing where finer waves may be missing, which look like changes. */
+    val changed: Double by lazy {
+        val column = open.fit.unlike(open.derivative(ResponseModel.TIME_CONSTANT))
+        if (open.isResolved) changing / BlindEvidence.inflation(listOf(column), open.whitened) else 0.0
+    }
+
     private val terms = BlindTerms.of(search, !isShapeOpen).filter(::isNew)
 
     /**

@@ -4,6 +4,7 @@ import com.github.ajalt.clikt.core.parse
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonObject
+import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
@@ -17,7 +18,7 @@ import java.nio.file.Path
  *
  * @property verdict its verdict. @property sets for each effect it sees, the causes it may be; a sure one is alone.
  * @property numbers of each candidate cause, by name. @property before held-out residuals of the base. @property after
- * the same of the extended model; NaN without one.
+ * the same of the extended model; NaN without one. @property timeConstant the interval of the base's, s; null without.
  */
 internal class FinderAnswer(json: JsonObject) {
     val verdict: String = json.text("verdict")
@@ -35,6 +36,12 @@ internal class FinderAnswer(json: JsonObject) {
         }
     val before: Double = json.number("baseline")
     val after: Double = json.number("extended")
+    val timeConstant: ClosedFloatingPointRange<Double>? =
+        (json.getValue("baseline") as? JsonObject)?.getValue("parameters")?.jsonArray?.map { it.jsonObject }
+            ?.firstOrNull { it.text("name") == "time_constant_s" }?.let { found ->
+                val (lower, upper) = listOf("lower", "upper").map { (found[it] as? JsonPrimitive)?.doubleOrNull }
+                lower?.rangeTo(upper ?: Double.POSITIVE_INFINITY)
+            }
 
     private fun JsonObject.text(key: String) = getValue(key).jsonPrimitive.content
 

@@ -77,6 +77,14 @@ class HiddenEffectsTest {
         assertTrue(case.bothFound, Scores(listOf(case)).markdown())
     }
 
+    /** A seed of the work on it: water that changes as no drift does, which only the model of the water knew of. */
+    @Test
+    fun waterThatChangesBesideANamedCauseIsToldToo() {
+        val case = blind(196_075).single()
+        assertEquals(setOf(HiddenEffect.TIME_VARYING, HiddenEffect.HYSTERESIS), case.truth.effects.keys)
+        assertTrue(case.bothFound, Scores(listOf(case)).markdown())
+    }
+
     /** Seed 150128 hides a dead time, 150120 nothing. */
     @Test
     fun aTwinIsTheSameLogWithoutTheEffect() {

@@ -176,6 +176,12 @@ internal class Scores(private val cases: List<ScoredCase>) {
                 "${gains.size} cases ${percent(median(gains.map { it.gain / it.possibleGain }))}; at least 85 % in " +
                 "${share(gains) { it.gain >= 0.85 * it.possibleGain }}; ${strong.size - gains.size} left out) |",
         )
+        val lags = cases.filter { it.isEmpty && it.answer.timeConstant != null }
+        appendLine(
+            "| interval of 95 % of the time constant holds it, no-effect cases | ${share(lags) {
+                it.truth.timeConstant in checkNotNull(it.answer.timeConstant)
+            }} |",
+        )
         appendLine("\nPower: share of single effects named correctly, by strength over the detectable size.\n")
         appendLine("| cause | 0.25 to 0.5 | 0.5 to 1 | 1 to 2 | 2 to 4 |\n| --- | --- | --- | --- | --- |")
         for (effect in HiddenEffect.entries.filter { it.listed }) {
