@@ -8,6 +8,7 @@ import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.property.drawn
 import stillwater.property.forEvery
+import kotlin.math.pow
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
@@ -22,10 +23,6 @@ class StayWindowTest {
         private val medians = MedianWindow(settings.medianWindow)
         private val slopes = SlopeWindow(settings.slopeWindow)
         private var last = Grid.OUTSIDE
-
-        /** Slopes that are no farther from ±ε than rounding may have put them. */
-        var ties = 0
-            private set
 
         fun take(x: Double, seconds: Double, value: Double) {
             val cell = grid.cellAt(x, 0.5)
@@ -43,7 +40,6 @@ class StayWindowTest {
             slopes.add(medians.time, medians.median)
             if (!slopes.full) return
             val slope = slopes.slope()
-            if (kotlin.math.abs(kotlin.math.abs(slope) - settings.epsilon) < 1e-15) ties++
             if (slope > settings.epsilon && value > map.lower(cell)) {
                 if (value > map.upper(cell)) map.countConflict(cell)
                 believe(cell, value, map.upper(cell))
@@ -79,8 +75,38 @@ class StayWindowTest {
     }
 
     @Test
-    fun decidesAsTheSlopeOfItsWindows() {
-        var ties = 0
+    fun rampsAsSteepAsEpsilonAreDecidedByTheSlopeItself() {
+        val answers = IntArray(3)
+        forEvery(drawn { it.nextLong() }, cases = 2000) { seed ->
+            val random = Random(seed)
+            // Steps that no sum of them rounds, and of any size, as the values are.
+            val step = random.nextInt(1, 64) * 2.0.pow(if (random.nextBoolean()) 0 else random.nextInt(-400, 400))
+            val scale = 10.0.pow(if (random.nextBoolean()) 0 else random.nextInt(-320, 300))
+            val rate = random.nextDouble() * scale / step
+            val epsilon = if (rate <= Double.MAX_VALUE) rate else 0.0
+            val offset = random.nextDouble() * scale
+            val window = StayWindow(epsilon)
+            val medians = MedianWindow(StayWindow.MEDIANS)
+            val slopes = SlopeWindow(StayWindow.SLOPES)
+            // A ramp and a number of last digits, back and forth for longer than the window holds.
+            for (i in 0 until 150) {
+                val even = if (i / 30 % 2 == 0) i % 30 else 30 - i % 30
+                val value = offset + even * (epsilon * step)
+                val near = value + random.nextInt(-1, 2) * Math.ulp(value)
+                if (i == 0) window.pace(step, 100 * scale)
+                medians.add(i * step, near)
+                if (medians.full) slopes.add(medians.time, medians.median)
+                val slope = if (slopes.full) slopes.slope() else 0.0
+                val expected = if (slope > epsilon) 1 else if (slope < -epsilon) -1 else 0
+                assertEquals(expected, window.add(i * step, near), "$seed, reading $i")
+                answers[expected + 1]++
+            }
+        }
+        assertTrue(answers.all { it > 10_000 }, answers.joinToString())
+    }
+
+    @Test
+    fun mapsAreThoseOfTheSlopes() {
         var conflicts = 0
         forEvery(drawn { it.nextLong() }, cases = 600) { seed ->
             val random = Random(seed)
@@ -94,10 +120,8 @@ class StayWindowTest {
             val filter = BoundedFilter(grid, Interval.UNIT, settings)
             play(random, scale, filter, book)
             assertSame(book.map, filter.map)
-            ties += if (scale == 1.0) book.ties else 0
             conflicts += book.map.conflicts(1)
         }
-        assertTrue(ties > 1000, "$ties")
         assertTrue(conflicts > 1000, "$conflicts")
     }
 
