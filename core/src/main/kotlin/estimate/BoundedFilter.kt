@@ -112,8 +112,7 @@ public class BoundedFilter(
         if (!medians.full) return 0
         slopes.add(medians.time, medians.median)
         if (!slopes.full) return 0
-        val slope = slopes.slope()
-        return if (slope > epsilon) 1 else if (slope < -epsilon) -1 else 0
+        return StayWindow.direction(slopes.slope(), epsilon)
     }
 
     private fun learn(cell: Int, value: Double, direction: Int) {

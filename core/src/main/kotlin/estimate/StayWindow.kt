@@ -110,8 +110,7 @@ internal class StayWindow(private val epsilon: Double) {
             val at = if (i < oldest) i + SLOPES else i
             slope.add(times[at + 1], medians[at + 2])
         }
-        val exact = slope.slope()
-        return if (exact > epsilon) 1 else if (exact < -epsilon) -1 else 0
+        return direction(slope.slope(), epsilon)
     }
 
     /** Drops the oldest readings, some fives of them, so that sums keep their order. */
@@ -132,6 +131,13 @@ internal class StayWindow(private val epsilon: Double) {
 
         /** The first reading that has a slope. */
         const val FIRST: Int = MEDIANS + SLOPES - 2
+
+        /** 1 where [slope] is above [epsilon], −1 where it is below −[epsilon], else 0. */
+        fun direction(slope: Double, epsilon: Double): Int = when {
+            slope > epsilon -> 1
+            slope < -epsilon -> -1
+            else -> 0
+        }
 
         /** Readings it holds, and as many of them as are dropped when it is full. */
         private const val CAPACITY = 64

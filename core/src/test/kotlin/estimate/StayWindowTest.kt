@@ -97,7 +97,7 @@ class StayWindowTest {
                 medians.add(i * step, near)
                 if (medians.full) slopes.add(medians.time, medians.median)
                 val slope = if (slopes.full) slopes.slope() else 0.0
-                val expected = if (slope > epsilon) 1 else if (slope < -epsilon) -1 else 0
+                val expected = (if (slope > epsilon) 1 else 0) - (if (slope < -epsilon) 1 else 0)
                 assertEquals(expected, window.add(i * step, near), "$seed, reading $i")
                 answers[expected + 1]++
             }
@@ -111,7 +111,13 @@ class StayWindowTest {
         forEvery(drawn { it.nextLong() }, cases = 600) { seed ->
             val random = Random(seed)
             // From where products vanish to where they overflow, but mostly neither.
-            val scale = if (random.nextInt(3) > 0) 1.0 else listOf(1e-310, 1e-160, 1e-30, 1e40, 1e60, 1e160).random(random)
+            val scale = if (random.nextInt(3) >
+                0
+            ) {
+                1.0
+            } else {
+                listOf(1e-310, 1e-160, 1e-30, 1e40, 1e60, 1e160).random(random)
+            }
             val settings = BoundedFilterSettings(
                 epsilon = listOf(0.0, 0.0005, 0.002, 0.02).random(random) * scale,
                 clearOnEntry = random.nextInt(3) > 0,
