@@ -29,11 +29,16 @@ open class FilterBenchmark {
 
     @Benchmark
     @OperationsPerInvocation(MOVES * Survey.SAMPLES)
-    fun update(): FieldEstimator {
+    fun update(): FieldEstimator = estimator().also { survey.read(it) }
+
+    /** The same readings, those of a move together, as an experiment hands them over. */
+    @Benchmark
+    @OperationsPerInvocation(MOVES * Survey.SAMPLES)
+    fun updateAll(): FieldEstimator = estimator().also { survey.readMoves(it) }
+
+    private fun estimator(): FieldEstimator {
         val kind = FilterKind.entries.first { it.label == filter }
-        val estimator = kind.estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
-        survey.read(estimator)
-        return estimator
+        return kind.estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
     }
 
     private companion object {

@@ -29,6 +29,8 @@ internal class Survey(val grid: Grid, moves: Int) {
     val xs = DoubleArray(size)
     val ys = DoubleArray(size)
     val values = DoubleArray(size)
+    private val moveTimes = DoubleArray(SAMPLES)
+    private val moveValues = DoubleArray(SAMPLES)
 
     init {
         val field: CellField = UniformField.draw(grid, Random(SEED))
@@ -53,7 +55,18 @@ internal class Survey(val grid: Grid, moves: Int) {
         for (i in 0 until size) estimator.update(BoatTime(i.toDouble()), xs[i], ys[i], values[i], Conditions.NONE)
     }
 
-    /** The same, and after each cell's readings asks for the map and has [look] at the boat's cell there. */
+    /** The same, each cell's readings in one call; to copy them for it is in the time. */
+    fun readMoves(estimator: FieldEstimator) {
+        for (first in 0 until size step SAMPLES) {
+            for (i in 0 until SAMPLES) {
+                moveTimes[i] = (first + i).toDouble()
+                moveValues[i] = values[first + i]
+            }
+            estimator.updateAll(moveTimes, xs[first], ys[first], moveValues, SAMPLES)
+        }
+    }
+
+    /** Hands over reading by reading, and after each cell's readings asks for the map and has [look] at the boat's cell there. */
     inline fun read(estimator: FieldEstimator, look: (map: FieldMap, cell: Int) -> Unit) {
         for (i in 0 until size) {
             estimator.update(BoatTime(i.toDouble()), xs[i], ys[i], values[i], Conditions.NONE)

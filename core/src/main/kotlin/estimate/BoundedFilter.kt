@@ -70,30 +70,57 @@ public class BoundedFilter(
     prior: Interval,
     public val settings: BoundedFilterSettings,
 ) : CellEstimator(grid, prior) {
+    private val epsilon = settings.epsilon
     private val medians = MedianWindow(settings.medianWindow)
     private val slopes = SlopeWindow(settings.slopeWindow)
-    private val epsilon = settings.epsilon
+
+    /** In place of both where they have the report's sizes; null where they have others. */
+    private val stay = if (medians.size == StayWindow.MEDIANS && slopes.size == StayWindow.SLOPES) {
+        StayWindow(epsilon)
+    } else {
+        null
+    }
+
+    override fun pace(step: Double, largest: Double) {
+        stay?.pace(step, largest)
+    }
 
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
-        if (entered && settings.clearOnEntry) {
-            medians.clear()
-            slopes.clear()
-        }
-        medians.add(seconds, value)
-        if (!medians.full) return
-        slopes.add(medians.time, medians.median)
-        if (!slopes.full) return
-        val slope = slopes.slope()
-        if (slope > epsilon) {
-            raiseLower(cell, value)
-        } else if (slope < -epsilon) {
-            lowerUpper(cell, value)
-        }
+        if (entered && settings.clearOnEntry) clear()
+        learn(cell, value, if (stay != null) stay.add(seconds, value) else direction(seconds, value))
     }
 
     override fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
         map.countReadings(cell, count)
-        for (i in 0 until count) take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
+        if (stay != null && entered && settings.clearOnEntry && stay.addAll(times, values, count)) {
+            for (i in StayWindow.FIRST until count) learn(cell, values[i], stay.direction(i))
+        } else {
+            stay?.pace(Double.NaN, 0.0)
+            for (i in 0 until count) take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
+        }
+    }
+
+    private fun clear() {
+        stay?.clear()
+        medians.clear()
+        slopes.clear()
+    }
+
+    /** Which way the sensor goes: 1 where the slope is above ε, −1 where it is below −ε, else 0. */
+    private fun direction(seconds: Double, value: Double): Int {
+        medians.add(seconds, value)
+        if (!medians.full) return 0
+        slopes.add(medians.time, medians.median)
+        if (!slopes.full) return 0
+        return StayWindow.direction(slopes.slope(), epsilon)
+    }
+
+    private fun learn(cell: Int, value: Double, direction: Int) {
+        if (direction > 0) {
+            raiseLower(cell, value)
+        } else if (direction < 0) {
+            lowerUpper(cell, value)
+        }
     }
 
     private fun raiseLower(cell: Int, value: Double) {

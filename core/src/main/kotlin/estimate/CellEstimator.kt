@@ -29,8 +29,9 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     private var lastCell = Grid.OUTSIDE
     private var placeX = Double.NaN
     private var placeY = Double.NaN
-    private var placeCell = Grid.OUTSIDE
     private var lastSeconds = Double.NEGATIVE_INFINITY
+    private var step = Double.NaN
+    private var largest = 0.0
 
     final override fun update(
         time: BoatTime,
@@ -39,44 +40,88 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         value: Double,
         conditions: Conditions,
     ): ReadingUse {
-        if (!time.seconds.isFinite() || !x.isFinite() || !y.isFinite() || !value.isFinite()) {
+        val seconds = time.seconds
+        val stays = x == placeX && y == placeY
+        if (!stays || seconds - lastSeconds != step || !(abs(value) <= largest)) {
+            return updateUnlike(seconds, x, y, value, conditions)
+        }
+        // Where it was, later by as much as the last one, and no larger than any: finite, in order and in the same cell.
+        lastSeconds = seconds
+        written.countReading(lastCell)
+        take(lastCell, false, seconds, value, conditions)
+        return ReadingUse.USED
+    }
+
+    /** Takes a reading that is not like those before, or not usable. */
+    private fun updateUnlike(
+        seconds: Double,
+        x: Double,
+        y: Double,
+        value: Double,
+        conditions: Conditions,
+    ): ReadingUse {
+        if (!seconds.isFinite() || !x.isFinite() || !y.isFinite() || !value.isFinite()) {
             written.countRejected()
-            noticeMove(time, x, y)
+            noticeMove(seconds, x, y)
             return ReadingUse.NOT_FINITE
         }
-        if (time.seconds < lastSeconds) {
+        if (seconds < lastSeconds) {
             written.countRejected()
             return ReadingUse.OUT_OF_ORDER
         }
-        lastSeconds = time.seconds
-        val cell = cellAt(x, y)
+        val newStep = seconds - lastSeconds
+        lastSeconds = seconds
+        val cell = grid.cellAt(x, y)
         if (cell == Grid.OUTSIDE) {
-            if (lastCell != Grid.OUTSIDE) leave()
-            lastCell = Grid.OUTSIDE
+            if (lastCell != Grid.OUTSIDE) leaveCell()
+            step = Double.NaN
             written.countOutside()
             return ReadingUse.OUTSIDE
         }
+        noticePace(newStep, abs(value))
+        val entered = comeTo(cell, x, y)
+        written.countReading(cell)
+        take(cell, entered, seconds, value, conditions)
+        return ReadingUse.USED
+    }
+
+    /** Notices that the boat is at ([x], [y]) in [cell]. Whether it entered that. */
+    private fun comeTo(cell: Int, x: Double, y: Double): Boolean {
+        placeX = x
+        placeY = y
         val entered = cell != lastCell
         lastCell = cell
         if (entered) written.countVisit(cell)
-        written.countReading(cell)
-        take(cell, entered, time.seconds, value, conditions)
-        return ReadingUse.USED
+        return entered
+    }
+
+    /** Notices that the boat is no longer in the last cell, nor known to be in another. */
+    private fun leaveCell() {
+        lastCell = Grid.OUTSIDE
+        placeX = Double.NaN
+        leave()
+    }
+
+    /** Notices that a reading came [newStep] s after the last one, and is [size] from 0, sensor units. */
+    private fun noticePace(newStep: Double, size: Double) {
+        if (newStep == step && size <= largest) return
+        step = if (newStep <= Double.MAX_VALUE) newStep else Double.NaN
+        // Twice as large, so that a value that keeps growing seldom comes here.
+        if (size > largest) largest = minOf(2 * size, Double.MAX_VALUE)
+        pace(step, largest)
     }
 
     /** How far the place of the reading that is being taken is from its cell's border, m. */
     protected fun distanceToBorder(): Double = grid.distanceToBorder(placeX, placeY)
 
     final override fun updateAll(times: DoubleArray, x: Double, y: Double, values: DoubleArray, count: Int) {
-        val cell = if (x.isFinite() && y.isFinite()) cellAt(x, y) else Grid.OUTSIDE
+        val cell = if (x.isFinite() && y.isFinite()) grid.cellAt(x, y) else Grid.OUTSIDE
         if (cell == Grid.OUTSIDE || !canAllBeUsed(times, values, count)) {
             return super.updateAll(times, x, y, values, count)
         }
         lastSeconds = times[count - 1]
-        val entered = cell != lastCell
-        lastCell = cell
-        if (entered) written.countVisit(cell)
-        takeAll(cell, entered, times, values, count)
+        step = Double.NaN
+        takeAll(cell, comeTo(cell, x, y), times, values, count)
     }
 
     /** Whether there is a reading, and all are finite and in order. */
@@ -90,22 +135,10 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         return true
     }
 
-    /** A boat that stays, or a fix that is repeated: the same place is the same cell. */
-    private fun cellAt(x: Double, y: Double): Int {
-        if (x != placeX || y != placeY) {
-            placeX = x
-            placeY = y
-            placeCell = grid.cellAt(x, y)
-        }
-        return placeCell
-    }
-
     /** Notices that the boat left the last cell from a reading that has no value but a time and a place. */
-    private fun noticeMove(time: BoatTime, x: Double, y: Double) {
-        if (!time.seconds.isFinite() || time.seconds < lastSeconds || !x.isFinite() || !y.isFinite()) return
-        if (lastCell == Grid.OUTSIDE || grid.cellAt(x, y) == lastCell) return
-        lastCell = Grid.OUTSIDE
-        leave()
+    private fun noticeMove(seconds: Double, x: Double, y: Double) {
+        if (!seconds.isFinite() || seconds < lastSeconds || !x.isFinite() || !y.isFinite()) return
+        if (lastCell != Grid.OUTSIDE && grid.cellAt(x, y) != lastCell) leaveCell()
     }
 
     /**
@@ -113,6 +146,16 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
      * reading taken and the next is not known.
      */
     protected open fun leave() {}
+
+    /**
+     * Notices that readings come at another step than before, or that one is larger than all before. Told before the
+     * reading is taken: it came [step] s after the last, and so do those that [take] gets after it, one by one, until it
+     * is told anew. Of readings that come together, and of the first one after them, nothing that was told holds.
+     *
+     * @param step time since the last reading, s, at least 0; NaN where there is none, or it is not finite.
+     * @param largest no reading is farther from 0, sensor units; finite.
+     */
+    protected open fun pace(step: Double, largest: Double) {}
 
     /**
      * Takes a reading that is finite, in order and in the grid.

@@ -72,10 +72,11 @@ public class MedianWindow(public val size: Int) {
         sorted[place] = value
     }
 
-    private companion object {
+    internal companion object {
         /** The report's window, for which nothing need be kept in order. */
-        const val THREE = 3
+        private const val THREE = 3
 
+        /** The median of three. */
         fun middle(a: Double, b: Double, c: Double): Double = if (a < b) {
             if (c < a) {
                 a
