@@ -159,7 +159,15 @@ public class Diagnosis(
 
     /** The weighing of all causes on top of [base], where [spikes] are left out of and the reference was [late] s late. */
     private fun weighing(base: ModelFit, spikes: List<Int>, late: Double) =
-        Weighing(CauseSearch(base.model.series, base.model.scales, used, settings), base, used, spikes, settings, late, ::tell)
+        Weighing(
+            CauseSearch(base.model.series, base.model.scales, used, settings),
+            base,
+            used,
+            spikes,
+            settings,
+            late,
+            ::tell,
+        )
 
     /**
      * The base model. How much a gap or a sharp front shakes the reading is told by the lag, and that by what is left

@@ -62,7 +62,9 @@ internal class ReferenceFaults(
 
     /** Twice the log-likelihood of a truth that the reference follows with a lag of [lag] s. */
     private fun led(lag: Double): Double = listOf(false, true).maxOf { held ->
-        val lead = series.withQuieter(if (held) steps(lag) else ReferenceLead.course(series, lag, base.model.scales.unknown?.isBroken))
+        val lead = series.withQuieter(
+            if (held) steps(lag) else ReferenceLead.course(series, lag, base.model.scales.unknown?.isBroken),
+        )
         val unknown = UnknownTruth.of(lead)
         val tau = base.numbers[ResponseModel.TIME_CONSTANT] +
             if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0

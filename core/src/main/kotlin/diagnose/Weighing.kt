@@ -153,7 +153,9 @@ internal class Weighing(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
             // How a log is sampled may do as much as a tenth of a row.
-            all.isEmpty() && late > SmallShifts.LEAST_ROWS * series.period -> Verdict.Unexplained(ReferenceLead.words(late))
+            all.isEmpty() && late > SmallShifts.LEAST_ROWS * series.period -> Verdict.Unexplained(
+                ReferenceLead.words(late),
+            )
             all.isEmpty() -> Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
