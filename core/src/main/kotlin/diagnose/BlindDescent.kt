@@ -103,6 +103,9 @@ internal class BlindDescent(search: BlindSearch, private val state: BlindState) 
         private const val ENOUGH = 0.02
         private const val STEP = 1e-3
 
+        /** Of the mean of two lags: how far from it either is at the least where derivatives are taken. */
+        const val APART = 0.25
+
         /** How what [model] shows changes with parameter [i] on the scale it is fitted on, length n. */
         fun derivative(model: ResponseModel, numbers: DoubleArray, i: Int): DoubleArray {
             val step = step(model, numbers, i)
@@ -113,6 +116,24 @@ internal class BlindDescent(search: BlindSearch, private val state: BlindState) 
             model.predict(numbers, before)
             for (r in after.indices) after[r] = (after[r] - before[r]) / step
             return after
+        }
+
+        /**
+         * [numbers] of [model] with two lags in a row that are nearly equal moved apart, their sum the same. Of equal
+         * ones the readings change with either in the same way, and how far one is off the other not at all to first
+         * order: derivatives there would say that neither shows, however much the two explain.
+         */
+        fun apart(model: ResponseModel, numbers: DoubleArray): DoubleArray {
+            val term = model.terms.firstOrNull { it.cause == Cause.SECOND_ORDER_RESPONSE } ?: return numbers
+            val slot = model.slotOrNull(term) ?: return numbers
+            val first = numbers[ResponseModel.TIME_CONSTANT]
+            val middle = (first + numbers[slot]) / 2
+            if (abs(first - middle) >= APART * middle) return numbers
+            val off = if (first < middle) -APART else APART
+            return numbers.copyOf().also {
+                it[ResponseModel.TIME_CONSTANT] = middle * (1 + off)
+                it[slot] = middle * (1 - off)
+            }
         }
 
         /** A small step of parameter [i] on the scale it is fitted on, within its range. */

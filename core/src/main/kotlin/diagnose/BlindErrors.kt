@@ -17,13 +17,16 @@ internal object BlindErrors {
         z: DoubleArray,
     ): DoubleArray {
         val free = search.free(model).let { f -> f.indices.filter { f[it] } }
-        val columns = free.map { fit.unlike(BlindDescent.derivative(model, numbers, it)) }.toTypedArray()
+        val apart = BlindDescent.apart(model, numbers)
+        val columns = free.map { fit.unlike(BlindDescent.derivative(model, apart, it)) }.toTypedArray()
         val system = SymmetricSystem.of(columns, z)
         val variance = squares(z) / fit.rows
         val errors = DoubleArray(numbers.size)
         free.forEachIndexed { k, i ->
             val inflation = BlindEvidence.inflation(listOf(columns[k]), z)
-            errors[i] = sqrt(maxOf(system.inverseDiagonal(k), 0.0) * variance * inflation)
+            val error = sqrt(maxOf(system.inverseDiagonal(k), 0.0) * variance * inflation)
+            // Lags that had to be moved apart are not known to be equal.
+            errors[i] = if (apart[i] == numbers[i]) error else maxOf(error, BlindDescent.APART)
         }
         return errors
     }

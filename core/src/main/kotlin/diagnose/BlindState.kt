@@ -65,7 +65,7 @@ internal class BlindState(
     }
 
     /** How fast what the model shows goes down with parameter [i] on the scale it is fitted on, length n. */
-    fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, numbers, i)
+    fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, BlindDescent.apart(model, numbers), i)
 
     /** How far other noises were behind, for this or a state that it was found from. */
     var behind: Map<NoiseStep, NoiseLoss> = known

@@ -86,8 +86,47 @@ public class Diagnosis(
         // A place ahead by just what a held truth is ahead by is rather that.
         val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
         val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
-        return weighed.result().also { progress(1.0) }
+        return (led(weighed) ?: weighed).result().also { progress(1.0) }
     }
+
+    /**
+     * The weighing with a reference that is late by less than a row put right, where the log is then as likely without
+     * the shifts and second paths among what was chosen in [first]; null where it is not.
+     */
+    private fun led(first: Weighing): Weighing? {
+        // A wrong time constant that was given is put right by much the same.
+        if (settings.base != null || unknown.isSharp || series.isSparse) return null
+        val (shifts, kept) = first.chosen.partition { it.term.cause in ReferenceLead.ALIKE }
+        if (shifts.isEmpty()) return null
+        val least = ReferenceFaults.enough(first.explained, first.base.score) + NUMBER
+        // With a slow path beside it the time constant is that of the fast one.
+        val shocks = scales(first.base, false).shocks
+        val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
+        fun led(fit: ModelFit, rows: Double) = led(fit, tau, Scales(ahead(rows), shaken, shocks))
+        val (rows, best) = ReferenceLead.likeliest { led(first.last, it).score } ?: return null
+        if (best - kept.sumOf { it.cost } < least) return null
+        val second = weighing(led(first.base, rows), first.spikes, rows * series.period)
+        return second.takeIf { it.explained >= least }
+    }
+
+    /** [fit] without shifts and second paths, begun from a lag of [tau] s, to what [scales] have in place of this log. */
+    private fun led(fit: ModelFit, tau: Double, scales: Scales): ModelFit {
+        val terms = fit.model.terms.filter { it.cause !in ReferenceLead.ALIKE }
+        val model = ResponseModel(scales.series, terms, false, scales)
+        val start = fit.numbers.copyOf(model.parameters.size)
+        start[ResponseModel.TIME_CONSTANT] = tau
+        val free = BooleanArray(start.size) { it >= ResponseModel.BASE || fit.free[it] }
+        for (term in terms) {
+            val from = fit.model.slotOrNull(term) ?: continue
+            for (k in 0 until model.width(term)) start[model.slot(term) + k] = fit.numbers[from + k]
+        }
+        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, scales.shocks)
+        return Fitting.fit(model, start, free, used, longest, guess = guess)
+    }
+
+    /** This log with the truth that a reference with a lag of [rows] is late for. */
+    private fun ahead(rows: Double) =
+        series.withQuieter(ReferenceLead.course(series, rows * series.period, unknown.isBroken))
 
     /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
     private fun better(first: Weighing, margin: Double): Weighing {
@@ -115,9 +154,20 @@ public class Diagnosis(
                 Spikes.isSingle(settled.residuals, it)
         }
         spikes.forEach { used[it] = false }
-        val base = if (spikes.isEmpty()) settled else base(held, settled)
-        return Weighing(CauseSearch(series, base.model.scales, used, settings), base, used, spikes, settings, ::tell)
+        return weighing(if (spikes.isEmpty()) settled else base(held, settled), spikes, 0.0)
     }
+
+    /** The weighing of all causes on top of [base], where [spikes] are left out of and the reference was [late] s late. */
+    private fun weighing(base: ModelFit, spikes: List<Int>, late: Double) =
+        Weighing(
+            CauseSearch(base.model.series, base.model.scales, used, settings),
+            base,
+            used,
+            spikes,
+            settings,
+            late,
+            ::tell,
+        )
 
     /**
      * The base model. How much a gap or a sharp front shakes the reading is told by the lag, and that by what is left
@@ -201,6 +251,9 @@ public class Diagnosis(
         /** Twice the log-likelihood by which steps must look held. */
         const val HELD = 6.0
         const val SETTLING = 2
+
+        /** Twice the log-likelihood that a number gains by chance. */
+        const val NUMBER = 2.0
 
         /** Twice the log-likelihood by which readings must look late before they are shaken later. */
         const val SHAKEN = 25.0

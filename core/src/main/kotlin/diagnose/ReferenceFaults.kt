@@ -33,10 +33,8 @@ internal class ReferenceFaults(
         val isLate = ahead > SmallShifts.LEAST_ROWS * series.period && late.pValue * tried < level && late.foretells &&
             late.fit.score - late.cost >= explained
         return when {
-            isLate ->
-                "the readings are ahead of the reference by %.2g s: its clock is behind, or it has a lag of its own"
-                    .format(Locale.ROOT, ahead)
-            isTwoPath && slowest.second >= explained - minOf(WITHIN_ROWS * (explained - base.score), FAR_LIKELIER) ->
+            isLate -> ReferenceLead.words(ahead)
+            isTwoPath && slowest.second >= enough(explained, base.score) ->
                 "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
                     "own, of about %.2g s".format(Locale.ROOT, slowest.first)
             explained > base.score && smoothest() >= explained ->
@@ -64,7 +62,9 @@ internal class ReferenceFaults(
 
     /** Twice the log-likelihood of a truth that the reference follows with a lag of [lag] s. */
     private fun led(lag: Double): Double = listOf(false, true).maxOf { held ->
-        val lead = series.withQuieter(if (held) steps(lag) else course(lag))
+        val lead = series.withQuieter(
+            if (held) steps(lag) else ReferenceLead.course(series, lag, base.model.scales.unknown?.isBroken),
+        )
         val unknown = UnknownTruth.of(lead)
         val tau = base.numbers[ResponseModel.TIME_CONSTANT] +
             if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0
@@ -82,20 +82,6 @@ internal class ReferenceFaults(
         return DoubleArray(reference.size) { i ->
             val follows = if (i == 0) 1.0 else -expm1(-(series.times[i] - series.times[i - 1]) / lag)
             if (i == 0) reference[0] else reference[i - 1] + (reference[i] - reference[i - 1]) / follows
-        }
-    }
-
-    /** What went on evenly while it did. */
-    private fun course(lag: Double): DoubleArray {
-        val reference = requireNotNull(series.reference) { "faults of a reference need one" }
-        val times = series.times
-        val curve = Spline(times, base.model.scales.unknown?.isBroken).also { it.fit(reference) }
-        val reach = series.period / NEAR
-        return DoubleArray(times.size) { i ->
-            val before = maxOf(times[i] - reach, times[0])
-            val after = minOf(times[i] + reach, times.last())
-            val rise = curve.at(minOf(i, times.size - 2), after) - curve.at(maxOf(i - 1, 0), before)
-            reference[i] + lag * rise / (after - before)
         }
     }
 
@@ -133,28 +119,33 @@ internal class ReferenceFaults(
 
     private fun isBeyond(times: DoubleArray, k: Int, way: Int, gap: Double) = (times[k] - times[k - way]) * way > gap
 
-    private companion object {
+    companion object {
+        /**
+         * What a reference that is late need explain in the place of causes that are worth [explained], where the model
+         * without either is worth [base]; twice log-likelihoods.
+         */
+        fun enough(explained: Double, base: Double): Double =
+            explained - minOf(WITHIN_ROWS * (explained - base), FAR_LIKELIER)
+
         /** Of the windows, in rows. */
-        val WIDTHS = listOf(0.7, 1.5, 3.0, 6.0)
-        const val REACH = 3.0
+        private val WIDTHS = listOf(0.7, 1.5, 3.0, 6.0)
+        private const val REACH = 3.0
 
         /** Of lags of the reference that are tried first, in rows. */
-        const val SHORTEST_LAG = 0.5
-        const val LONGEST_LAG = 32.0
-        const val LAGS = 7
-        const val REFINEMENTS = 4
+        private const val SHORTEST_LAG = 0.5
+        private const val LONGEST_LAG = 32.0
+        private const val LAGS = 7
+        private const val REFINEMENTS = 4
 
         /** Of what causes explain: what the truth does within rows, which is not known, may make up so much. */
-        const val WITHIN_ROWS = 0.02
+        private const val WITHIN_ROWS = 0.02
 
         /** Twice a log-likelihood ratio beyond which nothing makes up for it. */
-        const val FAR_LIKELIER = 30.0
+        private const val FAR_LIKELIER = 30.0
 
-        /** Of a row: how near the two places are between which the reference's slope is taken. */
-        const val NEAR = 100
-        const val GAP = 3.0
+        private const val GAP = 3.0
 
         /** Twice the log-likelihood that one number and the choice among the windows gain by chance. */
-        const val CHANCE = 4.0
+        private const val CHANCE = 4.0
     }
 }

@@ -10,13 +10,15 @@ import kotlin.math.sqrt
  * The weighing of all causes on top of [base], a model without them.
  *
  * @param used rows that are fitted. @param spikes rows that are not, because they are far off by themselves.
+ * @param late by how much the reference was late, s, before it was put right; 0 where it was not.
  */
 internal class Weighing(
     private val search: CauseSearch,
-    private val base: ModelFit,
+    val base: ModelFit,
     private val used: BooleanArray,
-    private val spikes: List<Int>,
+    val spikes: List<Int>,
     private val settings: DiagnosisSettings,
+    private val late: Double,
     told: (Int) -> Unit,
 ) {
     private val series = base.model.series
@@ -101,6 +103,7 @@ internal class Weighing(
                     "constant half a step shorter.",
             )
         }
+        if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         val off = spikes.size
         if (off > 0) add("$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits.")
     }
@@ -148,6 +151,10 @@ internal class Weighing(
             structured && left.ratio > LEFT * least -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
+            )
+            // How a log is sampled may do as much as a tenth of a row.
+            all.isEmpty() && late > SmallShifts.LEAST_ROWS * series.period -> Verdict.Unexplained(
+                ReferenceLead.words(late),
             )
             all.isEmpty() -> Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)

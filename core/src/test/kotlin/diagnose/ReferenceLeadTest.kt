@@ -1,0 +1,56 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertIs
+import kotlin.test.assertTrue
+
+/** A reference with a lag of a fraction of a row is fast, and yet late: that must not become a cause of the sensor's. */
+class ReferenceLeadTest {
+    private val n = 900
+    private val random = java.util.Random(5)
+
+    /** What is to be said of it; the lag is looked for in steps of a twentieth. */
+    private val late = Regex("ahead of the reference by 0\\.(19|20|21) s")
+
+    private fun water(time: Double) = 5 + sin(time / 9) + 0.7 * sin(time / 23 + 1) + 0.3 * sin(time / 4.1 + 2)
+
+    /** What a lag of [lag] s shows of the water each second, stepped a hundred times as often. */
+    private fun shown(lag: Double): DoubleArray {
+        var state = water(0.0)
+        return DoubleArray(n) { row ->
+            if (row > 0) {
+                for (k in 0 until 100) state += (1 - exp(-0.01 / lag)) * (water(row - 1 + (k + 0.5) / 100) - state)
+            }
+            state
+        }
+    }
+
+    /** A sensor with a lag of [lag] s that drifts by [drift] sensor units a second beside a reference with one of 0.2 s. */
+    private fun diagnosed(lag: Double, drift: Double): DiagnosisResult {
+        val times = DoubleArray(n) { it.toDouble() }
+        val values = shown(lag)
+        for (i in values.indices) values[i] += drift * times[i] + 0.005 * random.nextGaussian()
+        val reference = shown(0.2)
+        for (i in reference.indices) reference[i] += 0.0005 * random.nextGaussian()
+        return Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, reference)).run()
+    }
+
+    @Test
+    fun aReferenceThatIsLateByAFractionOfARowIsNoSecondPath() {
+        val result = diagnosed(2.3, 0.0)
+        val reason = assertIs<Verdict.Unexplained>(result.verdict, "${result.verdict}").what
+        assertContains(reason, late)
+        assertEquals(2.3, result.baseline.parameters.first { it.name == "time_constant_s" }.value, 0.05)
+    }
+
+    @Test
+    fun whatIsThereBesideAReferenceThatIsLateIsNamedAlone() {
+        val result = diagnosed(2.3, 3e-5)
+        assertEquals(Verdict.Named(listOf(Cause.DRIFT)), result.verdict)
+        assertTrue(result.warnings.any { late in it }, "${result.warnings}")
+    }
+}
