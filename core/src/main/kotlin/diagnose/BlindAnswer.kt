@@ -36,11 +36,9 @@ internal class BlindAnswer(
         }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
-        // A drift or a jump that was chosen is held against such water already.
-        val isChanged = sets.none { Cause.TIME_VARYING_FIELD in it } && end.changed > CHANGED
         val all = sets + listOfNotNull(
-            // Alone it is said and not named: real water is never quite still.
-            listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT).takeIf { isChanged && chosen.isNotEmpty() },
+            // A drift or a jump that was chosen is held against such water already.
+            changes(end.changed).takeIf { sets.none { set -> Cause.TIME_VARYING_FIELD in set } },
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
         )
@@ -71,12 +69,18 @@ internal class BlindAnswer(
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
-            warnings(left.first(), isNamed) + listOfNotNull(CHANGES.takeIf { isChanged && chosen.isEmpty() }) +
-                cautions(chosen).takeIf { isNamed }.orEmpty() +
+            warnings(left.first(), isNamed) + cautions(chosen).takeIf { isNamed }.orEmpty() +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
             lag = lag.channel(""),
         )
+    }
+
+    /** What may be where water that changes in time is worth [changed]; null where it is worth too little. */
+    private fun changes(changed: Double): List<Cause>? = when {
+        changed > BEYOND_JUMPS -> listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT)
+        changed > CHANGED -> listOf(Cause.TIME_VARYING_FIELD) + BlindDiagnosis.SLOW
+        else -> null
     }
 
     /**
@@ -186,7 +190,7 @@ internal class BlindAnswer(
             add("Rounding to steps of ${three(rounding.step)} is most of what the readings scatter from row to row.")
         }
         val off = outliers.rows.size
-        if (off > 0) add("$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits.")
+        if (off > 0) add("${farOff(off)} and left out of the fits.")
     }
 
     private fun asFit(state: BlindState) = ModelFit(
@@ -312,9 +316,9 @@ internal class BlindAnswer(
          * 194000 to 197079).
          */
         private const val CHANGED = 25.0
-        private const val CHANGES =
-            "The log is clearly likelier where the water, or the sensor's zero, is let change " +
-                "while it was measured."
+
+        /** The same beyond which a jump would have been sure by itself, wherever it is. */
+        private const val BEYOND_JUMPS = 40.0
 
         /** Causes that halves of a log do not contradict: what happens once, and steps that all readings are on. */
         private val NOT_HALVED = BlindDiagnosis.SLOW + Cause.QUANTISATION
@@ -333,8 +337,10 @@ internal class BlindAnswer(
 
         private fun three(value: Double) = "%.3g".format(java.util.Locale.ROOT, value)
 
-        /** The result for a log that cannot show anything, because of [why]. */
-        fun none(series: MeasuredSeries, why: String): DiagnosisResult {
+        private fun farOff(count: Int) = "$count single reading${if (count == 1) " is" else "s are"} far off"
+
+        /** The result for a log that cannot show anything, because of [why], but that the rows [off] are far off. */
+        fun none(series: MeasuredSeries, why: String, off: List<Int> = emptyList()): DiagnosisResult {
             val nothing = ModelAssessment(
                 emptyList(),
                 0.0,
@@ -355,8 +361,8 @@ internal class BlindAnswer(
                 null,
                 null,
                 emptyList(),
-                emptyList(),
-                emptyList(),
+                off,
+                listOfNotNull("${farOff(off.size)} the readings beside.".takeIf { off.isNotEmpty() }),
             )
         }
     }

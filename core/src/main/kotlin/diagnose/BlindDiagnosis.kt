@@ -37,6 +37,8 @@ internal class BlindDiagnosis(
                 series,
                 "no pass comes within $near ${series.placeUnit} of another, so that nothing tells the water's own " +
                     "changes from what the sensor makes of them",
+                // Single readings stick out of those beside them, whether or not the boat comes back.
+                BlindOutliers(base).rows,
             )
         }
         val loose = BlindOutliers(base)

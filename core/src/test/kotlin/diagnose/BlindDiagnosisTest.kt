@@ -225,9 +225,17 @@ class BlindDiagnosisTest {
             listOf(SensorStage.Lag(5.0), SensorStage.Noise(0.004)),
         ).build(water[0], Random(7))
         val values = DoubleArray(n) { sensor.step(water[it], 1.0, Conditions.NONE) }
-        val tow = MeasuredSeries(DoubleArray(n) { it.toDouble() }, line, bent, values, null)
-        val verdict = assertIs<Verdict.InsufficientData>(Diagnosis(tow).run().verdict)
-        assertContains(verdict.why, "no pass comes within")
+        val times = DoubleArray(n) { it.toDouble() }
+        val tow = Diagnosis(MeasuredSeries(times, line, bent, values, null)).run()
+        assertContains(assertIs<Verdict.InsufficientData>(tow.verdict).why, "no pass comes within")
+        assertEquals(emptyList(), tow.spikes)
+        // Wild readings need no second pass to show.
+        val wild = listOf(100, 230, 377, 512, 640)
+        wild.forEach { values[it] += 0.2 }
+        val spiky = Diagnosis(MeasuredSeries(times, line, bent, values, null)).run()
+        assertIs<Verdict.InsufficientData>(spiky.verdict)
+        assertEquals(wild, spiky.spikes)
+        assertContains(spiky.warnings, "5 single readings are far off the readings beside.")
     }
 
     /** Two places far apart, at which the boat mostly stands: the shortest waves would be a millionth of the way. */

@@ -92,8 +92,12 @@ class Diagnosed(
         return if (isGiven || tau == null || lowest <= 0) "" else ", beside the lag of ${number(tau)} itself"
     }
 
-    private fun open(set: List<Cause>) =
+    private fun open(set: List<Cause>) = if (!isGiven && set.toSet() == LAG) {
+        // Which kind of lag it is is open; that there is one is what a slow sensor's owner knows, and no fault.
+        "The readings lag the water, by a time constant or by a dead time; this track cannot tell which."
+    } else {
         "One of ${set.joinToString(", ") { it.label }} is at work; this track cannot tell which."
+    }
 
     private fun sentence(cause: Cause): String {
         val parameters = result.effects.firstOrNull { it.cause == cause }?.parameters
@@ -189,5 +193,8 @@ class Diagnosed(
 
         /** The end of a range that was not found stands beyond this. */
         const val NO_END = 1e11
+
+        /** The kinds of a lag. */
+        val LAG = setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
     }
 }

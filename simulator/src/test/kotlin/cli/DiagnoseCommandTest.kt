@@ -185,7 +185,10 @@ class DiagnoseCommandTest {
         val residuals = Regex("""residuals [0-9.]+ mg/L, on held-out blocks [0-9.]+ mg/L \(root mean square\)""")
         assertContains(result.stdout, residuals)
         assertContains(result.stdout, "verdict: unexplained")
-        assertContains(result.stdout, "One of time-constant, dead-time is at work; this track cannot tell which.")
+        assertContains(
+            result.stdout,
+            "The readings lag the water, by a time constant or by a dead time; this track cannot",
+        )
         assertContains(result.stderr, "The readings lag the water by")
         val json = Json.parseToJsonElement(Files.readString(out.resolve("diagnosis.json"))).jsonObject
         assertEquals("""[["time-constant","dead-time"]]""", "${json.getValue("ambiguity")}")
