@@ -36,9 +36,11 @@ internal class BlindAnswer(
         }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
+        // A drift or a jump that was chosen is held against such water already.
+        val isChangeTold = sets.any { Cause.TIME_VARYING_FIELD in it }
+        val isLikelyChange = chosen.isEmpty() && end.changed > CHANGED && end.changed <= CHANGED_ALONE
         val all = sets + listOfNotNull(
-            // A drift or a jump that was chosen is held against such water already.
-            changes(end.changed).takeIf { sets.none { set -> Cause.TIME_VARYING_FIELD in set } },
+            changes(end.changed, chosen).takeIf { it.isNotEmpty() && !isChangeTold },
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
         )
@@ -69,18 +71,30 @@ internal class BlindAnswer(
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
-            warnings(left.first(), isNamed) + cautions(chosen).takeIf { isNamed }.orEmpty() +
+            warnings(left.first(), isNamed) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
+                cautions(chosen).takeIf { isNamed }.orEmpty() +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
             lag = lag.channel(""),
         )
     }
 
-    /** What may be where water that changes in time is worth [changed]; null where it is worth too little. */
-    private fun changes(changed: Double): List<Cause>? = when {
-        changed > BEYOND_JUMPS -> listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT)
-        changed > CHANGED -> listOf(Cause.TIME_VARYING_FIELD) + BlindDiagnosis.SLOW
-        else -> null
+    /**
+     * What may be where water that changes in time is worth [changed] beside those [chosen]; empty where that is too
+     * little. Beside rounding nothing else can be looked for; alone it must be far more: fixes that jitter make passes
+     * disagree as well.
+     */
+    private fun changes(changed: Double, chosen: List<BlindStep>): List<Cause> {
+        val least = when {
+            chosen.isEmpty() -> CHANGED_ALONE
+            chosen.any { it.trial.term?.cause == Cause.QUANTISATION } -> Double.POSITIVE_INFINITY
+            else -> CHANGED
+        }
+        return when {
+            changed <= least -> emptyList()
+            changed > BEYOND_JUMPS -> listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT)
+            else -> listOf(Cause.TIME_VARYING_FIELD) + BlindDiagnosis.SLOW
+        }
     }
 
     /**
@@ -316,6 +330,12 @@ internal class BlindAnswer(
          * 194000 to 197079).
          */
         private const val CHANGED = 25.0
+
+        /** The same where nothing else is named: of 137 such logs one had 87 (205056). */
+        private const val CHANGED_ALONE = 100.0
+        private const val CHANGES =
+            "The log is likelier where the water, or the sensor's zero, is let change while it was measured: it may " +
+                "have changed."
 
         /** The same beyond which a jump would have been sure by itself, wherever it is. */
         private const val BEYOND_JUMPS = 40.0
