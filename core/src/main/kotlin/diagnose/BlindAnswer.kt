@@ -38,7 +38,7 @@ internal class BlindAnswer(
         val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
         // A drift or a jump that was chosen is held against such water already.
         val isChangeTold = sets.any { Cause.TIME_VARYING_FIELD in it }
-        val isLikelyChange = chosen.isEmpty() && end.changed > CHANGED && end.changed <= CHANGED_ALONE
+        val isLikelyChange = chosen.isEmpty() && end.changed > CHANGED
         val all = sets + listOfNotNull(
             changes(end.changed, chosen).takeIf { it.isNotEmpty() && !isChangeTold },
             listOf(Cause.OUTLIERS).takeIf { isLoose },
@@ -81,17 +81,13 @@ internal class BlindAnswer(
 
     /**
      * What may be where water that changes in time is worth [changed] beside those [chosen]; empty where that is too
-     * little. Beside rounding nothing else can be looked for; alone it must be far more: fixes that jitter make passes
-     * disagree as well.
+     * little. Beside rounding nothing else can be looked for. Alone it is said and not named: fixes that jitter make
+     * passes disagree as well, and real water is never quite still.
      */
     private fun changes(changed: Double, chosen: List<BlindStep>): List<Cause> {
-        val least = when {
-            chosen.isEmpty() -> CHANGED_ALONE
-            chosen.any { it.trial.term?.cause == Cause.QUANTISATION } -> Double.POSITIVE_INFINITY
-            else -> CHANGED
-        }
+        val isAsked = chosen.isNotEmpty() && chosen.none { it.trial.term?.cause == Cause.QUANTISATION }
         return when {
-            changed <= least -> emptyList()
+            !isAsked || changed <= CHANGED -> emptyList()
             changed > BEYOND_JUMPS -> listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT)
             else -> listOf(Cause.TIME_VARYING_FIELD) + BlindDiagnosis.SLOW
         }
@@ -331,8 +327,6 @@ internal class BlindAnswer(
          */
         private const val CHANGED = 25.0
 
-        /** The same where nothing else is named: of 137 such logs one had 87 (205056). */
-        private const val CHANGED_ALONE = 100.0
         private const val CHANGES =
             "The log is likelier where the water, or the sensor's zero, is let change while it was measured: it may " +
                 "have changed."

@@ -1,7 +1,5 @@
 package stillwater.diagnose
 
-import java.util.concurrent.atomic.AtomicReferenceArray
-
 /**
  * What a sensor whose parts are linear in the truth shows of many truths along one log, four of them at a time.
  *
@@ -29,11 +27,19 @@ internal class LinearResponse(
 
     /** The bends of truths that are shown again and again, kept by those that found them; for any number of threads. */
     class Bends(truths: Int) {
-        private val found = AtomicReferenceArray<Array<DoubleArray>>((truths + AT_ONCE - 1) / AT_ONCE)
+        private val found = arrayOfNulls<Array<DoubleArray>>((truths + AT_ONCE - 1) / AT_ONCE)
 
         /** Those of the [group]-th four, as [find] finds them. */
         fun of(group: Int, find: () -> Array<DoubleArray>): Array<DoubleArray> =
-            found[group] ?: find().also { found[group] = it }
+            known(group) ?: find().also { keep(group, it) }
+
+        @Synchronized
+        private fun known(group: Int) = found[group]
+
+        @Synchronized
+        private fun keep(group: Int, bends: Array<DoubleArray>) {
+            found[group] = bends
+        }
     }
 
     /**
