@@ -200,7 +200,7 @@ internal class BlindAnswer(
             add("Rounding to steps of ${three(rounding.step)} is most of what the readings scatter from row to row.")
         }
         val off = outliers.rows.size
-        if (off > 0) add("${farOff(off)} and left out of the fits.")
+        if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }
 
     private fun asFit(state: BlindState) = ModelFit(
@@ -351,8 +351,6 @@ internal class BlindAnswer(
 
         private fun three(value: Double) = "%.3g".format(java.util.Locale.ROOT, value)
 
-        private fun farOff(count: Int) = "$count single reading${if (count == 1) " is" else "s are"} far off"
-
         /** The result for a log that cannot show anything, because of [why], but that the rows [off] are far off. */
         fun none(series: MeasuredSeries, why: String, off: List<Int> = emptyList()): DiagnosisResult {
             val nothing = ModelAssessment(
@@ -376,7 +374,7 @@ internal class BlindAnswer(
                 null,
                 emptyList(),
                 off,
-                listOfNotNull("${farOff(off.size)} the readings beside.".takeIf { off.isNotEmpty() }),
+                listOfNotNull("${Spikes.words(off.size)} the readings beside.".takeIf { off.isNotEmpty() }),
             )
         }
     }

@@ -51,6 +51,9 @@ internal object Spikes {
         return if (robust > 0) robust else sqrt(squares(residuals) / maxOf(residuals.size, 1)).coerceAtLeast(1e-300)
     }
 
+    /** That [count] readings are off, in words. */
+    fun words(count: Int): String = "$count single reading${if (count == 1) " is" else "s are"} far off"
+
     private fun off(residuals: DoubleArray) = DoubleArray(residuals.size) { i ->
         val from = (i - HALF_WINDOW).coerceIn(0, residuals.size - 1 - 2 * HALF_WINDOW)
         residuals[i] - median(residuals.copyOfRange(from, from + 2 * HALF_WINDOW + 1))

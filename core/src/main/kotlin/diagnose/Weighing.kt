@@ -106,7 +106,7 @@ internal class Weighing(
         }
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         val off = spikes.size
-        if (off > 0) add("$off single reading${if (off == 1) " is" else "s are"} far off and left out of the fits.")
+        if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }
 
     private fun terms(): List<Term> = buildList {
