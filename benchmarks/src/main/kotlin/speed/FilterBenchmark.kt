@@ -10,9 +10,6 @@ import org.openjdk.jmh.annotations.Scope
 import org.openjdk.jmh.annotations.State
 import stillwater.estimate.FieldEstimator
 import stillwater.model.Grid
-import stillwater.model.Interval
-import stillwater.run.FilterKind
-import stillwater.run.Preset
 import java.util.concurrent.TimeUnit
 
 /** A reading into a filter: surveys of 2000 moves over 10 x 10 cells, the filter's making included in every survey. */
@@ -20,8 +17,7 @@ import java.util.concurrent.TimeUnit
 @BenchmarkMode(Mode.AverageTime)
 @OutputTimeUnit(TimeUnit.NANOSECONDS)
 open class FilterBenchmark {
-    private val grid = Grid.unit(10, 10)
-    private val survey = Survey(grid, MOVES)
+    private val survey = Survey(Grid.unit(10, 10), MOVES)
 
     /** Label of the filter. */
     @Param("averaging", "bounded", "interval", "bounded-extended", "self-calibrating")
@@ -29,17 +25,12 @@ open class FilterBenchmark {
 
     @Benchmark
     @OperationsPerInvocation(MOVES * Survey.SAMPLES)
-    fun update(): FieldEstimator = estimator().also { survey.read(it) }
+    fun update(): FieldEstimator = survey.estimator(filter).also { survey.read(it) }
 
     /** The same readings, those of a move together, as an experiment hands them over. */
     @Benchmark
     @OperationsPerInvocation(MOVES * Survey.SAMPLES)
-    fun updateAll(): FieldEstimator = estimator().also { survey.readMoves(it) }
-
-    private fun estimator(): FieldEstimator {
-        val kind = FilterKind.entries.first { it.label == filter }
-        return kind.estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
-    }
+    fun updateAll(): FieldEstimator = survey.estimator(filter).also { survey.readMoves(it) }
 
     private companion object {
         const val MOVES = 2000

@@ -9,9 +9,6 @@ import org.openjdk.jmh.annotations.Param
 import org.openjdk.jmh.annotations.Scope
 import org.openjdk.jmh.annotations.State
 import stillwater.model.Grid
-import stillwater.model.Interval
-import stillwater.run.FilterKind
-import stillwater.run.Preset
 import java.util.concurrent.TimeUnit
 
 /**
@@ -22,8 +19,7 @@ import java.util.concurrent.TimeUnit
 @BenchmarkMode(Mode.AverageTime)
 @OutputTimeUnit(TimeUnit.NANOSECONDS)
 open class FilterDecisionBenchmark {
-    private val grid = Grid.unit(10, 10)
-    private val survey = Survey(grid, MOVES)
+    private val survey = Survey(Grid.unit(10, 10), MOVES)
 
     /** Label of the filter. */
     @Param("bounded-extended", "self-calibrating")
@@ -33,10 +29,8 @@ open class FilterDecisionBenchmark {
     @Benchmark
     @OperationsPerInvocation(MOVES * Survey.SAMPLES)
     fun updateAndAsk(): Double {
-        val kind = FilterKind.entries.first { it.label == filter }
-        val estimator = kind.estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
         var widths = 0.0
-        survey.read(estimator) { map, cell -> widths += map.upper(cell) - map.lower(cell) }
+        survey.read(survey.estimator(filter)) { map, cell -> widths += map.upper(cell) - map.lower(cell) }
         return widths
     }
 

@@ -10,6 +10,8 @@ import stillwater.model.Interval
 import stillwater.model.Plan
 import stillwater.plan.RandomWalk
 import stillwater.plan.StopCondition
+import stillwater.run.FilterKind
+import stillwater.run.Preset
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import stillwater.world.UniformField
@@ -49,6 +51,11 @@ internal class Survey(val grid: Grid, moves: Int) {
             }
         }
     }
+
+    /** A new filter of the [label] for the survey, with the noisy preset's settings. */
+    fun estimator(label: String): FieldEstimator =
+        FilterKind.entries.first { it.label == label }
+            .estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
 
     /** Hands all readings to [estimator]. */
     fun read(estimator: FieldEstimator) {
