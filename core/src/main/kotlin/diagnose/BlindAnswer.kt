@@ -112,7 +112,7 @@ internal class BlindAnswer(
             weakest != null -> sureness > LEFT * weakest
             else -> !isOpen || left.adjusted < CERTAIN
         }
-        val isStructured = left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel && outweighs
+        val isStructured = left.adjusted < settings.structureLevel && outweighs
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }
             .firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
@@ -187,7 +187,7 @@ internal class BlindAnswer(
                     "of the lag may be too narrow.",
             )
         }
-        if (isNamed && left.adjusted < BlindDiagnosis.STRICTER * settings.structureLevel) {
+        if (isNamed && left.adjusted < settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${left.description}.")
         }
         last.model.terms.filter { it.cause == Cause.CROSS_SENSITIVITY && BlindRivals.mayBeWaters(it) }.forEach {
@@ -316,9 +316,9 @@ internal class BlindAnswer(
 
         /**
          * Adjusted p-value below which what is left is told beside an open lag of whatever size: what the noise's model
-         * does not know of a real log gave 8e-6.
+         * does not know of a real log gave 4e-6.
          */
-        private const val CERTAIN = 1e-9
+        private const val CERTAIN = 1e-6
 
         /**
          * Twice the gain in log-likelihood over inflation from which water that changes is told where no drift is named:

@@ -175,13 +175,13 @@ internal class BlindDiagnosis(
     companion object {
         /**
          * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:
-         * levels are lower by as much.
+         * the level of outliers is lower by as much. Looks have [BlindLook.DOUBT] for it.
          */
         const val STRICTER = 0.1
 
         /**
          * The same for causes of the list, whose p-values are too small by less: of 260 simulated logs without an effect
-         * two have a cause between this and [STRICTER], of 29 effects of 1x to 1.6x three do (seeds 194000 to 201079).
+         * two have a cause between this and a tenth, of 29 effects of 1x to 1.6x three do (seeds 194000 to 201079).
          */
         private const val CAUSES = 0.3
 

@@ -36,7 +36,7 @@ internal class BlindLooks(
     )
 
     /** All looks; of the same kinds in the same order whatever the model of a log is. */
-    val list: List<BlindLook> by lazy { shapes() + periodic() }
+    val list: List<BlindLook> by lazy { shapes() + BlindPeriods(state, tries).look() }
 
     /** What each of [list] gains. */
     val trials: List<BlindTrial> by lazy { list.map(tries::looked) }
@@ -72,10 +72,9 @@ internal class BlindLooks(
 
     private fun MutableList<BlindLook>.heading() {
         val heading = series.heading
-        val turns = listOf(1, 2).flatMap { k ->
-            listOf(DoubleArray(n) { cos(k * heading[it]) }, DoubleArray(n) { sin(k * heading[it]) })
-        }
-        add(BlindLook("the heading", turns, ofBoat = true))
+        fun turns(k: Int) = listOf(DoubleArray(n) { cos(k * heading[it]) }, DoubleArray(n) { sin(k * heading[it]) })
+        add(BlindLook("the heading", turns(1), ofBoat = true))
+        add(BlindLook("the heading (not in one direction alone)", turns(1) + turns(2), ofBoat = true))
         add(BlindLook("the speed", listOf(standard(series.speed)), ofBoat = true))
     }
 
@@ -146,65 +145,6 @@ internal class BlindLooks(
         }
     }
 
-    /** The strongest of all frequencies that the log can tell apart and the water cannot imitate. */
-    private fun periodic(): BlindLook {
-        val highest = 0.4 / series.period
-        // Over long gaps, as of a clock that was set after the first rows, there would be frequencies without end.
-        val span = minOf(series.duration, MOST_SPAN * n * series.period)
-        // Water that changes goes to and fro a few times in a log as well.
-        val lowest = FEWEST_TURNS / maxOf(span, 1e-9)
-        val step = 1 / (FINER * span)
-        val count = ((highest - lowest) / step).toInt()
-        if (count < 2 * BESIDE) return BlindLook("time, periodically", emptyList())
-        val powers = powers(tries.residual, lowest, step, count)
-        val best = powers.indices.maxBy { powers[it] / beside(powers, it) }
-        val closer = powers(tries.residual, lowest + (best - 1) * step, step / CLOSER, 2 * CLOSER + 1)
-        val frequency = lowest + (best - 1) * step + closer.indices.maxBy { closer[it] } * step / CLOSER
-        val waves = listOf(wave(frequency, ::cos), wave(frequency, ::sin))
-        val period = "%.3g".format(Locale.ROOT, 1 / frequency)
-        // Noise has its own colours: a period must stand out of those beside it.
-        val near = maxOf(0, best - BESIDE)..minOf(count - 1, best + BESIDE)
-        return BlindLook(
-            "time, with a period of $period s",
-            waves,
-            2 * ln(count.toDouble()),
-            { z -> beside(powers(z, lowest + near.first * step, step, near.count()), best - near.first) / squares(z) },
-        )
-    }
-
-    private fun wave(frequency: Double, shape: (Double) -> Double) =
-        DoubleArray(n) { shape(2 * PI * frequency * (series.times[it] - series.times[0])) }
-
-    /**
-     * How much of [z] goes with each of [count] frequencies from [lowest] on, [step] Hz apart: of white noise on average
-     * its square sum.
-     */
-    private fun powers(z: DoubleArray, lowest: Double, step: Double, count: Int): DoubleArray {
-        val cosines = wave(lowest, ::cos)
-        val sines = wave(lowest, ::sin)
-        val turnCosines = wave(step, ::cos)
-        val turnSines = wave(step, ::sin)
-        return DoubleArray(count) {
-            var even = 0.0
-            var odd = 0.0
-            for (i in 0 until n) {
-                val c = cosines[i]
-                val s = sines[i]
-                even += z[i] * c
-                odd += z[i] * s
-                cosines[i] = c * turnCosines[i] - s * turnSines[i]
-                sines[i] = s * turnCosines[i] + c * turnSines[i]
-            }
-            even * even + odd * odd
-        }
-    }
-
-    /** The mean power of frequencies near the [k]-th, from their median, which what leaks into them hardly moves. */
-    private fun beside(powers: DoubleArray, k: Int): Double {
-        val near = (maxOf(0, k - BESIDE)..minOf(powers.size - 1, k + BESIDE)).filter { abs(it - k) > FINER }
-        return maxOf(median(DoubleArray(near.size) { powers[near[it]] }) / ln(2.0), 1e-300)
-    }
-
     private fun product(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
 
     private fun cube(a: DoubleArray) = DoubleArray(n) { a[it] * a[it] * a[it] }
@@ -217,17 +157,6 @@ internal class BlindLooks(
 
     private companion object {
         const val SLOWEST = 0.02
-
-        /** Frequencies looked at for each that the log tells apart, and between two of them about the best. */
-        const val FINER = 2
-        const val CLOSER = 4
-
-        /** Times as long as its rows side by side, from which on a log with gaps is not asked for more frequencies. */
-        const val MOST_SPAN = 4.0
-
-        /** Frequencies on either side that tell the noise there. */
-        const val BESIDE = 12 * FINER
-        const val FEWEST_TURNS = 10.0
 
         /** Periods that a response may ring with; the shortest in rows, the longest in time constants. */
         const val PERIODS = 14

@@ -299,7 +299,7 @@ internal class BlindRound(
 
     /** The strongest of [looks] at which something is left for certain, by its place; null where nothing is. */
     val strongestLook: Int?
-        get() = looks.indices.filter { adjustedLooks[it] < BlindDiagnosis.STRICTER * settings.structureLevel }
+        get() = looks.indices.filter { adjustedLooks[it] < settings.structureLevel }
             .maxByOrNull { looks[it].worth }
 
     /** Whether the [index]-th of [looks] is at what else the sensor might show of the water. */

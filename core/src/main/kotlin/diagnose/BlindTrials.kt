@@ -272,7 +272,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             left,
             sum(found, heights),
             look.searched,
-            look.floor(z),
+            look.floor(after),
             after,
         ).lessSure(BlindLook.DOUBT)
     }

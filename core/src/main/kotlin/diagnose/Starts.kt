@@ -30,7 +30,7 @@ internal class Starts(
         small && term.cause == Cause.DRIFT -> listOf(with(scales.range / series.duration))
         small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(1.0))
         small && term.cause == Cause.DEAD_TIME -> listOf(0.3, 1.0).map { inPlace(it * series.period) }
-        small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(0.5, 1.5).map { inPlace(it * series.period) }
+        small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(0.1, 0.5, 1.5).map { inPlace(it * series.period) }
         small && term.cause == Cause.TWO_PATH_RESPONSE -> listOf(3.0, 8.0, 25.0).map { ratio ->
             with(ratio, SHARE).also { it[ResponseModel.TIME_CONSTANT] = tau / (1 + SHARE * (ratio - 1)) }
         }

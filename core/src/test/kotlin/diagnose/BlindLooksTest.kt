@@ -4,8 +4,11 @@ import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.PI
+import kotlin.math.abs
+import kotlin.math.atan2
 import kotlin.math.cos
 import kotlin.math.ln
+import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
@@ -89,6 +92,41 @@ class BlindLooksTest {
         }
     }
 
+    /** Of a slow period the water takes nearly all, and what it leaves is no longer one frequency. */
+    @Test
+    fun aPeriodThatTheWaterTakesMostOfIsFound() {
+        val rows = 960
+        val random = Random(7)
+        val east = DoubleArray(rows)
+        val north = DoubleArray(rows)
+        var heading = 0.0
+        for (i in 1 until rows) {
+            // From a wall it turns back to the middle.
+            val isOut = maxOf(abs(east[i - 1]), abs(north[i - 1])) > 90
+            heading = if (isOut) atan2(-north[i - 1], -east[i - 1]) else heading + random.nextDouble(-0.5, 0.5)
+            east[i] = east[i - 1] + 0.8 * cos(heading)
+            north[i] = north[i - 1] + 0.8 * sin(heading)
+        }
+        val seconds = DoubleArray(rows) { it.toDouble() }
+        for (period in listOf(31.0, 37.0, 43.0)) {
+            val wave = DoubleArray(rows) { cos(2 * PI * it / period) }
+            val values = DoubleArray(rows) { NOISE * random.nextDouble(-1.7, 1.7) + SLOW * wave[it] }
+            val search = BlindSearch(MeasuredSeries(seconds, east, north, values, null))
+            val white = BlindNoise(CorrelatedNoise(seconds, 0.0, 1.0, search.used), DoubleArray(rows) { 1.0 })
+            // Water that may be anything.
+            val heights = DoubleArray(search.modes.bands) { if (it in search.modes.moving) 1e-8 else 1e6 }
+            val state = search.settled(emptyList(), doubleArrayOf(0.02, 1.0, 0.0, 0.0), white, heights, rounds = 0)
+            val seen = state.fit.whitened(wave)
+            val taken = squares(state.fit.imitated(seen)) / squares(seen)
+            val looks = BlindLooks(state, BlindTrials(search, state), canShowShape = true)
+            val found = looks.list.last().name
+            val said = Regex("period of ([0-9.]+) s").find(found)!!.groupValues[1].toDouble()
+            assertTrue(taken > 0.75, "the water takes $taken")
+            assertEquals(period, said, period * period / (2 * rows), found)
+            assertTrue(looks.trials.last().pValue < 1e-6, "$found ${looks.trials.last().pValue}")
+        }
+    }
+
     /** As where a clock was set after the first rows: frequencies of months would be millions. */
     @Test
     fun aLongGapDoesNotMakeFrequenciesWithoutEnd() {
@@ -130,5 +168,6 @@ class BlindLooksTest {
         const val LAG = 4.0
         const val NOISE = 0.004
         const val HEADING = 0.006
+        const val SLOW = 0.006
     }
 }
