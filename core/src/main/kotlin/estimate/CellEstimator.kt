@@ -145,8 +145,14 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         val even = times[1] - times[0]
         // Times that follow each other at a finite step are finite.
         if (!(even >= 0 && even <= Double.MAX_VALUE)) return Double.NaN
-        for (i in 2 until count) if (times[i] - times[i - 1] != even) return Double.NaN
-        for (i in 0 until count) if (!(abs(values[i]) <= largest)) return Double.NaN
+        val most = largest
+        if (!(abs(values[0]) <= most)) return Double.NaN
+        var last = times[0]
+        for (i in 1 until count) {
+            val seconds = times[i]
+            if (seconds - last != even || !(abs(values[i]) <= most)) return Double.NaN
+            last = seconds
+        }
         return even
     }
 
