@@ -21,7 +21,14 @@ public class AveragingFilter(grid: Grid, prior: Interval) : CellEstimator(grid, 
         map.setValue(cell, sums[cell] / map.readings(cell))
     }
 
-    override fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
+    override fun takeAll(
+        cell: Int,
+        entered: Boolean,
+        times: DoubleArray,
+        values: DoubleArray,
+        count: Int,
+        step: Double,
+    ) {
         var sum = sums[cell]
         for (i in 0 until count) sum += values[i]
         sums[cell] = sum

@@ -71,6 +71,7 @@ public class BoundedFilter(
     public val settings: BoundedFilterSettings,
 ) : CellEstimator(grid, prior) {
     private val epsilon = settings.epsilon
+    private val clearsOnEntry = settings.clearOnEntry
     private val medians = MedianWindow(settings.medianWindow)
     private val slopes = SlopeWindow(settings.slopeWindow)
 
@@ -86,14 +87,21 @@ public class BoundedFilter(
     }
 
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
-        if (entered && settings.clearOnEntry) clear()
+        if (entered && clearsOnEntry) clear()
         learn(cell, value, if (stay != null) stay.add(seconds, value) else direction(seconds, value))
     }
 
-    override fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
+    override fun takeAll(
+        cell: Int,
+        entered: Boolean,
+        times: DoubleArray,
+        values: DoubleArray,
+        count: Int,
+        step: Double,
+    ) {
         map.countReadings(cell, count)
-        if (stay != null && entered && settings.clearOnEntry && stay.addAll(times, values, count)) {
-            for (i in StayWindow.FIRST until count) learn(cell, values[i], stay.direction(i))
+        if (stay != null && entered && clearsOnEntry && stay.addAll(times, values, count, step, largest)) {
+            learnAll(stay, cell, values, count)
         } else {
             stay?.pace(Double.NaN, 0.0)
             for (i in 0 until count) take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
@@ -113,6 +121,29 @@ public class BoundedFilter(
         slopes.add(medians.time, medians.median)
         if (!slopes.full) return 0
         return StayWindow.direction(slopes.slope(), epsilon)
+    }
+
+    /** Learns from the first [count] readings of the boat's [stay] in [cell], as from one after the other. */
+    private fun learnAll(stay: StayWindow, cell: Int, values: DoubleArray, count: Int) {
+        val lower = map.lower(cell)
+        val upper = map.upper(cell)
+        var highest = lower
+        var lowest = upper
+        for (i in StayWindow.FIRST until count) {
+            val direction = stay.direction(i)
+            val value = values[i]
+            if (direction > 0) {
+                if (value > highest) highest = value
+            } else if (direction < 0) {
+                if (value < lowest) lowest = value
+            }
+        }
+        if (highest > lowest) {
+            // Bounds cross on the way, or did before: what comes of it depends on the order.
+            for (i in StayWindow.FIRST until count) learn(cell, values[i], stay.direction(i))
+        } else if (highest != lower || lowest != upper) {
+            believe(cell, highest, lowest)
+        }
     }
 
     private fun learn(cell: Int, value: Double, direction: Int) {

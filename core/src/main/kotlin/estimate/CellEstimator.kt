@@ -31,7 +31,10 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     private var placeY = Double.NaN
     private var lastSeconds = Double.NEGATIVE_INFINITY
     private var step = Double.NaN
-    private var largest = 0.0
+
+    /** No reading was farther from 0, sensor units. */
+    protected var largest: Double = 0.0
+        private set
 
     final override fun update(
         time: BoatTime,
@@ -106,9 +109,14 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     private fun noticePace(newStep: Double, size: Double) {
         if (newStep == step && size <= largest) return
         step = if (newStep <= Double.MAX_VALUE) newStep else Double.NaN
+        noticeSize(size)
+        pace(step, largest)
+    }
+
+    /** Notices that a reading is [size] from 0, sensor units. */
+    private fun noticeSize(size: Double) {
         // Twice as large, so that a value that keeps growing seldom comes here.
         if (size > largest) largest = minOf(2 * size, Double.MAX_VALUE)
-        pace(step, largest)
     }
 
     /** How far the place of the reading that is being taken is from its cell's border, m. */
@@ -116,12 +124,36 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
 
     final override fun updateAll(times: DoubleArray, x: Double, y: Double, values: DoubleArray, count: Int) {
         val cell = if (x.isFinite() && y.isFinite()) grid.cellAt(x, y) else Grid.OUTSIDE
-        if (cell == Grid.OUTSIDE || !canAllBeUsed(times, values, count)) {
-            return super.updateAll(times, x, y, values, count)
+        if (cell == Grid.OUTSIDE) return super.updateAll(times, x, y, values, count)
+        var pace = evenStep(times, values, count)
+        if (pace.isNaN()) {
+            if (!canAllBeUsed(times, values, count)) return super.updateAll(times, x, y, values, count)
+            for (i in 0 until count) noticeSize(abs(values[i]))
+            pace = evenStep(times, values, count)
         }
         lastSeconds = times[count - 1]
         step = Double.NaN
-        takeAll(cell, comeTo(cell, x, y), times, values, count)
+        takeAll(cell, comeTo(cell, x, y), times, values, count, pace)
+    }
+
+    /**
+     * The time from each of two or more readings to the next, where it is the same for all, to the last bit, and all can
+     * be used and are no larger than [largest]; NaN where not.
+     */
+    private fun evenStep(times: DoubleArray, values: DoubleArray, count: Int): Double {
+        if (count < 2 || !(times[0] >= lastSeconds)) return Double.NaN
+        val even = times[1] - times[0]
+        // Times that follow each other at a finite step are finite.
+        if (!(even >= 0 && even <= Double.MAX_VALUE)) return Double.NaN
+        val most = largest
+        if (!(abs(values[0]) <= most)) return Double.NaN
+        var last = times[0]
+        for (i in 1 until count) {
+            val seconds = times[i]
+            if (seconds - last != even || !(abs(values[i]) <= most)) return Double.NaN
+            last = seconds
+        }
+        return even
     }
 
     /** Whether there is a reading, and all are finite and in order. */
@@ -176,8 +208,18 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
      * @param times the readings' times on the boat's clock, s. Not modified.
      * @param values what the sensor said, sensor units. Not modified.
      * @param count how many readings there are, at least 1.
+     * @param step time from each reading to the next where that is the same for all, s, and there are two or more; NaN where
+     *   not.
      */
-    protected open fun takeAll(cell: Int, entered: Boolean, times: DoubleArray, values: DoubleArray, count: Int) {
+    @Suppress("LongParameterList")
+    protected open fun takeAll(
+        cell: Int,
+        entered: Boolean,
+        times: DoubleArray,
+        values: DoubleArray,
+        count: Int,
+        step: Double,
+    ) {
         for (i in 0 until count) {
             written.countReading(cell)
             take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)

@@ -68,17 +68,14 @@ internal class StayWindow(private val epsilon: Double) {
     }
 
     /**
-     * Takes the first [count] readings after it was cleared, in even steps: as that many calls of [add], whose answers
-     * [direction] then gives.
+     * Forgets all and takes [count] readings that come [step] s after each other, none farther from 0 than [largest]: as
+     * that many calls of [add], whose answers [direction] then gives.
      *
-     * @return whether it did: whether there are not too many, and all steps are alike.
+     * @param step NaN where steps differ.
+     * @return whether it did: whether there are not too few or too many, and steps are alike.
      */
-    fun addAll(newTimes: DoubleArray, newValues: DoubleArray, count: Int): Boolean {
-        if (count < FIRST || count > CAPACITY) return false
-        val step = newTimes[1] - newTimes[0]
-        for (i in 2 until count) if (newTimes[i] - newTimes[i - 1] != step) return false
-        var largest = 0.0
-        for (i in 0 until count) if (abs(newValues[i]) > largest) largest = abs(newValues[i])
+    fun addAll(newTimes: DoubleArray, newValues: DoubleArray, count: Int, step: Double, largest: Double): Boolean {
+        if (step.isNaN() || count < FIRST || count > CAPACITY) return false
         clear()
         pace(step, largest)
         newTimes.copyInto(times, 0, 0, count)

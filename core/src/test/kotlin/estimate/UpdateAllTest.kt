@@ -39,19 +39,22 @@ class UpdateAllTest {
     @Test
     fun theMapIsTheSameAsOneByOne() {
         var unusable = 0L
+        var conflicts = 0
         forEvery(drawn { it.nextLong() }, cases = 100) { seed ->
             val together = estimators(Random(seed))
             val single = estimators(Random(seed))
             val random = Random(seed + 1)
             var seconds = 0.0
+            val isEven = random.nextBoolean()
             repeat(60) {
                 val count = random.nextInt(0, 13)
                 val times = DoubleArray(13) {
-                    seconds += random.nextInt(3)
+                    seconds += if (isEven) 0.5 else random.nextInt(3).toDouble()
                     seconds + sometimes(random, -30.0)
                 }
-                // A ramp with noise and outliers: bounds are set, contradicted and crossed.
-                val values = DoubleArray(13) { 0.02 * it + 0.1 * random.nextDouble() + sometimes(random, Double.NaN) }
+                // A ramp either way with noise and outliers: bounds are set, contradicted and crossed.
+                val slope = if (random.nextBoolean()) 0.02 else -0.03
+                val values = DoubleArray(13) { slope * it + 0.1 * random.nextDouble() + sometimes(random, Double.NaN) }
                 val x = random.nextDouble(-0.2, 3.0) + sometimes(random, Double.NaN)
                 val y = random.nextDouble(0.0, 2.1)
                 together.forEach { it.updateAll(times, x, y, values, count) }
@@ -63,9 +66,11 @@ class UpdateAllTest {
             }
             together.zip(single) { one, other -> assertSame(one.map, other.map) }
             unusable += single[0].map.rejected + single[0].map.outside
+            conflicts += (0 until grid.size).sumOf { single[1].map.conflicts(it) }
         }
         // Not only the readings that all can be used were compared.
         assertTrue(unusable > 100, "$unusable")
+        assertTrue(conflicts > 1000, "$conflicts")
     }
 
     private fun sometimes(random: Random, value: Double) = if (random.nextInt(60) == 0) value else 0.0
