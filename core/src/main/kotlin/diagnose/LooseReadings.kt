@@ -38,7 +38,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         mixture = Spikes.ratio(told)
     }
 
-    private fun isInDoubt(i: Int) = fit.model.scales.unknown?.isInDoubt(i) == true
+    private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i)
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->

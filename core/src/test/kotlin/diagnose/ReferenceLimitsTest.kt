@@ -4,8 +4,8 @@ import kotlin.math.abs
 import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.sin
-import kotlin.math.tanh
 import kotlin.math.sqrt
+import kotlin.math.tanh
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertIs
