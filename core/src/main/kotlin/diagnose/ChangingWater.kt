@@ -8,8 +8,11 @@ import kotlin.math.sqrt
  * Whether the water itself changed while it was measured, from what the reference says where the track crosses itself.
  *
  * At a crossing the same place is seen twice: Δu = r Δt + e, with r the water's own rate of change and e what errors of
- * position and of the reference make. r is Σ Δu Δt / Σ Δt²; its error is that of leaving out one of twenty groups of
- * crossings at a time, so that nothing is assumed of e but that groups are independent.
+ * position and of the reference make. A reference that is late by ℓ shows the place as it was before: it is lower where
+ * the truth rises, and passes that go opposite ways, as down and up a cast, differ in all of the water by ℓ times how
+ * much faster the truth rose the second time. r and ℓ are fitted together by least squares; the error of r is that of
+ * leaving out one of twenty groups of crossings at a time, so that nothing is assumed of e but that groups are
+ * independent.
  *
  * Where the track crosses itself seldom, places that it comes close to again stand in ([Meetings]), each with an error
  * reckoned from jitter and slope; the error of r grows where the Δu spread more than that about r Δt.
@@ -17,8 +20,41 @@ import kotlin.math.sqrt
  * The change is taken as even in time and the same everywhere. Cost: O(n) for a track that does not stay in one place.
  */
 internal class ChangingWater(private val series: MeasuredSeries, private val truth: DoubleArray) {
-    /** A place passed twice: when first, how much later again, s, and how much higher the truth was then. */
-    private class Crossing(val first: Double, val later: Double, val higher: Double)
+    /**
+     * A place passed twice: when first, how much later again, s, how much higher the truth was then, and how much
+     * faster it rose along the track, sensor units/s.
+     */
+    private class Crossing(val first: Double, val later: Double, val higher: Double, val faster: Double)
+
+    /** Sums of the squares and products of what [add] was told, for r and the lateness of the reference. */
+    private class Sums {
+        private var later = 0.0
+        private var faster = 0.0
+        private var both = 0.0
+        private var higher = 0.0
+        private var shifted = 0.0
+
+        fun add(later: Double, faster: Double, higher: Double, weight: Double) {
+            this.later += weight * later * later
+            this.faster += weight * faster * faster
+            both += weight * later * faster
+            this.higher += weight * later * higher
+            shifted += weight * faster * higher
+        }
+
+        // Where the truth rose as fast both times, or as much faster as it is later, lateness does not show apart.
+        private val apart get() = later * faster - both * both
+        private val isApart get() = apart > ALIKE * later * faster
+
+        /** r, sensor units/s. */
+        val rate: Double get() = if (isApart) (faster * higher - both * shifted) / apart else higher / later
+
+        /** How late the readings' truth is, s. */
+        val late: Double get() = if (isApart) (later * shifted - both * higher) / apart else 0.0
+
+        /** Variance of [rate] where weights are one over those of what is higher. */
+        val variance: Double get() = if (isApart) faster / apart else 1 / later
+    }
 
     private val crossings = crossings().sortedBy { it.first }
     private val isCrossed = crossings.size >= FEWEST
@@ -29,7 +65,7 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     val rate: Double = if (isCrossed) {
         rate { true }
     } else if (isMet) {
-        met()
+        met().rate
     } else {
         Double.NaN
     }
@@ -55,15 +91,11 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     )
 
     private inline fun rate(counts: (Int) -> Boolean): Double {
-        var over = 0.0
-        var under = 0.0
+        val sums = Sums()
         crossings.forEachIndexed { i, crossing ->
-            if (counts(i)) {
-                over += crossing.higher * crossing.later
-                under += crossing.later * crossing.later
-            }
+            if (counts(i)) sums.add(crossing.later, crossing.faster, crossing.higher, 1.0)
         }
-        return over / under
+        return sums.rate
     }
 
     private fun error(): Double {
@@ -73,13 +105,17 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     }
 
     /** r from the meetings, each weighed by its error. */
-    private fun met(): Double = meetings.sumOf { it.higher * it.later / (it.error * it.error) } /
-        meetings.sumOf { it.later * it.later / (it.error * it.error) }
+    private fun met() = Sums().also { sums ->
+        meetings.forEach { sums.add(it.later, it.faster, it.higher, 1 / (it.error * it.error)) }
+    }
 
     private fun metError(): Double {
-        val r = met()
-        val spread = meetings.sumOf { ((it.higher - r * it.later) / it.error).let { z -> z * z } } / (meetings.size - 1)
-        return sqrt(maxOf(spread, 1.0) / meetings.sumOf { it.later * it.later / (it.error * it.error) })
+        val sums = met()
+        val spread = meetings.sumOf {
+            val off = (it.higher - sums.rate * it.later - sums.late * it.faster) / it.error
+            off * off
+        } / (meetings.size - 1)
+        return sqrt(maxOf(spread, 1.0) * sums.variance)
     }
 
     private fun isMoving() = series.size >= FEWEST && median(series.speed) >= SLOWEST
@@ -129,7 +165,8 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
         if (first !in 0.0..1.0 || second !in 0.0..1.0) return null
         val from = between(series.times, i, first)
         val higher = between(truth, j, second) - between(truth, i, first)
-        return Crossing(from, between(series.times, j, second) - from, higher)
+        val faster = series.rise(truth, j, j + 1) - series.rise(truth, i, i + 1)
+        return Crossing(from, between(series.times, j, second) - from, higher, faster)
     }
 
     private fun between(column: DoubleArray, i: Int, share: Double) = column[i] + share * (column[i + 1] - column[i])
@@ -144,6 +181,9 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
         const val SLOWEST = 0.02
         const val LEAST_APART = 0.02
         const val LEAST_ROWS = 30
+
+        /** Of the product of two squared columns: less than this is left of one beside the other. */
+        const val ALIKE = 1e-6
         const val MOST_LOOKS = 4_000_000
     }
 }

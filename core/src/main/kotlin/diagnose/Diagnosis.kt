@@ -151,7 +151,7 @@ public class Diagnosis(
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
         val spikes = Spikes.of(settled.whitened).filter {
             abs(settled.residuals[it]) > settled.model.scales.resolution && !shaken.isInDoubt(it) &&
-                Spikes.isSingle(settled.residuals, it)
+                !settled.model.scales.isInDoubt(it) && Spikes.isSingle(settled.residuals, it)
         }
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else base(held, settled), spikes, 0.0)

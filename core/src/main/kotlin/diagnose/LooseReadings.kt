@@ -31,14 +31,19 @@ internal class LooseReadings(private val fit: ModelFit) {
         lasting = sudden.filterNot { isSingle(it) || (it > 0 && abs(z[it - 1]) > FARTHEST * usual && isSingle(it - 1)) }
             .filter { abs(beside[it]) > FARTHEST * usual }
         lasting.forEach { z[it] = 0.0 }
-        spikes = Spikes.of(z).filter(::isFar)
-        mixture = Spikes.ratio(z)
+        // Rows in doubt say nothing: many that are as good as right would make all others look far off.
+        val sure = z.indices.filterNot(::isInDoubt)
+        val told = DoubleArray(sure.size) { z[sure[it]] }
+        spikes = Spikes.of(told).map { sure[it] }.filter(::isFar)
+        mixture = Spikes.ratio(told)
     }
+
+    private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i)
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->
         fit.noise.over(series.times, rows).whiten(fit.residuals, out)
-        fit.model.scales.unknown?.let { unknown -> for (i in out.indices) if (unknown.isInDoubt(i)) out[i] = 0.0 }
+        for (i in out.indices) if (isInDoubt(i)) out[i] = 0.0
     }
 
     /** Spread of the rows that are not in doubt. */

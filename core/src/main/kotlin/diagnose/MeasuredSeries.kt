@@ -99,6 +99,13 @@ public class MeasuredSeries(
         return DoubleArray(column.size) { if (column[it].isFinite()) column[it] else middle }
     }
 
+    /** How fast [column] rises from the row before row [from] to that after row [to], its units a second. */
+    internal fun rise(column: DoubleArray, from: Int, to: Int): Double {
+        val before = maxOf(from - 1, 0)
+        val after = minOf(to + 1, times.size - 1)
+        return (column[after] - column[before]) / (times[after] - times[before])
+    }
+
     /** This log with the same [reference] but for its noise. */
     internal fun withQuieter(reference: DoubleArray) =
         MeasuredSeries(times, x, y, values, reference, conditions, isSparse)

@@ -16,9 +16,9 @@ import kotlin.math.sqrt
 internal class Meetings(private val series: MeasuredSeries, private val truth: DoubleArray, private val apart: Double) {
     /**
      * A place passed twice: [later] s apart, [higher] the second time, sensor units, with an error of [error] in water
-     * that stays the same.
+     * that stays the same; the truth rose [faster] along the track then, sensor units/s.
      */
-    class Meeting(val first: Double, val later: Double, val higher: Double, val error: Double)
+    class Meeting(val first: Double, val later: Double, val higher: Double, val error: Double, val faster: Double)
 
     private val n = series.size
     private val step = median(DoubleArray(maxOf(n - 1, 0)) { way(it, it + 1) })
@@ -48,12 +48,15 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
         val nearest = nearest()
         fun distance(j: Int) = if (j !in 0 until n || nearest[j] < 0) Double.MAX_VALUE else way(nearest[j], j)
         // Going along the old way is one meeting after the other, each with jitter of its own: some rows apart.
+        // What stands still comes back to the same row again and again, whose one error is then in all of them.
         val found = ArrayList<Meeting>()
+        val isMet = BooleanArray(n)
         var last = -ROWS_APART
         for (j in 0 until n) {
-            if (nearest[j] < 0 || j - last < ROWS_APART) continue
+            if (nearest[j] < 0 || isMet[nearest[j]] || j - last < ROWS_APART) continue
             if (distance(j) > distance(j - 1) || distance(j) > distance(j + 1)) continue
             found += meeting(nearest[j], j)
+            isMet[nearest[j]] = true
             last = j
         }
         return found.sortedBy { it.first }
@@ -102,6 +105,7 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
             series.times[j] - series.times[i],
             truth[j] - there,
             sqrt(place + 2 * noise * noise),
+            series.rise(truth, j, j) - series.rise(truth, i, i),
         )
     }
 

@@ -326,6 +326,9 @@ internal class Scales(
 ) {
     private val n = series.size
 
+    /** Whether row [i] may be far off for what is not known of the truth before it. */
+    fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true
+
     /** Speed that counts as ordinary, m/s. */
     val ordinarySpeed: Double = maxOf(median(series.speed), SLOWEST)
 

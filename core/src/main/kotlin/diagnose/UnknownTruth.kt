@@ -21,6 +21,7 @@ internal class UnknownTruth private constructor(
     val isBroken: BooleanArray,
     val isSharp: Boolean,
     private val doubts: DoubleArray,
+    private val guesses: DoubleArray,
     private val times: DoubleArray,
     val late: Double = 0.0,
 ) {
@@ -31,25 +32,26 @@ internal class UnknownTruth private constructor(
     fun isInDoubt(i: Int): Boolean = (maxOf(i - 1, 0)..minOf(i + 1, doubts.size - 1)).any { doubts[it] > 0 }
 
     /** Shocks before rows in [variance] of the noise, length n, of which [keep] stays until the row after. */
-    class Shocks(val variance: DoubleArray, val keep: DoubleArray)
+    class Shocks(val variance: DoubleArray, val keep: DoubleArray) {
+        /** Whether row [i] is shaken by so much that it may be far off without being wrong. */
+        fun isShaken(i: Int): Boolean = variance[i] > SHAKEN
+    }
 
     /**
      * Shocks to the reading of a sensor with a lag of [timeConstant] s and [gain] under noise of [spread], sensor
-     * units; those of gaps alone if the truth [isHeld] over each step. Null where nothing is in doubt.
+     * units; those of gaps and of missing rows alone if the truth [isHeld] over each step. Null where nothing is in doubt.
      */
     fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? {
         val keep = DoubleArray(times.size) { i ->
             if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstant)
         }
         val variance = DoubleArray(times.size) { i ->
-            val seen = if (isGap[i]) {
-                1.0
-            } else if (isHeld) {
-                0.0
+            val doubt = if (isGap[i]) {
+                doubts[i]
             } else {
-                1 - keep[i]
+                (1 - keep[i]) * if (isHeld) guesses[i] else maxOf(doubts[i], guesses[i])
             }
-            val shock = gain * doubts[i] * seen / spread
+            val shock = gain * doubt / spread
             if (abs(shock) > LEAST) shock * shock else 0.0
         }
         return if (variance.any { it > 0 }) Shocks(variance, keep) else null
@@ -71,7 +73,7 @@ internal class UnknownTruth private constructor(
                 i++
             }
         }
-        return UnknownTruth(isGap, isBroken, isSharp, moved, times, late)
+        return UnknownTruth(isGap, isBroken, isSharp, moved, guesses, times, late)
     }
 
     companion object {
@@ -82,6 +84,7 @@ internal class UnknownTruth private constructor(
                 BooleanArray(series.size),
                 false,
                 DoubleArray(series.size),
+                DoubleArray(series.size),
                 series.times,
             )
 
@@ -91,7 +94,8 @@ internal class UnknownTruth private constructor(
             val n = series.size
             val times = series.times
             val isGap = BooleanArray(n) { it > 0 && times[it] - times[it - 1] > GAP * series.period }
-            val within = within(times, truth, isGap)
+            val near = ReferenceGaps.errors(times, truth, 1, isGap)
+            val within = within(near, ReferenceGaps.errors(times, truth, 2, isGap))
             val usual = median(within)
             val spread = deviation(truth)
             val steps = DoubleArray(n) { if (it == 0 || isGap[it]) 0.0 else abs(truth[it] - truth[it - 1]) }
@@ -108,21 +112,22 @@ internal class UnknownTruth private constructor(
                     else -> 0.0
                 }
             }
+            // Where a row is missing the truth there is as far off as where one was left out to foretell it.
+            val guesses = DoubleArray(n) { i ->
+                val isLong = i > 0 && !isGap[i] && times[i] - times[i - 1] > LONG * series.period
+                if (isLong) most(near, i, 1).takeIf { it > ROUNDING * spread } ?: 0.0 else 0.0
+            }
             val sudden = DoubleArray(n) { if (isBroken[it]) steps[it] else 0.0 }
-            return UnknownTruth(isGap, isBroken, squares(sudden) > MOSTLY * squares(steps), doubts, times)
+            return UnknownTruth(isGap, isBroken, squares(sudden) > MOSTLY * squares(steps), doubts, guesses, times)
         }
 
         /**
          * How far the truth may be off a cubic within the steps beside each row: the error of foretelling rows near by
          * from those beside them, over how much faster than twice as far it is.
          */
-        private fun within(times: DoubleArray, truth: DoubleArray, isGap: BooleanArray): DoubleArray {
-            val near = ReferenceGaps.errors(times, truth, 1, isGap)
-            val far = ReferenceGaps.errors(times, truth, 2, isGap)
-            return DoubleArray(times.size) { i ->
-                val one = most(near, i, 1)
-                if (one > 0) one / (most(far, i, 2) / one).coerceIn(1.0, ReferenceGaps.FASTEST) else 0.0
-            }
+        private fun within(near: DoubleArray, far: DoubleArray) = DoubleArray(near.size) { i ->
+            val one = most(near, i, 1)
+            if (one > 0) one / (most(far, i, 2) / one).coerceIn(1.0, ReferenceGaps.FASTEST) else 0.0
         }
 
         private fun most(errors: DoubleArray, i: Int, reach: Int): Double {
@@ -138,6 +143,9 @@ internal class UnknownTruth private constructor(
 
         /** A step longer than so many usual ones is a gap. */
         private const val GAP = 4.0
+
+        /** A step longer than so many usual ones has a row missing. */
+        private const val LONG = 1.75
         private const val UNUSUAL = 4.0
 
         /** Where the truth stands still a cubic through it is off by errors of arithmetic. */
@@ -152,5 +160,8 @@ internal class UnknownTruth private constructor(
 
         /** Shocks below this, in standard deviations of the noise, are left out. */
         private const val LEAST = 0.1
+
+        /** Shocks above this variance, in that of the noise, make a row doubtful. */
+        private const val SHAKEN = 0.25
     }
 }

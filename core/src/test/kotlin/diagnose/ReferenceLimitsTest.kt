@@ -1,9 +1,11 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.math.sqrt
+import kotlin.math.tanh
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertIs
@@ -132,6 +134,36 @@ class ReferenceLimitsTest {
         assertTrue(changed.pValue < 1e-6, "${changed.pValue}")
         assertEquals(0.001, changed.rate, 3 * changed.error)
         assertTrue(rounds(0.0).pValue > 0.01)
+    }
+
+    /** One cast down and up through a thermocline that warms by [rise] a second, seen by a reference late by [late] s. */
+    private fun cast(rise: Double, late: Double): ChangingWater {
+        val depth = DoubleArray(n) { 30 - abs(30 - 60.0 * it / n) }
+        val times = DoubleArray(n) { it / 4.0 }
+        fun there(time: Double) = 30 - abs(30 - 60.0 * 4 * time / n)
+        val truth = DoubleArray(n) {
+            tanh((there(times[it] - late) - 12) / 4) + rise * times[it] + 0.001 * random.nextGaussian()
+        }
+        return ChangingWater(MeasuredSeries(times, depth, DoubleArray(n), truth, truth), truth)
+    }
+
+    @Test
+    fun aReferenceThatIsLateOnTheWayDownAndUpIsNoChangeOfTheWater() {
+        assertTrue(cast(0.0, 0.4).pValue > 0.01, "${cast(0.0, 0.4).pValue}")
+        val changed = cast(0.001, 0.4)
+        assertTrue(changed.pValue < 1e-6, "${changed.pValue}")
+        assertEquals(0.001, changed.rate, 3 * changed.error)
+    }
+
+    @Test
+    fun standingStillWhereItStoodBeforeIsOneMeeting() {
+        // Three minutes at the surface, down and up, and three minutes there again; one reading of the reference is off.
+        val times = DoubleArray(n) { it.toDouble() }
+        val depth = DoubleArray(n) { maxOf(0.0, 60 - abs(it - 300.0)) / 4 }
+        val truth = DoubleArray(n) { cos(depth[it] / 5) + 0.01 * random.nextGaussian() }
+        truth[0] += 0.03
+        val water = ChangingWater(MeasuredSeries(times, depth, DoubleArray(n), truth, truth), truth)
+        assertTrue(water.pValue > 0.01, "${water.pValue}")
     }
 
     private companion object {

@@ -53,8 +53,10 @@ class Diagnosed(
         if (',' in log.format) add("The log was read as ${log.format}.")
         for ((reason, count) in log.pass.skipped) add("${counted(count, "row")} left out: $reason.")
         for (warning in log.pass.warnings) add("${warning.replaceFirstChar { it.uppercase() }}.")
-        if (log.missing > 0) {
-            add("${counted(log.missing, "row")} left out: no number in the column ${log.reference}.")
+        if (log.steps.missing > 0) {
+            add("${counted(log.steps.missing, "row")} left out: no number in the column ${log.reference}.")
+        }
+        if (log.steps.isSparse) {
             add(
                 "How the truth went between the rows with one is not known: up to half their distance may look like " +
                     "a delay or an offset of place.",

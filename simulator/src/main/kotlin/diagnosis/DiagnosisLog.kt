@@ -14,8 +14,8 @@ import java.nio.file.Path
  * A log as the diagnosis takes it.
  *
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
- * truth, or null. @property series its columns. @property pass what was read. @property missing rows left out for want
- * of a reference. @property cut rows at the end that were not looked at. @property frame frame of its places, or null
+ * truth, or null. @property series its columns. @property pass what was read. @property steps rows with a
+ * reference among all. @property cut rows at the end that were not looked at. @property frame frame of its places, or null
  * where the log has metres. @property heading what its headings are in, or null where none were given.
  */
 class DiagnosisLog private constructor(
@@ -26,7 +26,7 @@ class DiagnosisLog private constructor(
     val series: MeasuredSeries,
     val columns: LogColumns,
     val pass: LogPass,
-    val missing: Int,
+    internal val steps: ReferenceSteps,
     val cut: Long,
     val frame: LocalFrame?,
     internal val heading: HeadingUnit?,
@@ -69,13 +69,16 @@ class DiagnosisLog private constructor(
         ): DiagnosisLog {
             val names = conditions.keys + compare.map { compared(it) }
             val columns = LogColumns(names)
-            var missing = 0
+            val steps = ReferenceSteps()
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
                 when {
                     columns.size >= MOST_ROWS -> cut++
-                    reference != null && others[REFERENCE].isNaN() -> missing++
-                    else -> columns.add(time.seconds, x, y, value, others)
+                    reference != null && others[REFERENCE].isNaN() -> steps.add(time.seconds, isKnown = false)
+                    else -> {
+                        steps.add(time.seconds, isKnown = true)
+                        columns.add(time.seconds, x, y, value, others)
+                    }
                 }
             }
             val heading = conditions[Conditions.HEADING]?.let { column ->
@@ -89,10 +92,10 @@ class DiagnosisLog private constructor(
                 log.format,
                 log.quantity,
                 reference,
-                columns.series(reference != null, missing > 0, conditions.keys),
+                columns.series(reference != null, steps.isSparse, conditions.keys),
                 columns,
                 pass,
-                missing,
+                steps,
                 cut,
                 log.frame,
                 heading,

@@ -55,12 +55,13 @@ private val KINDS = mapOf<String, (HiddenTruth) -> Boolean>(
     "strong" to { it.isStrong },
     "outside" to { truth -> truth.effects.keys.any { !it.listed } },
     "none" to { it.effects.isEmpty() },
-)
+) + HiddenEffect.entries.map { effect -> effect.label to { truth -> truth.isStrong && effect in truth.effects } }
 
 /**
- * `FIRST COUNT reference|blind [CASES.tsv] [strong|outside|none]`: prints the tables of a campaign; CASES.tsv gets a
+ * `FIRST COUNT reference|blind [CASES.tsv] [strong|outside|none|LABEL]`: prints the tables of a campaign; CASES.tsv gets a
  * line a case, CASES.tsv.md the tables so far. With the last word only single effects at the detectable size and above,
- * effects outside the list, or cases without an effect are asked about.
+ * effects outside the list, or cases without an effect are asked about; with the label of an effect only those of the
+ * list that are this one, at the detectable size and above.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
