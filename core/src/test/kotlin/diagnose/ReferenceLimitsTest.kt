@@ -157,9 +157,9 @@ class ReferenceLimitsTest {
 
     @Test
     fun standingStillWhereItStoodBeforeIsOneMeeting() {
-        // Three minutes at the surface, down and up, and three minutes there again; one reading of the reference is off.
+        // Two minutes at the surface, down and up, and two minutes there again; one reading of the reference is off.
         val times = DoubleArray(n) { it.toDouble() }
-        val depth = DoubleArray(n) { maxOf(0.0, 60 - abs(it - 300.0)) / 4 }
+        val depth = DoubleArray(n) { maxOf(0.0, 165 - abs(it - 300.0)) / 4 }
         val truth = DoubleArray(n) { cos(depth[it] / 5) + 0.01 * random.nextGaussian() }
         truth[0] += 0.03
         val water = ChangingWater(MeasuredSeries(times, depth, DoubleArray(n), truth, truth), truth)
