@@ -20,9 +20,12 @@ internal class BlindRound(
 
     /** Still water under noise that hardly wanders; null where it does not anyway. */
     private val quiet = search.quiet(settledStill)
+    private val open = search.opened(model)
+
+    /** Water that does not change, from noise that suits it, from such as hardly wanders, and from what suits changes. */
     private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })
         .maxBy { it.score }
-    private val open = search.opened(model)
+        .let { if (open.score - it.score > CHANGING_TOO) likelier(it, search.still(open)) else it }
 
     /** The model, with water that changes in time or does not. */
     val state = if (open.score > still.score) open else still
@@ -107,8 +110,12 @@ internal class BlindRound(
 
     private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 
-    /** Whether [trial], on water that does not change, may be worth water and noise of its own. */
+    /**
+     * Whether [trial], on water that does not change, may be worth water and noise of its own. A drift always is: it is
+     * asked there where water that changes is worth something, whose noise has taken what a drift does at first.
+     */
     private fun isLikelyOnStill(trial: BlindTrial): Boolean {
+        if (trial.term?.cause == Cause.DRIFT) return true
         val isSlow = trial.term?.cause in BlindDiagnosis.SLOW
         return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
     }
@@ -154,8 +161,11 @@ internal class BlindRound(
     private fun settledAsIs(trial: BlindTrial, other: BlindTrial?): BlindTrial {
         val isSlow = trial.term?.cause in BlindDiagnosis.SLOW
         val onState = if (isSlow && other != null && !(trial.ratio > LIKELY)) null else found(state, trial)
-        val onStill = other?.takeIf { !isSlow || isLikelyOnStill(it) }
-            ?.let { found(if (isSlow) held else still, it) }
+        val onStill = other?.takeIf { !isSlow || isLikelyOnStill(it) }?.let {
+            val own = found(if (isSlow) held else still, it)
+            // Noise that suits changing water suits a drift no more than that which has taken it.
+            if (it.term?.cause == Cause.DRIFT) likelierDrift(own, it) else own
+        }
         if (isSlow && onStill != null && (onState == null || onState.score < onStill.score + CHANGING_TOO)) {
             return heldAgainstChange(checkNotNull(other), onStill)
         }
@@ -163,10 +173,20 @@ internal class BlindRound(
         val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, quieter).maxBy { it.score }
         val searched = searched(trial)
         val first = tries.settled(trial, found, state.score, searched)
-        if (first.pValue > settings.level) return first
+        if (first.pValue > settings.level) {
+            return if (isSlow && onStill != null) heldAgainstChange(checkNotNull(other), onStill) else first
+        }
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, found)) }
         return tries.settled(trial, found, best, searched)
+    }
+
+    private fun likelier(one: BlindState, other: BlindState) = if (other.score > one.score) other else one
+
+    /** [found], or a drift as [trial] begun from the noise that suits still water without it. */
+    private fun likelierDrift(found: BlindState, trial: BlindTrial): BlindState {
+        val begun = search.improved(search.with(still, stillTries.attempt(checkNotNull(trial.term))))
+        return likelier(search.climbed(found), search.climbed(search.requieted(begun)))
     }
 
     private fun searched(trial: BlindTrial): Double = tries.searched(trial.term?.times.orEmpty().size)

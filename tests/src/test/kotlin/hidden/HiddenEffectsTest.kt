@@ -85,6 +85,24 @@ class HiddenEffectsTest {
         assertTrue(case.bothFound, Scores(listOf(case)).markdown())
     }
 
+    /** Seeds of the work on it: a drift and water that changes evenly, which noise that wanders had taken. */
+    @Test
+    fun aDriftIsAskedOfNoiseThatDoesNotWander() {
+        val cases = blind(203_063, 208_029)
+        val hidden = listOf(HiddenEffect.DRIFT, HiddenEffect.TIME_VARYING)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
+    /** Seeds of the work on it: an offset with heading and interference of 1.3x, whose period the water takes most of. */
+    @Test
+    fun whatIsOutsideTheListIsUnexplainedWhereItIsFaint() {
+        val cases = blind(205_019, 204_010)
+        val hidden = listOf(HiddenEffect.HEADING, HiddenEffect.INTERFERENCE)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.answer.verdict == "unexplained" }, Scores(cases).markdown())
+    }
+
     /** Seed 150128 hides a dead time, 150120 nothing. */
     @Test
     fun aTwinIsTheSameLogWithoutTheEffect() {
