@@ -29,7 +29,7 @@ internal class BlindPeriods(private val state: BlindState, private val tries: Bl
     /** Of each frequency, the share that the water leaves, from every [APART]-th of them. */
     private val own: DoubleArray by lazy {
         val known = ArrayList<Double>()
-        while (known.size * APART < count + APART && known.takeLast(2).any { it < ALL } or (known.size < 2)) {
+        while (known.size * APART < count + APART && (known.size < 2 || known.takeLast(2).any { it < ALL })) {
             val frequency = lowest + known.size * APART * step
             val white = state.fit.whitened(wave(frequency, if (known.size % 2 == 0) ::cos else ::sin))
             known += 1 - squares(state.fit.imitated(white)) / maxOf(squares(white), TINY)
