@@ -27,13 +27,7 @@ internal class BlindLooks(
     private val tau = maxOf(state.timeConstant, series.period)
     private val prediction = DoubleArray(n) { series.values[it] - state.residuals[it] }
     private val value = standard(prediction)
-    private val rate = standard(
-        DoubleArray(n) { i ->
-            val from = maxOf(i - 1, 0)
-            val to = minOf(i + 1, n - 1)
-            if (to == from) 0.0 else (prediction[to] - prediction[from]) / (series.times[to] - series.times[from])
-        },
-    )
+    private val rate = standard(DoubleArray(n) { series.rise(prediction, it, it) })
 
     /** All looks; of the same kinds in the same order whatever the model of a log is. */
     val list: List<BlindLook> by lazy { shapes() + BlindPeriods(state, tries).look() }

@@ -111,7 +111,7 @@ internal class BlindRound(
     private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 
     /**
-     * Whether [trial], on water that does not change, may be worth water and noise of its own. A drift always is: it is
+     * Whether [trial], on water that does not change, may be worth water and noise of its own. A drift always may: it is
      * asked there where water that changes is worth something, whose noise has taken what a drift does at first.
      */
     private fun isLikelyOnStill(trial: BlindTrial): Boolean {

@@ -32,11 +32,7 @@ internal class Structure(private val fit: ModelFit) {
     private val square = squares(fit.whitened)
     private val isSharp = scales.unknown?.isSharp == true
     private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
-    private val rate = DoubleArray(n) { i ->
-        val from = maxOf(i - 1, 0)
-        val to = minOf(i + 1, n - 1)
-        (prediction[to] - prediction[from]) / (series.times[to] - series.times[from])
-    }
+    private val rate = DoubleArray(n) { series.rise(prediction, it, it) }
 
     /** All looks, the most striking first. */
     fun dependences(): List<Dependence> {

@@ -1,34 +1,16 @@
 package stillwater.diagnose
 
-import kotlin.math.exp
-import kotlin.math.sin
 import kotlin.test.Test
 import kotlin.test.assertTrue
 
 /** A second lag of a small part of a row does to slow water what a dead time as long does. */
 class BlindShortLagTest {
-    private val rows = 700
-    private val track = CrossingTrack(rows)
-
-    /** The water of the track at any [time], s. */
-    private fun water(time: Double): Double {
-        val x = 15 * sin(time / 19)
-        val y = 15 * sin(time / 25 + 1)
-        return sin(x / 4) + sin(y / 5 + 1) + sin((x + y) / 7)
-    }
+    private val track = CrossingTrack(700)
 
     @Test
     fun aSecondLagOfASmallPartOfARowIsTriedWhereItIs() {
         val random = java.util.Random(11)
-        var first = water(0.0)
-        var second = first
-        val values = DoubleArray(rows) { row ->
-            for (k in 0 until if (row > 0) 100 else 0) {
-                first += (1 - exp(-0.01 / 4.0)) * (water(row - 1 + (k + 0.5) / 100) - first)
-                second += (1 - exp(-0.01 / SHORT)) * (first - second)
-            }
-            second + 0.0005 * random.nextGaussian()
-        }
+        val values = track.shown(4.0, SHORT).map { it + 0.0005 * random.nextGaussian() }.toDoubleArray()
         val search = BlindSearch(MeasuredSeries(track.times, track.x, track.y, values, null))
         val state = search.still(search.best())
         val tries = BlindTrials(search, state)

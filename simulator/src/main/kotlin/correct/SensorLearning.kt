@@ -19,6 +19,7 @@ import stillwater.estimate.TrackSeries
 import stillwater.estimate.UnusableReadings
 import stillwater.estimate.ZeroWander
 import stillwater.estimate.rateLimit
+import stillwater.diagnosis.ReferenceSteps
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
@@ -102,9 +103,6 @@ internal object SensorLearning {
 
     /** A lag known to such a factor only is not known. */
     private const val MOST_FACTOR = 10
-
-    /** Rows with a reference are this much rarer than rows before what lies between them counts. */
-    private const val SPARSE = 1.5
 
     /** The water between rows with a reference is not known where it bends by half of what is left of the readings. */
     private const val MOST_ROUGHNESS = 0.5
@@ -268,7 +266,7 @@ internal object SensorLearning {
             val end = if (range.endInclusive.isInfinite()) "more than it is long" else duration(range.endInclusive)
             return "its ${part.size} rows, ${duration(length)} long, fit any lag from $begin to $end"
         }
-        val isSparse = part.medianStep > SPARSE * series.medianStep
+        val isSparse = ReferenceSteps.isSparse(part.medianStep, series.medianStep)
         if (isSparse && learner.roughness() > MOST_ROUGHNESS) {
             val rows = "it has a row every ${duration(part.medianStep)} only"
             return "$rows, and the water between them is not known well enough"

@@ -76,7 +76,7 @@ class DiagnosisLog private constructor(
                     columns.size >= MOST_ROWS -> cut++
                     reference != null && others[REFERENCE].isNaN() -> steps.add(time.seconds, isKnown = false)
                     else -> {
-                        steps.add(time.seconds, isKnown = true)
+                        if (reference != null) steps.add(time.seconds, isKnown = true)
                         columns.add(time.seconds, x, y, value, others)
                     }
                 }

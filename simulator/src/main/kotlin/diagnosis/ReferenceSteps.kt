@@ -13,7 +13,7 @@ internal class ReferenceSteps {
      * row missing here and there, or a reference that stops for a while, leaves the most of them as near as they were:
      * what is not known there is a gap's.
      */
-    val isSparse: Boolean get() = missing > 0 && usual(known) > SPARSE * usual(all)
+    val isSparse: Boolean get() = missing > 0 && isSparse(usual(known), usual(all))
 
     /** Takes the row at [time], s; rows come in order. */
     fun add(time: Double, isKnown: Boolean) {
@@ -26,8 +26,11 @@ internal class ReferenceSteps {
         return if (steps.isEmpty()) 0.0 else steps[steps.size / 2]
     }
 
-    private companion object {
+    companion object {
         /** Rows with a reference are this much rarer than rows before what lies between them counts. */
-        const val SPARSE = 1.5
+        private const val SPARSE = 1.5
+
+        /** Whether rows with a reference, usually [known] s apart, are sparse among rows that are usually [all] s apart. */
+        fun isSparse(known: Double, all: Double): Boolean = known > SPARSE * all
     }
 }
