@@ -46,9 +46,10 @@ internal class BlindAnswer(
         )
         val strongest = order.first()
         // What goes with the boat alone is no lag's of either kind, nor the water's.
-        val isBoats = chosen.isEmpty() && end.isOfBoat(strongest)
-        val asIs = if (isBoats) Double.POSITIVE_INFINITY else end.looksAsIs[strongest].ratio
-        val verdict = verdict(all, left.first(), looks[strongest].sureness, asIs, chosen)
+        val certain = if (end.isOfTime(strongest)) CERTAIN_OF_TIME else CERTAIN
+        val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
+            (chosen.isEmpty() && (end.isOfBoat(strongest) || left.first().adjusted < certain))
+        val verdict = verdict(all, left.first(), looks[strongest].sureness, isOthers, chosen)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
@@ -94,23 +95,23 @@ internal class BlindAnswer(
     }
 
     /**
-     * Where [left] is the strongest of what is left, with [sureness], and [asIs] what it is worth on the last model as
-     * that is.
+     * Where [left] is the strongest of what is left, with [sureness], which [isOthers] if a lag that may be of either
+     * kind is not enough for it.
      */
     private fun verdict(
         all: List<List<Cause>>,
         left: Dependence,
         sureness: Double,
-        asIs: Double,
+        isOthers: Boolean,
         chosen: List<BlindStep>,
     ): Verdict {
         val isOpen = lag.isOpen(settings.separation)
         // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
         val weakest = chosen.minOfOrNull { it.trial.sureness }
         val outweighs = when {
-            isOpen && asIs > LEFT * lag.seen -> true
+            isOpen && isOthers -> true
             weakest != null -> sureness > LEFT * weakest
-            else -> !isOpen || left.adjusted < CERTAIN
+            else -> !isOpen
         }
         val isStructured = left.adjusted < settings.structureLevel && outweighs
         val sets = all + listOfNotNull(lagSet(isOpen))
@@ -314,11 +315,11 @@ internal class BlindAnswer(
     companion object {
         private const val LEFT = 0.25
 
-        /**
-         * Adjusted p-value below which what is left is told beside an open lag of whatever size: what the noise's model
-         * does not know of a real log gave 4e-6.
-         */
-        private const val CERTAIN = 1e-6
+        /** Adjusted p-value below which what is left is told beside an open lag, of whatever size that is. */
+        private const val CERTAIN = 1e-3
+
+        /** The same of what goes with time alone: what the noise's model does not know of a real log gave 4e-6. */
+        private const val CERTAIN_OF_TIME = 1e-6
 
         /**
          * Twice the gain in log-likelihood over inflation from which water that changes is told where no drift is named:

@@ -97,6 +97,7 @@ internal class BlindDiagnosis(
             } else {
                 likeliest
             }
+            if (best.sureness < FURTHER * (chosen.maxOfOrNull { it.trial.sureness } ?: 0.0)) break
             // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
             // named for its shadow. A response that rings is like many others.
             val look = round.strongestLook
@@ -175,7 +176,7 @@ internal class BlindDiagnosis(
     companion object {
         /**
          * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:
-         * the level of outliers is lower by as much. Looks have [BlindLook.DOUBT] for it.
+         * the level of outliers is lower by as much. Looks have [BlindLook.doubt] for it.
          */
         const val STRICTER = 0.1
 
@@ -194,7 +195,13 @@ internal class BlindDiagnosis(
         /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
         const val FAR_CHANGE = 300.0
 
-        /** The same below which a cause goes again, once others are named beside it. */
+        /**
+         * Share of what the surest cause explains that another must, to be named beside it: the model of a strong effect
+         * is not right to a few percent, as between the rows, and leaves traces that others take.
+         */
+        private const val FURTHER = 0.02
+
+        /** Twice a gain in log-likelihood below which a cause goes again, once others are named beside it. */
         private const val NEEDLESS = 8.0
 
         /** Causes that water which changes in time can imitate. */

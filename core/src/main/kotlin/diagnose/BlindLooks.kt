@@ -38,6 +38,10 @@ internal class BlindLooks(
     /** The [index]-th of [list] with water and noise of its own. */
     fun refitted(index: Int): RefittedLook = tries.refitted(list[index], trials[index])
 
+    /** The look at [what], of which [column] has more at some times than at others. */
+    private fun changing(what: String, column: DoubleArray) =
+        BlindLook("$what, more at some times than at others", listOf(column), doubt = BlindLook.DOUBT_OF_CHANGE)
+
     private fun shapes(): List<BlindLook> = buildList {
         val age = standard(series.times)
         add(
@@ -46,10 +50,10 @@ internal class BlindLooks(
                 listOf(product(value, value), cube(value)),
             ),
         )
-        add(BlindLook("the rate of change, more at some times than at others", listOf(followed(product(rate, age)))))
+        add(changing("the rate of change", followed(product(rate, age))))
         val uneven = listOf(followed(product(rate, value)))
         add(BlindLook("the rate of change, more at some values than at others", uneven))
-        add(BlindLook("the value, more at some times than at others", listOf(product(value, age))))
+        add(changing("the value", product(value, age)))
         if (canShowShape) {
             add(
                 BlindLook(

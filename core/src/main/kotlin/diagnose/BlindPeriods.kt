@@ -64,6 +64,7 @@ internal class BlindPeriods(private val state: BlindState, private val tries: Bl
             listOf(wave(frequency, ::cos), wave(frequency, ::sin)),
             2 * ln(count.toDouble()),
             { z -> beside(normed(z, near), best - near.first) / squares(z) },
+            ofTime = true,
         )
     }
 

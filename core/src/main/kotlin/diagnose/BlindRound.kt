@@ -328,6 +328,9 @@ internal class BlindRound(
     /** Whether the [index]-th of [looks] is at what goes with the boat alone. */
     fun isOfBoat(index: Int): Boolean = here.list[index].ofBoat
 
+    /** Whether the [index]-th of [looks] is at what goes with time alone. */
+    fun isOfTime(index: Int): Boolean = here.list[index].ofTime
+
     /** The model with the likeliest cause where that is another shape of the lag; null where it is not, or none is sure. */
     fun shift(): BlindState? = causes.filter { it.pValue < settings.level }.maxByOrNull { it.likelier }
         ?.takeIf { it.term?.cause in BlindTerms.OF_LAG }?.state
@@ -368,7 +371,8 @@ internal class BlindRound(
         /** The same that waves which are missing do not give a look at the response: they gave 30 and 36 (191070, 195170). */
         const val BEYOND_MISSING = 45.0
 
-        /** Responses that missing waves look like: they go with no other quantity, as speed or warmth. */
-        val SHAPES = setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE)
+        /** Responses that missing waves look like: they go with no other quantity than the way, as speed or warmth. */
+        val SHAPES =
+            setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE, Cause.POSITION_OFFSET)
     }
 }

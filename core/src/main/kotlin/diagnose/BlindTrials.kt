@@ -107,7 +107,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(unlike, without), unlike)
+        val p = pValue(term, ratio, trial.degrees, between(unlike, without), unlike, change)
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
@@ -204,7 +204,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, between(unlike, z), unlike)
+        val p = pValue(what.term, ratio, degrees, between(unlike, z), unlike, change)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
@@ -274,7 +274,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             look.searched,
             look.floor(after),
             after,
-        ).lessSure(BlindLook.DOUBT)
+        ).lessSure(look.doubt)
     }
 
     /** [look] with the water, the noise and the numbers that suit it, begun from what it gains by [trial]. */
@@ -305,9 +305,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
-        val p = pValue(null, ratio, degrees, between(unlike, without), unlike)
+        val p = pValue(null, ratio, degrees, between(unlike, without), unlike, found.change)
         val settled = BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p)
-        return settled.lessSure(BlindLook.DOUBT)
+        return settled.lessSure(look.doubt)
     }
 
     /** What is new in the columns of [look] beside the model's [own]. */
@@ -329,11 +329,18 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         degrees: Int,
         t: Double,
         unlike: DoubleArray,
+        change: DoubleArray,
     ): Double {
         // A jump shows at its own rows alone.
         if (term?.cause == Cause.OFFSET_STEPS) return Evidence.pValue(ratio, degrees)
-        // An end of the range may be reached a few times in a log; one wrong reading or two are none.
-        if (term?.cause == Cause.SATURATION) return Evidence.pValue(ratio * (1 - strongest(unlike)), degrees)
+        // An end of the range may be reached a few times in a log; one wrong reading or two are none. These may be
+        // anywhere, and are at one of the two ends by as much of a chance as it has of the rows.
+        if (term?.cause == Cause.SATURATION) {
+            val wrong = search.used.count { !it }
+            val there = minOf(2.0 * change.count { it != 0.0 } * (1 + wrong) / n, 1.0)
+            val few = there * Evidence.pValue(ratio * (1 - strongest(unlike)), degrees)
+            return maxOf(Evidence.pValue(ratio, degrees), few)
+        }
         // Several numbers give the sum of what they change a good look of chance: the t is held against that. What was
         // searched is in the ratio; stretches tell whether all of it is in a few.
         val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1), 0.0))

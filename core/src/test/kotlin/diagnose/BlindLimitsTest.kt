@@ -55,6 +55,18 @@ class BlindLimitsTest {
         assertTrue(listOf(Cause.SATURATION) in sets(verdict), "$verdict")
     }
 
+    /** Five readings of one crest: wrong ones would hardly be just there. */
+    @Test
+    fun anEndOfTheRangeThatOneCrestReachesIsNamed() {
+        val free = readings(SensorStage.Lag(4.0), SensorStage.Noise(0.01))
+        val top = free.indices.maxBy { free[it] }
+        val end = free[top] - 0.1
+        val values = readings(SensorStage.Lag(4.0), SensorStage.Range(null, end), SensorStage.Noise(0.01))
+        assertEquals((top - 2..top + 2).toList(), free.indices.filter { free[it] > end })
+        val verdict = Diagnosis(MeasuredSeries(times, x, y, values, null)).run().verdict
+        assertTrue(listOf(Cause.SATURATION) in sets(verdict), "$verdict")
+    }
+
     @Test
     fun twoWrongReadingsAtCrestsAreNoEnd() {
         val values = readings(SensorStage.Lag(4.0), SensorStage.Noise(0.01))

@@ -61,12 +61,26 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
     }
 
-    /** A seed of the work on it: a curved calibration whose log tells a lag but not of which kind. */
+    /** Seeds of the work on it: curved calibrations whose logs tell a lag but not of which kind. */
     @Test
     fun whatIsCertainlyLeftBesideAnOpenLagIsUnexplained() {
-        val case = blind(199_041).single()
-        assertEquals(setOf(HiddenEffect.CURVED), case.truth.effects.keys)
-        assertEquals("unexplained", case.answer.verdict)
+        val cases = blind(199_041, 215_000)
+        assertTrue(cases.all { it.truth.effects.keys == setOf(HiddenEffect.CURVED) })
+        assertTrue(cases.all { it.answer.verdict == "unexplained" }, Scores(cases).markdown())
+    }
+
+    /**
+     * Seeds of the work on it: a play whose model left what a lag that goes with speed takes, a response that rings in
+     * water too fine for its log, which a probe ahead seemed to explain, and nothing in a log whose rate of change shows
+     * more of itself at some times by chance.
+     */
+    @Test
+    fun whatIsNotThereIsNotNamed() {
+        val cases = blind(208_002, 209_055, 204_015)
+        val hidden = listOf(setOf(HiddenEffect.HYSTERESIS), setOf(HiddenEffect.RESONANCE), emptySet())
+        assertEquals(hidden, cases.map { it.truth.effects.keys })
+        assertTrue(cases.first().correct && cases.last().answer.verdict == "consistent", Scores(cases).markdown())
+        assertTrue(cases[1].answer.sets.none { "position-offset" in it }, Scores(cases).markdown())
     }
 
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
