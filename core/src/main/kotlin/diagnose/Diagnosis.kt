@@ -91,14 +91,16 @@ public class Diagnosis(
 
     /**
      * The weighing with a reference that is late by less than a row put right, where the log is then as likely without
-     * the shifts and second paths among what was chosen in [first]; null where it is not.
+     * the shifts and second paths among what was chosen in [first], or, where there are none, as with readings that are
+     * ahead of the reference for certain; null where it is not.
      */
     private fun led(first: Weighing): Weighing? {
         // A wrong time constant that was given is put right by much the same.
         if (settings.base != null || unknown.isSharp || series.isSparse) return null
         val (shifts, kept) = first.chosen.partition { it.term.cause in ReferenceLead.ALIKE }
-        if (shifts.isEmpty()) return null
-        val least = ReferenceFaults.enough(first.explained, first.base.score) + NUMBER
+        // What else is at work beside a late reference shows only once that is put right.
+        val explained = (if (shifts.isEmpty()) first.lateness else first.explained) ?: return null
+        val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER
         // With a slow path beside it the time constant is that of the fast one.
         val shocks = scales(first.base, false).shocks
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]

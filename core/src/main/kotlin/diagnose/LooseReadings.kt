@@ -17,6 +17,12 @@ internal class LooseReadings(private val fit: ModelFit) {
     private val spikes: List<Int>
     private val mixture: Mixture
 
+    /** Share of rows that stick out where nothing is wrong with any of them: more of noise with heavy tails. */
+    private val beyond: Double
+
+    /** Whether noise with heavy tails is likelier than normal noise with single wrong readings. */
+    private val isTailed: Boolean
+
     init {
         // Noise may be larger at some values, speeds or times than at others: that is no outlier yet.
         LocalSpread.of(fit, z).forEachIndexed { i, factor -> z[i] /= factor }
@@ -36,6 +42,9 @@ internal class LooseReadings(private val fit: ModelFit) {
         val told = DoubleArray(sure.size) { z[sure[it]] }
         spikes = Spikes.of(told).map { sure[it] }.filter(::isFar)
         mixture = Spikes.ratio(told)
+        val tails = Spikes.student(told)
+        isTailed = tails.ratio > mixture.ratio + TAILED
+        beyond = if (isTailed) maxOf(BEYOND, tails.beyond(Spikes.farthest(told))) else BEYOND
     }
 
     private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i)
@@ -53,18 +62,18 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     /** Of there being sudden changes that last; those where the truth itself is sudden are none. */
     val lastingPValue: Double
-        get() = if (LocalSpread.isConcentrated(fit, lasting)) 1.0 else tail(lasting.size)
+        get() = if (LocalSpread.isConcentrated(fit, lasting)) 1.0 else tail(lasting.size, BEYOND)
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
-    val pValue: Double = tail(spikes.size).let { lone ->
-        val far = mixture.size > FARTHEST * spread && resolution < spread
+    val pValue: Double = tail(spikes.size, beyond).let { lone ->
+        val far = mixture.size > FARTHEST * spread && resolution < spread && !isTailed
         val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
         val usual = usual()
         if (LocalSpread.isConcentrated(fit, z.indices.filter { abs(z[it]) > TAIL * usual })) 1.0 else found
     }
 
-    /** Of so many rows being far off by chance. */
-    private fun tail(count: Int) = Evidence.poissonTail(count, series.size * BEYOND)
+    /** Of so many rows being far off by chance where a [share] of all is. */
+    private fun tail(count: Int, share: Double) = Evidence.poissonTail(count, series.size * share)
 
     /** How often and how far. */
     fun size(): SpikeSize =
@@ -73,6 +82,9 @@ internal class LooseReadings(private val fit: ModelFit) {
     private companion object {
         const val BEYOND = 4e-5
         const val FARTHEST = 4.5
+
+        /** Twice a log-likelihood ratio that is no evidence: half of that of two looks without a reference. */
+        const val TAILED = 2.0
 
         /** Of these only one in two thousand is no outlier. */
         const val TAIL = 3.5

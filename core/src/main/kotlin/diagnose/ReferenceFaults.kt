@@ -22,26 +22,30 @@ internal class ReferenceFaults(
 ) {
     private val series = base.model.series
     private val late = search.attempt(base, baseHeldOut, Term(Cause.DEAD_TIME, isEitherWay = true), base)
+    private val ahead = -late.fit.numbers[late.fit.model.slot(late.term)]
+
+    /** Twice the log-likelihood with a reference that is late, less what that gains by chance. */
+    val lateness: Double get() = late.fit.score - late.cost
+
+    /** Whether the reference is late for certain, which explains as much as causes do that are worth [explained]. */
+    fun isLate(explained: Double): Boolean =
+        // How a log is sampled may do as much as a tenth of a row.
+        ahead > SmallShifts.LEAST_ROWS * series.period && late.pValue * tried < level && late.foretells &&
+            lateness >= explained
 
     /**
      * How the reference differs if that explains as much as causes do that are worth [explained], of which a slow path
      * may be one, [isTwoPath]; null if not.
      */
-    fun words(explained: Double, isTwoPath: Boolean): String? {
-        val ahead = -late.fit.numbers[late.fit.model.slot(late.term)]
-        // How a log is sampled may do as much as a tenth of a row.
-        val isLate = ahead > SmallShifts.LEAST_ROWS * series.period && late.pValue * tried < level && late.foretells &&
-            late.fit.score - late.cost >= explained
-        return when {
-            isLate -> ReferenceLead.words(ahead)
-            isTwoPath && slowest.second >= enough(explained, base.score) ->
-                "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
-                    "own, of about %.2g s".format(Locale.ROOT, slowest.first)
-            explained > base.score && smoothest() >= explained ->
-                "the readings follow a smoother course than the reference's: it is noisy, or sees other water than " +
-                    "the sensor"
-            else -> null
-        }
+    fun words(explained: Double, isTwoPath: Boolean): String? = when {
+        isLate(explained) -> ReferenceLead.words(ahead)
+        isTwoPath && slowest.second >= enough(explained, base.score) ->
+            "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
+                "own, of about %.2g s".format(Locale.ROOT, slowest.first)
+        explained > base.score && smoothest() >= explained ->
+            "the readings follow a smoother course than the reference's: it is noisy, or sees other water than " +
+                "the sensor"
+        else -> null
     }
 
     /**

@@ -83,21 +83,29 @@ internal object Spikes {
     }
 
     /** Twice the log-likelihood ratio of noise with Student's tails against normal noise for white [residuals]. */
-    fun tails(residuals: DoubleArray): Double {
+    fun tails(residuals: DoubleArray): Double = student(residuals).ratio
+
+    /** The likeliest noise with Student's tails for white [residuals]. */
+    fun student(residuals: DoubleArray): StudentTails {
         val n = residuals.size
         val alone = sqrt(squares(residuals) / maxOf(n, 1))
         val robust = NORMAL * median(DoubleArray(n) { abs(residuals[it]) })
-        if (!(robust > 0)) return 0.0
+        if (!(robust > 0)) return StudentTails(0.0, 1, Double.POSITIVE_INFINITY)
         val plain = -n * ln(alone) - n / 2.0
-        return FREEDOMS.maxOf { freedom ->
+        return FREEDOMS.flatMap { freedom ->
             val height = exp(Gamma.logGamma((freedom + 1) / 2) - Gamma.logGamma(freedom / 2)) * sqrt(2 / freedom)
-            WIDTHS.maxOf { width ->
+            WIDTHS.map { width ->
                 val spread = width * robust
                 val sum = residuals.sumOf { r -> ln(1 + (r / spread) * (r / spread) / freedom) }
-                2 * (n * ln(height / spread) - (freedom + 1) / 2 * sum - plain)
+                val ratio = 2 * (n * ln(height / spread) - (freedom + 1) / 2 * sum - plain)
+                StudentTails(ratio, freedom.toInt(), spread)
             }
-        }
+        }.maxBy { it.ratio }
     }
+
+    /** How far off a row of [residuals] is to stick out, by [of]; the seven around it change that by little. */
+    fun farthest(residuals: DoubleArray): Double =
+        TIMES_SPREAD * NORMAL * median(DoubleArray(residuals.size) { abs(residuals[it]) })
 
     private fun mixture(residuals: DoubleArray, spread: Double, share: Double, size: Double): Double {
         if (!(spread > 0)) return Double.NEGATIVE_INFINITY
@@ -119,3 +127,14 @@ internal object Spikes {
  * farthest.
  */
 internal data class Mixture(val ratio: Double, val share: Double, val size: Double)
+
+/**
+ * Noise with Student's tails.
+ *
+ * @property ratio twice the log-likelihood ratio against normal noise. @property freedom degrees of it.
+ * @property spread what Student's t is multiplied by.
+ */
+internal data class StudentTails(val ratio: Double, val freedom: Int, val spread: Double) {
+    /** The share of rows that is farther off than [limit] either way. */
+    fun beyond(limit: Double): Double = Evidence.student(limit / spread, freedom)
+}

@@ -43,6 +43,14 @@ internal class Weighing(
     /** Twice the log-likelihood of [last], less what its numbers would gain by chance. */
     val explained: Double get() = last.score - chosen.sumOf { it.cost }
 
+    private val faults by lazy { ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level) }
+
+    /**
+     * Twice the log-likelihood with a reference that is late in the place of all that was chosen, where that is certain
+     * and explains as much; else null.
+     */
+    val lateness: Double? get() = faults.lateness.takeIf { faults.isLate(explained) }
+
     /** The answer. */
     fun result(): DiagnosisResult {
         val loose = LooseReadings(last)
@@ -165,7 +173,6 @@ internal class Weighing(
 
     /** What explains the log better than any cause of the list and is none. */
     private fun unlisted(loose: LooseReadings): Verdict? {
-        val faults = ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level)
         val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
         val lasting = loose.lasting.size

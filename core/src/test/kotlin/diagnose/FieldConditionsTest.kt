@@ -7,6 +7,7 @@ import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sin
+import kotlin.math.sqrt
 import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -73,6 +74,21 @@ class FieldConditionsTest {
             val noisy = lagged(water::at)
             for (i in 0 until n) noisy[i] += 0.02 * (0.4 + 1.2 * rates[i] / rates.average()) * random.nextGaussian()
             assertEquals(Verdict.Consistent, diagnosed(noisy, truth(water)).verdict, "seed $seed")
+        }
+    }
+
+    @Test
+    fun noiseWithHeavyTailsIsNoSingleWrongReadings() {
+        for (seed in 41L..43L) {
+            val water = Water(seed)
+            val random = java.util.Random(seed)
+            val values = lagged(water::at)
+            // Student's t with five degrees of freedom.
+            for (i in values.indices) {
+                val squares = List(5) { random.nextGaussian() }.sumOf { it * it }
+                values[i] += 0.01 * random.nextGaussian() / sqrt(squares / 5)
+            }
+            assertEquals(Verdict.Consistent, diagnosed(values, truth(water)).verdict, "seed $seed")
         }
     }
 

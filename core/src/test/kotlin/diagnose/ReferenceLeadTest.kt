@@ -31,10 +31,13 @@ class ReferenceLeadTest {
 
     /** A sensor with a lag of [lag] s that drifts by [drift] sensor units a second beside a reference with one of 0.2 s. */
     private fun diagnosed(lag: Double, drift: Double): DiagnosisResult {
-        val times = DoubleArray(n) { it.toDouble() }
         val values = shown(lag)
-        for (i in values.indices) values[i] += drift * times[i] + 0.005 * random.nextGaussian()
-        val reference = shown(0.2)
+        for (i in values.indices) values[i] += drift * i + 0.005 * random.nextGaussian()
+        return diagnosed(values, shown(0.2))
+    }
+
+    private fun diagnosed(values: DoubleArray, reference: DoubleArray): DiagnosisResult {
+        val times = DoubleArray(n) { it.toDouble() }
         for (i in reference.indices) reference[i] += 0.0005 * random.nextGaussian()
         return Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, reference)).run()
     }
@@ -52,5 +55,17 @@ class ReferenceLeadTest {
         val result = diagnosed(2.3, 3e-5)
         assertEquals(Verdict.Named(listOf(Cause.DRIFT)), result.verdict)
         assertTrue(result.warnings.any { late in it }, "${result.warnings}")
+    }
+
+    @Test
+    fun wildReadingsBesideAClockThatIsBehindAreNamedThoughNoCauseTakesItsPlace() {
+        repeat(3) { round ->
+            val values = shown(0.1)
+            for (i in values.indices) values[i] += 0.03 * random.nextGaussian()
+            for (i in 40 until n step 75) values[i] += if (i % 2 == 0) 0.6 else -0.6
+            val result = diagnosed(values, DoubleArray(n) { water(it - 0.4) })
+            assertEquals(Verdict.Named(listOf(Cause.OUTLIERS)), result.verdict, "round $round")
+            assertTrue(result.warnings.any { "ahead of the reference by" in it }, "${result.warnings}")
+        }
     }
 }

@@ -31,6 +31,9 @@ class SpikesTest {
         val noise = DoubleArray(n) { random.normal() / sqrt(List(5) { random.normal() }.sumOf { it * it } / 5) }
         val ratio = Spikes.ratio(noise).ratio
         assertTrue(Spikes.tails(noise) > ratio && ratio > 30, "$ratio against ${Spikes.tails(noise)}")
+        // Of t with five degrees 0.5 % are beyond 4.773 and 0.2 % beyond 5.893, either way.
+        val share = Spikes.student(noise).beyond(5.0)
+        assertTrue(share in 0.0015..0.01, "$share")
     }
 
     @Test
