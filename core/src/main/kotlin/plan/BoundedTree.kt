@@ -27,8 +27,12 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private var parents = IntArray(FIRST_NODES)
     private var depths = IntArray(FIRST_NODES)
 
-    /** Places before each node on its path, a bit each; places 64 apart share one. */
-    private var passed = LongArray(FIRST_NODES)
+    /**
+     * How often the boat was at each place, of those that may be beside a node, before it came to the node: in two bits,
+     * here and in [twos], at the place's slot. Never, once, twice, or more often.
+     */
+    private var ones = LongArray(FIRST_NODES)
+    private var twos = LongArray(FIRST_NODES)
     private var values = DoubleArray(FIRST_NODES)
     private var sensors = DoubleArray(FIRST_NODES)
 
@@ -127,9 +131,26 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         parents[node] = parent
         depths[node] = depth
         values[node] = value
-        passed[node] = if (parent == NONE) 0L else passed[parent] or (1L shl places[parent])
         if (parent != NONE) sensors[node] = leaving(parent, place)
+        if (parent != NONE && settings.discountVisits) {
+            visit(node, parent)
+        } else {
+            ones[node] = 0L
+            twos[node] = 0L
+        }
         return node
+    }
+
+    /** Counts the visit of [parent]'s place for [node]; three stay three. */
+    private fun visit(node: Int, parent: Int) {
+        val slot = 1L shl (places[parent] ushr cells.slotShift)
+        // From edge to edge the other places are not beside the node.
+        val before = if (cells.slotShift == 1) parents[parent] else parent
+        val one = if (before == NONE) 0L else ones[before]
+        val two = if (before == NONE) 0L else twos[before]
+        val carry = one and slot
+        ones[node] = (one xor slot) or (two and carry)
+        twos[node] = two or carry
     }
 
     /** What the sensor is expected to show on leaving [place], which it entered from the node [parent]. */
@@ -140,9 +161,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /** Makes the neighbours of [node] its children, of [depth]. */
     private fun branch(node: Int, depth: Int) {
-        val parent = parents[node]
-        val back = if (parent == NONE || !settings.discountVisits) NOWHERE else places[parent]
-        val earlier = if (back == NOWHERE) 0L else passed[parent]
+        val one = ones[node]
+        val two = twos[node]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -158,7 +178,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             if (width >= 0) {
                 val promise = width - abs(middles[next] - sensor)
                 var total = value
-                if (promise > 0) total += discounted(promise, parent, next, back, earlier)
+                if (promise > 0) total += discounted(promise, node, next, one, two)
                 if (total > value) {
                     if (total > bestValue) best(total, node, next)
                     val priority = if (perMove) total / depth else total
@@ -182,9 +202,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
      */
     private fun count(node: Int, depth: Int) {
         order.drawn()
-        val parent = parents[node]
-        val back = if (parent == NONE || !settings.discountVisits) NOWHERE else places[parent]
-        val earlier = if (back == NOWHERE) 0L else passed[parent]
+        val one = ones[node]
+        val two = twos[node]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -199,7 +218,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             if (width >= 0) {
                 val promise = width - abs(middles[next] - sensor)
                 var total = value
-                if (promise > 0) total += discounted(promise, parent, next, back, earlier)
+                if (promise > 0) total += discounted(promise, node, next, one, two)
                 val priority = if (perMove) total / depth else total
                 if (priority >= waiting) {
                     due++
@@ -234,9 +253,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
      * do.
      */
     private fun finish(node: Int, packed: Int) {
-        val parent = parents[node]
-        val back = if (parent == NONE || !settings.discountVisits) NOWHERE else places[parent]
-        val earlier = if (back == NOWHERE) 0L else passed[parent]
+        val one = ones[node]
+        val two = twos[node]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -247,7 +265,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             val next = place + steps[direction]
             val promise = widths[next] - abs(middles[next] - sensor)
             if (promise > 0) {
-                val total = value + discounted(promise, parent, next, back, earlier)
+                val total = value + discounted(promise, node, next, one, two)
                 if (total > bestValue) best(total, node, next)
             }
         }
@@ -269,15 +287,17 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * What is left of [promise] for a boat that goes to [place] from a child of [parent], when its visits on the path are
-     * taken into account.
+     * What is left of [promise] for a boat that goes to [place] from [node], when its visits on the path are taken into
+     * account, of which [one] and [two] are the node's bits.
      *
-     * Mostly the boat was there with the move before, at [back], or never; the path is gone through only where the bits of
-     * [earlier] say that it may have been there before that. A half is as exact by a product, without a jump.
+     * Mostly the boat was there twice at the most. The path is gone through only where it was there more often, or
+     * where another place on the path may have the same slot. A half is as exact by a product, without a jump.
      */
-    private fun discounted(promise: Double, parent: Int, place: Int, back: Int, earlier: Long): Double {
-        if ((earlier ushr place) and 1L != 0L) return promise / (1 + visits(parent, place))
-        return promise * PARTS[((place xor back) - 1) ushr 31]
+    private fun discounted(promise: Double, node: Int, place: Int, one: Long, two: Long): Double {
+        val slot = place ushr cells.slotShift
+        val count = ((one ushr slot) and 1L) + 2 * ((two ushr slot) and 1L)
+        if (count >= cells.uncertainVisits) return promise / (1 + visits(node, place))
+        return if (count == 2L) promise / 3 else promise * PARTS[count.toInt()]
     }
 
     /** How often [place] occurs on the path to the node [last]. O(moves). */
@@ -320,7 +340,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         places = places.copyOf(capacity)
         parents = parents.copyOf(capacity)
         depths = depths.copyOf(capacity)
-        passed = passed.copyOf(capacity)
+        ones = ones.copyOf(capacity)
+        twos = twos.copyOf(capacity)
         values = values.copyOf(capacity)
         sensors = sensors.copyOf(capacity)
     }
@@ -337,9 +358,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
         /** Instead of a family's node: its children are only counted. */
         const val COUNTED = -2
-
-        /** No place, nor alike to one. */
-        const val NOWHERE = Int.MAX_VALUE
 
         /** What a cell is worth that was not visited on the path, and one that was once. */
         val PARTS = doubleArrayOf(1.0, 0.5)

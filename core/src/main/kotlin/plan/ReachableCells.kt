@@ -46,6 +46,16 @@ internal class ReachableCells(private val ways: Int) {
     var start: Int = 0
         private set
 
+    /**
+     * A path's places are told apart by the last six bits of the place shifted by this, its slot. From edge to edge a
+     * boat comes to a place's neighbours in every other move only, so that they may have the same.
+     */
+    val slotShift: Int = if (ways == NeighbourOrder.ALL) 0 else 1
+
+    /** The visits at a slot from which on they need not all be of one place of a path. */
+    var uncertainVisits: Int = 1
+        private set
+
     /** How far the neighbours of a place are from it: west, east, south, north, then the corners. */
     val steps: IntArray = IntArray(NeighbourOrder.ALL)
 
@@ -76,6 +86,8 @@ internal class ReachableCells(private val ways: Int) {
             steps[direction] = NeighbourOrder.ROW_STEPS[direction] * stride + NeighbourOrder.COLUMN_STEPS[direction]
         }
         for (r in 0 until rows) widestBesideRow((r + 1) * stride + 1, columns)
+        val apart = (rows - 1) * stride + columns - 1
+        uncertainVisits = if (slotShift == 1 && slotsDiffer(apart, reach)) MANY_VISITS else 1
         widest = 0.0
         for (place in 0 until places) widest = maxOf(widest, widths[place])
     }
@@ -110,6 +122,22 @@ internal class ReachableCells(private val ways: Int) {
         }
     }
 
+    /**
+     * Whether no two cells with the same slot are on one path of [reach] moves from edge to edge, and as many moves from
+     * each other as a path between them has, odd or even. Cells' places differ by [apart] at the most.
+     */
+    private fun slotsDiffer(apart: Int, reach: Int): Boolean {
+        // Halves are the same modulo 64 where the places differ by a multiple of 128, or by one more or less.
+        for (multiple in SLOTS * 2..apart + 1 step SLOTS * 2) {
+            for (difference in multiple - 1..multiple + 1) {
+                val rows = difference / stride
+                val columns = difference % stride
+                if (minOf(rows + columns, rows + 1 + stride - columns) <= reach) return false
+            }
+        }
+        return true
+    }
+
     /** Index in the map's grid of the cell at [place]. */
     fun cell(place: Int): Int =
         (firstRow + place / stride - 1) * grid.columns + firstColumn + place % stride - 1
@@ -117,5 +145,10 @@ internal class ReachableCells(private val ways: Int) {
     companion object {
         /** The width of a place that holds no cell. */
         const val RIM: Double = -1.0
+
+        private const val SLOTS = 64
+
+        /** Visits that the planner's tree does not count any more. */
+        const val MANY_VISITS: Int = 3
     }
 }

@@ -89,6 +89,23 @@ class BoundedPlannerOracleTest {
     }
 
     @Test
+    fun placesVisitedOverAndOverAreCounted() {
+        var compared = 0
+        var often = 0
+        forEvery(drawn { Case(it, everySort = false, horizons = 8..14, sides = 1..3) }, cases = 300) { case ->
+            val naive = Naive(case, PathChoice.BEST)
+            naive.run()
+            if (naive.ties) return@forEvery
+            compared++
+            if (naive.chosen.groupingBy { it }.eachCount().any { it.value >= 4 }) often++
+            val plan = Plan()
+            case.planner(PathChoice.BEST, case.expansions).plan(case, plan)
+            assertEquals(naive.chosen, cells(plan, case.map.grid))
+        }
+        assertTrue(compared > 200 && often > 20, "$often of $compared paths come to a place four times")
+    }
+
+    @Test
     fun theOriginalsChoiceIsOftenNotTheBest() {
         var worse = 0
         forEvery(drawn { Case(it, everySort = false) }, cases = 200) { case ->
@@ -143,8 +160,8 @@ class BoundedPlannerOracleTest {
         private fun haveTies(numbers: List<Double>) = numbers.sorted().zipWithNext().any { (a, b) -> b - a < 1e-13 }
     }
 
-    private class Case(random: Random, everySort: Boolean) {
-        val horizon = random.nextInt(1, 5)
+    private class Case(random: Random, everySort: Boolean, horizons: IntRange = 1..4, sides: IntRange = 1..4) {
+        val horizon = horizons.random(random)
         val expansions = random.nextInt(1, 40)
         val maxChange = random.nextDouble(0.01, 0.6)
         val discount = random.nextBoolean()
@@ -152,7 +169,7 @@ class BoundedPlannerOracleTest {
         val priority = Priority.entries.random(random)
         val sensor = random.nextDouble()
         val seed = random.nextInt()
-        val map = randomMap(random, random.nextInt(1, 5), random.nextInt(1, 5))
+        val map = randomMap(random, sides.random(random), sides.random(random))
         val start = random.nextInt(map.grid.size)
 
         init {
