@@ -4,6 +4,7 @@ import kotlinx.coroutines.Dispatchers
 import kotlinx.coroutines.async
 import kotlinx.coroutines.awaitAll
 import kotlinx.coroutines.runBlocking
+import stillwater.diagnosis.ReferenceSteps
 import stillwater.estimate.CandidateResponse
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.LikelyResponse
@@ -19,7 +20,6 @@ import stillwater.estimate.TrackSeries
 import stillwater.estimate.UnusableReadings
 import stillwater.estimate.ZeroWander
 import stillwater.estimate.rateLimit
-import stillwater.diagnosis.ReferenceSteps
 import stillwater.io.LogProblem
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
