@@ -55,8 +55,11 @@ internal class BlindDiagnosis(
     private fun answer(found: BlindState, isTurned: Boolean = false): DiagnosisResult {
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
         val still = search.still(found)
-        val lags = listOf(found, still).filter { it.score > found.score - FAR_CHANGE }.distinct()
-            .let { all -> loops.all(all) { state -> BlindLag(search, state).also { it.likeliest } } }
+        val lags = if (still.score > found.score - FAR_CHANGE) {
+            loops.all(listOf(found, still).distinct()) { state -> BlindLag(search, state).also { it.likeliest } }
+        } else {
+            listOf(BlindLag(search, found, still.takeIf { !found.isResolved }))
+        }
         lag = lags.maxBy { it.likeliest }
         val base = lag.timeConstant
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.

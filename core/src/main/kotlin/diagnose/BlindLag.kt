@@ -5,11 +5,15 @@ import kotlin.math.sqrt
 /**
  * Whether a log without a reference shows a lag at all, and whether it shows which: a time constant or a dead time.
  *
- * @property timeConstant the model with a lag alone.
+ * @property timeConstant the model with a lag alone. @param still the same in water that does not change, where water
+ *   that does has taken so much that a wrong response may be in it; else null.
  */
-internal class BlindLag(private val search: BlindSearch, val timeConstant: BlindState) {
+internal class BlindLag(
+    private val search: BlindSearch,
+    val timeConstant: BlindState,
+    private val still: BlindState? = null,
+) {
     private val period = timeConstant.model.series.period
-    private val noise = timeConstant.fit.design.noise
 
     /** The model of a sensor that follows at once. */
     val none: BlindState = settled(emptyList(), period / 50, null)
@@ -22,13 +26,14 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
         settled(listOf(Term(Cause.DEAD_TIME)), period / 50, share * timeConstant.timeConstant)
     }.maxBy { it.score }.let { search.requieted(refined(it)) }.let { refined(it) }
 
-    private fun settled(terms: List<Term>, tau: Double, delay: Double?) = search.settled(
-        terms,
-        listOfNotNull(tau, 1.0, 0.0, 0.0, delay).toDoubleArray(),
-        noise,
-        timeConstant.variances,
-        before = timeConstant,
-    )
+    private fun settled(terms: List<Term>, tau: Double, delay: Double?, from: BlindState = timeConstant) =
+        search.settled(
+            terms,
+            listOfNotNull(tau, 1.0, 0.0, 0.0, delay).toDoubleArray(),
+            from.fit.design.noise,
+            from.variances,
+            before = from,
+        )
 
     /** [state] with the dead time alone fitted, as far as it leads: the water must follow each step. */
     private fun refined(state: BlindState): BlindState {
@@ -54,8 +59,16 @@ internal class BlindLag(private val search: BlindSearch, val timeConstant: Blind
     val both: BlindState by lazy {
         // Of what both share the likelier kind alone has most of it; a lag alone may be far too long.
         val half = (if (deadTime.score > timeConstant.score) delay else timeConstant.timeConstant) / 2
-        val best = search.climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
+        val near = search.climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
+        val best = listOfNotNull(near, still?.let(::parted)).maxBy { it.score }
         if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
+    }
+
+    /** The model with a dead time beside the lag, half of the lag each, begun on water that does not change, as [state]. */
+    private fun parted(state: BlindState): BlindState {
+        val half = state.timeConstant / 2
+        val begun = settled(listOf(Term(Cause.DEAD_TIME)), half, half, state)
+        return search.opened(search.climbed(search.requieted(search.climbed(begun))))
     }
 
     /**

@@ -73,7 +73,11 @@ internal class BlindRound(
         tell(TRIED)
         // Water that changes in time may have taken what the sensor does.
         val isOther = still !== state && changing > NO_CHANGE
-        val both = terms.filter { isOther && (it.cause in BlindDiagnosis.SLOW || changing < BlindDiagnosis.FAR_CHANGE) }
+        val isFar = changing >= BlindDiagnosis.FAR_CHANGE
+        // Water that would change by very much, and waves that are missing, both come of a response that is wrong.
+        val both = terms.filter {
+            isOther && (it.cause in BlindDiagnosis.SLOW || !isFar || (isBlurred && it.cause in BlindSearch.LINEAR))
+        }
         val others = both.map { it.key }
             .zip(
                 loops.all(both) {

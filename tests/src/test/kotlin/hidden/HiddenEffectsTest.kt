@@ -69,6 +69,14 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.answer.verdict == "unexplained" }, Scores(cases).markdown())
     }
 
+    /** A seed of the work on it: a probe far ahead, which water that changes took, so that a lag of either kind was left. */
+    @Test
+    fun aWrongResponseIsAskedOfWaterThatDoesNotChange() {
+        val case = blind(218_077).single()
+        assertEquals(setOf(HiddenEffect.POSITION), case.truth.effects.keys)
+        assertTrue(case.correct, Scores(listOf(case)).markdown())
+    }
+
     /**
      * Seeds of the work on it: a play whose model left what a lag that goes with speed takes, a response that rings in
      * water too fine for its log, which a probe ahead seemed to explain, and nothing in a log whose rate of change shows
