@@ -61,13 +61,28 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
         private fun wild(series: TrackSeries, resolution: Double): BooleanArray {
             val n = series.size
             val values = series.values
-            val off = DoubleArray(n) { abs(values[it] - besideMedian(series, it, null)) }
-            val candidates = BooleanArray(n) { i ->
+            val near = Array(n) { beside(series, it, null) }
+            val off = DoubleArray(n) { abs(values[it] - (median(near[it].map(values::get).sorted()) ?: values[it])) }
+            val limits = DoubleArray(n) { i ->
                 val local = off.copyOfRange(maxOf(0, i - WINDOW), minOf(n, i + WINDOW + 1)).apply { sort() }
-                off[i] > TIMES_SCATTER * (NORMAL * local[local.size / 2] + resolution)
+                TIMES_SCATTER * (NORMAL * local[local.size / 2] + resolution)
+            }
+            val outside = DoubleArray(n) { i -> outside(values[i], near[i].map(values::get).sorted(), 1) }
+            // On a steep stretch two wild readings make the next row look wild; without them it is among the others.
+            val candidates = BooleanArray(n) { i ->
+                fun others() = near[i].filter { outside[it] <= limits[it] || 2 * outside[it] < outside[i] }
+                outside[i] > limits[i] && outside(values[i], others().map(values::get).sorted(), 0) > limits[i]
             }
             return BooleanArray(n) { i -> candidates[i] && isAlone(series, i, candidates) }
         }
+
+        /** How far [value] is outside of the [sorted] ones but the first and the last [trimmed] of them. */
+        private fun outside(value: Double, sorted: List<Double>, trimmed: Int): Double =
+            if (sorted.size < 2 + 2 * trimmed) {
+                0.0
+            } else {
+                maxOf(value - sorted[sorted.size - 1 - trimmed], sorted[trimmed] - value)
+            }
 
         /** Readings within three rows of [i], not itself, without those that [but] has, in order. */
         private fun beside(series: TrackSeries, i: Int, but: BooleanArray?): List<Int> =
@@ -76,11 +91,8 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
                     abs(series.times[it] - series.times[i]) <= BESIDE * series.gapLimit
             }
 
-        private fun besideMedian(series: TrackSeries, i: Int, but: BooleanArray?): Double {
-            val near = beside(series, i, but).map { series.values[it] }.sorted()
-            if (near.isEmpty()) return series.values[i]
-            return (near[(near.size - 1) / 2] + near[near.size / 2]) / 2
-        }
+        private fun median(sorted: List<Double>): Double? =
+            if (sorted.isEmpty()) null else (sorted[(sorted.size - 1) / 2] + sorted[sorted.size / 2]) / 2
 
         private fun isAlone(series: TrackSeries, i: Int, candidates: BooleanArray): Boolean {
             val rows = beside(series, i, candidates)

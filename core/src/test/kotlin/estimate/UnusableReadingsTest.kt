@@ -33,6 +33,17 @@ class UnusableReadingsTest {
         assertTrue(unusable.ends.all { it.toInt() == 0 })
     }
 
+    /** A slow sensor's readings are smooth: its steps on a slope are many times its noise. */
+    @Test
+    fun spikesOnASlopeAreFoundAndNothingElse() {
+        val random = Random(8)
+        val values = DoubleArray(ROWS) { rounded(8 + 4 * sin(it / 12.0) + 0.02 * random.nextDouble(-1.7, 1.7)) }
+        val spikes = setOf(37, 113, 188, 189, 301, 302, 415, 490, 529, 604)
+        for (i in spikes) values[i] = if (i > 300) 0.0 else 30.0
+        val unusable = found(values)
+        assertEquals(spikes, values.indices.filter { unusable.wild[it] }.toSet())
+    }
+
     /** A sensor without a lag crosses a front from one row to the next, and a patch in three. */
     @Test
     fun whatIsConfirmedByTheRowsAfterItStays() {
