@@ -31,8 +31,12 @@ public class CorrectedTrack internal constructor(
     public val outlying: BooleanArray,
     public val clipped: BooleanArray = BooleanArray(values.size),
 ) {
-    /** Half the intervals' width on average, sensor units. */
-    public val meanHalfWidth: Double get() = lower.indices.sumOf { upper[it] - lower[it] } / (2 * maxOf(1, lower.size))
+    /** Half the intervals' width on average, sensor units, but for [outlying] readings, to which theirs reach. */
+    public val meanHalfWidth: Double
+        get() {
+            val rows = lower.indices.filterNot(outlying::get)
+            return rows.sumOf { upper[it] - lower[it] } / (2 * maxOf(1, rows.size))
+        }
 
     /** The same values, with intervals that hold those of [other] as well, which is possible too but less likely. */
     public fun holding(other: CorrectedTrack): CorrectedTrack =
@@ -175,7 +179,11 @@ public class TrackCorrector(
         }
     }
 
-    private val level = if (series.size == 0) 0.0 else series.values.average()
+    /** Of readings, and not of what is none: 65535 in three rows of 500 moves the mean by 400. */
+    private val level: Double = run {
+        val tame = series.values.filterIndexed { i, _ -> !unusable.wild[i] }
+        if (tame.isEmpty()) 0.0 else tame.average()
+    }
 
     /** How much livelier than usual the water is at each reading, from the readings' own surprises. */
     private fun agitation(stretch: Stretch, response: Response, along: AlongTrack, step: Double): DoubleArray {

@@ -3,11 +3,11 @@ package stillwater.estimate
 import kotlin.math.abs
 
 /**
- * Readings from which a sensor's response is not to be learned: single wild ones, and those at an end of the sensor's
- * range. A sensor that follows slowly shows neither on its own; so they are found in the readings as they are, before
+ * Readings from which a sensor's response is not to be learned: single wild ones, numbers that were written in
+ * place of readings, and those at an end of the sensor's range. A sensor that follows slowly shows neither on its own; so they are found in the readings as they are, before
  * anything is learned.
  *
- * @property wild readings that stand alone off their neighbours, length n. @property ends 1 for a reading at the upper
+ * @property wild readings that stand off their neighbours, alone or with others of the same number, length n. @property ends 1 for a reading at the upper
  * end of the range, −1 at the lower end, else 0; length n.
  */
 public class UnusableReadings(public val wild: BooleanArray, public val ends: ByteArray) {
@@ -20,6 +20,25 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
 
     /** Whether there is any. */
     public val isNone: Boolean get() = wild.indices.all(::isUsable)
+
+    /** The values of [series] with the [wild] ones put on the line between those before and after. */
+    public fun bridged(series: TrackSeries): DoubleArray {
+        val values = series.values.copyOf()
+        val tame = wild.indices.filterNot(wild::get)
+        if (tame.isEmpty()) return values
+        var next = 0
+        for (i in values.indices) {
+            while (next < tame.lastIndex && tame[next] < i) next++
+            if (!wild[i]) continue
+            val after = tame[next]
+            val before = if (after < i) after else tame[maxOf(0, next - 1)]
+            val whole = series.times[after] - series.times[before]
+            val share = if (before < i && i < after) (series.times[i] - series.times[before]) / whole else 0.0
+            val from = series.values[if (i < before) after else before]
+            values[i] = from + share * (series.values[after] - from)
+        }
+        return values
+    }
 
     /** The same of a sensor that reads the other way round. */
     public fun mirrored(): UnusableReadings =
@@ -74,6 +93,31 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
                 outside[i] > limits[i] && outside(values[i], others().map(values::get).sorted(), 0) > limits[i]
             }
             return BooleanArray(n) { i -> candidates[i] && isAlone(series, i, candidates) }
+                .also { addCodes(values, resolution, it) }
+        }
+
+        /**
+         * Marks runs of one number, and single readings at an end of the log, that come and go in one row by more than
+         * nearly all other readings spread: what is written for a probe that was off or not heard (0, 9999). Water
+         * that is seen in more than one row is not twice the same.
+         */
+        private fun addCodes(values: DoubleArray, resolution: Double, wild: BooleanArray) {
+            val sorted = values.filterIndexed { i, _ -> !wild[i] }.sorted()
+            if (sorted.isEmpty()) return
+            val low = sorted[(TAIL * (sorted.size - 1)).toInt()]
+            val high = sorted[((1 - TAIL) * (sorted.size - 1)).toInt()]
+            val reach = maxOf(high - low, TIMES_SCATTER * resolution)
+            if (!(reach > 0)) return
+            var i = 0
+            while (i < values.size) {
+                var end = i + 1
+                while (end < values.size && values[end] == values[i]) end++
+                val isOff = maxOf(values[i] - high, low - values[i]) > reach
+                val comes = i == 0 || abs(values[i] - values[i - 1]) > reach
+                val goes = end == values.size || abs(values[end] - values[end - 1]) > reach
+                if (isOff && comes && goes && (end > i + 1 || i == 0 || end == values.size)) wild.fill(true, i, end)
+                i = end
+            }
         }
 
         /** How far [value] is outside of the [sorted] ones but the first and the last [trimmed] of them. */
@@ -143,6 +187,9 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
 
         /** What a narrow patch of water leaves in the rows beside it is a third of its height at the least. */
         private const val TIMES_STEP = 3.0
+
+        /** Numbers that are no readings are in fewer rows than this share, either way. */
+        private const val TAIL = 0.05
         private const val FEWEST_AT_END = 5
 
         /** The hump of a smooth signal stays at its extreme for a few times as long as elsewhere, too. */

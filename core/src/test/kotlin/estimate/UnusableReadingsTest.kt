@@ -44,6 +44,32 @@ class UnusableReadingsTest {
         assertEquals(spikes, values.indices.filter { unusable.wild[it] }.toSet())
     }
 
+    /** A probe that is switched on, that a logger does not hear for some rows, and that is switched off at the end. */
+    @Test
+    fun numbersInPlaceOfReadingsAreFound() {
+        val values = wavy(Random(9))
+        val codes = setOf(0, 1) + (200..203) + (500..519) + (ROWS - 1)
+        for (i in codes) values[i] = if (i in 200..203) 65535.0 else 0.0
+        val unusable = found(values)
+        assertEquals(codes, values.indices.filter { unusable.wild[it] }.toSet())
+        assertTrue(unusable.ends.all { it.toInt() == 0 })
+    }
+
+    /** Of other water a few rows, which are not twice the same; a slow sensor does not come into any in one row. */
+    @Test
+    fun aShortVisitToOtherWaterStays() {
+        val random = Random(10)
+        val fast = wavy(random)
+        for (i in 600 until 606) fast[i] = rounded(40 + 0.1 * random.nextDouble())
+        val slow = wavy(random)
+        var shown = slow[600]
+        for (i in 600 until ROWS) {
+            shown += ((if (i < 606) 40.0 else slow[i]) - shown) / 5
+            slow[i] = rounded(shown)
+        }
+        for (values in listOf(fast, slow)) assertTrue(found(values).isNone)
+    }
+
     /** A sensor without a lag crosses a front from one row to the next, and a patch in three. */
     @Test
     fun whatIsConfirmedByTheRowsAfterItStays() {
@@ -92,6 +118,15 @@ class UnusableReadingsTest {
     }
 
     @Test
+    fun wildReadingsAreBridged() {
+        val values = doubleArrayOf(9.0, 9.0, 1.0, 9.0, 9.0, 4.0, 9.0)
+        val wild = BooleanArray(values.size) { values[it] == 9.0 }
+        val bridged = UnusableReadings(wild, ByteArray(values.size)).bridged(series(values).retimed(TIMES))
+        assertEquals(listOf(1.0, 1.0, 1.0, 2.0, 2.5, 4.0, 4.0), bridged.toList())
+        assertEquals(values.toList(), UnusableReadings.none(values.size).bridged(series(values)).toList())
+    }
+
+    @Test
     fun anEndThatIsKnownIsNotLookedFor() {
         val values = doubleArrayOf(4.0, 5.0, 5.0, 4.5, 3.0) + DoubleArray(40) { 4 + 0.01 * it }
         val unusable = UnusableReadings.of(series(values), DIGIT, 3.001..5.001)
@@ -102,5 +137,6 @@ class UnusableReadingsTest {
     private companion object {
         const val ROWS = 800
         const val DIGIT = 0.01
+        val TIMES = doubleArrayOf(0.0, 1.0, 2.0, 4.0, 5.0, 8.0, 9.0)
     }
 }

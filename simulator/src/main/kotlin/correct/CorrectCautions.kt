@@ -16,9 +16,12 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
     private fun outlying(): String? {
         val outlying = result.track.outlying.count { it }
         if (outlying == 0) return null
-        val stand = if (outlying == 1) "reading stands" else "readings stand"
-        return "$outlying $stand out from those around them as no water here does and are left out: their rows are " +
-            "foretold from the others, with intervals that reach to the readings"
+        if (outlying == 1) {
+            return "1 reading stands out from those around it as no water here does and is left out: its row is " +
+                "foretold from the others, with an interval that reaches to the reading"
+        }
+        return "$outlying readings stand out from those around them as no water here does and are left out: their " +
+            "rows are foretold from the others, with intervals that reach to the readings"
     }
 
     private fun atEnd(side: Int, end: String, open: String): String? {

@@ -50,8 +50,8 @@ class CorrectFiles(
         get() = summary.warnings +
             listOfNotNull("$otherRows rows could not be used and have empty cells".takeIf { otherRows > 0 })
 
-    /** The five lines for the terminal, and one for the legs held out. */
-    fun lines(): List<String> =
+    /** The lines for the terminal: the answer, six facts, and one for the legs held out. */
+    fun lines(): List<String> = listOf(summary.inShort) +
         summary.facts.take(TERMINAL_LINES + if (heldOut == null) 0 else 1).map { (name, value) -> "$name: $value" }
 
     /** The column that is corrected. */
@@ -202,6 +202,7 @@ class CorrectFiles(
                 "Bootstrap seed",
             ),
         )
+        page.answer(summary.inShort)
         summary.facts.forEach { (name, value) -> page.summary(name, value) }
         warnings.forEach(page::warning)
         for (figure in figures) page.section(figure.figure.title) { figure(figure.figure, figure.caption) }

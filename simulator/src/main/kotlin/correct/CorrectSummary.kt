@@ -146,6 +146,9 @@ internal class CorrectSummary(
 
     private val holdsHint: Boolean get() = result.track === result.hinted
 
+    /** What was found and done, in a sentence or three for somebody who knows no responses. */
+    val inShort: String get() = CorrectInShort(result, different, unitAfter, halfWidth, isWorse = worse() != null).text
+
     /** Names and values, in order; the first six go to the terminal. */
     val facts: List<Pair<String, String>>
         get() = buildList {
@@ -191,13 +194,14 @@ internal class CorrectSummary(
         val after = result.after
         if (before == null || after == null || !(before.opposite.mean > 0)) return "none to compare"
         val change = 1 - after.opposite.mean / before.opposite.mean
-        val words = lessOrMore(change)
         val plain = result.smoothed?.opposite?.mean
         val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
-        return "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
-            "${digits(after.opposite.mean, 3)}$unitAfter corrected ($words" +
-            plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }.orEmpty() + ")" +
-            if (after.scores.size < LagShift.FEWEST_LEGS) "; too few legs to tell, ${after.scores.size}" else ""
+        val differ = "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
+            "${digits(after.opposite.mean, 3)}$unitAfter corrected"
+        // Of few legs the share is chance, and read as a judgement all the same.
+        if (after.scores.size < LagShift.FEWEST_LEGS) return "$differ; too few legs to tell, ${after.scores.size}"
+        val thanSmoothed = plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }
+        return "$differ (${lessOrMore(change)}${thanSmoothed.orEmpty()})"
     }
 
     private fun lessOrMore(change: Double) =

@@ -94,7 +94,8 @@ class CorrectedLog internal constructor(
         if (before == null || origin == SensorOrigin.NOTHING) return@lazy null
         val sensor = UndoableSensor.of(SensorSpec("", learned.calibration))
         val scaled = sensor.calibrated(series, conditions)
-        TrackCorrector(scaled, resolution / abs(sensor.gain)).correct(NO_LAG).values
+        val out = if (sensor.gain < 0) unusable.mirrored() else unusable
+        TrackCorrector(scaled, resolution / abs(sensor.gain), out).correct(NO_LAG).values
     }
 
     /**
@@ -204,7 +205,7 @@ class CorrectedLog internal constructor(
                 // Where a reference says how far intervals have to reach, a hint has nothing to add.
                 learned.hinted?.takeIf { margin?.isEnough != true }?.let { unhinted.holding(corrected(listOf(it))) },
                 statistics,
-                legs(series, series.values),
+                legs(series, unusable.bridged(series)),
                 legs(series, unhinted.values),
                 agreement,
                 learned.wander(series, narrow, agreement),

@@ -30,6 +30,7 @@ internal class DiagnosisReport(
 
     /** The page's text. */
     fun render(): String {
+        page.answer(diagnosed.answer)
         page.summary("Verdict", result.verdict.label)
         page.summary("Causes", diagnosed.causes.joinToString(", ").ifEmpty { "–" })
         page.summary("Rows", "${diagnosed.log.series.size}")

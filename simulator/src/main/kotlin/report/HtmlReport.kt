@@ -50,7 +50,13 @@ public class Provenance(
 public class HtmlReport(private val title: String, private val subtitle: String, private val provenance: Provenance) {
     private val summary = ArrayList<Pair<String, String>>()
     private val warnings = ArrayList<String>()
+    private val answers = ArrayList<String>()
     private val sections = ArrayList<Pair<String, ReportSection.() -> Unit>>()
+
+    /** Adds a sentence that is the run's answer: before all else, and before the warnings. */
+    public fun answer(text: String) {
+        answers += text
+    }
 
     /** Adds a fact to the summary at the top, such as `Rows read` to `12 345`. */
     public fun summary(name: String, value: String) {
@@ -87,6 +93,7 @@ public class HtmlReport(private val title: String, private val subtitle: String,
                     if (subtitle.isNotEmpty()) p("subtitle") { +subtitle }
                 }
                 main {
+                    answers.forEach { p("answer") { +it } }
                     warningBox()
                     if (summary.isNotEmpty()) keyValues(summary, "summary")
                     if (sections.size > 2) contents()

@@ -17,6 +17,7 @@ internal object HtmlStyle {
         h1 { margin: .1rem 0 .3rem; font-size: 2rem; line-height: 1.2; overflow-wrap: anywhere; }
         h2 { margin: 0 0 .7rem; font-size: 1.3rem; line-height: 1.3; overflow-wrap: anywhere; }
         .subtitle { margin: 0 0 1rem; color: var(--muted); font-size: 1.05rem; }
+        .answer { font-size: 1.15rem; font-weight: 600; overflow-wrap: anywhere; }
         section { margin: 1.2rem 0; padding: 1.2rem; background: var(--card); border: 1px solid var(--line);
           border-radius: .6rem; }
         section > :last-child, figure > :last-child { margin-bottom: 0; }

@@ -79,6 +79,8 @@ class CorrectHonestyTest {
     fun fewLegsAreSaidToBeTooFew() {
         val few = correct(pond(400, referenceEvery = 1), "--reference", "fast")
         assertContains(few.stdout, "; too few legs to tell, 5\n")
+        // A share would be read as a judgement all the same.
+        assertFalse("than measured" in few.stdout, few.stdout)
     }
 
     @Test
@@ -102,6 +104,50 @@ class CorrectHonestyTest {
         val known = correct(pond(60, referenceEvery = 1), "--reference", "fast", "--held-out")
         assertEquals(2, known.statusCode)
         assertContains(known.stderr, "--held-out: expected a sensor learned from passes through the same water, found")
+    }
+
+    @Test
+    fun theAnswerComesBeforeAllElse() {
+        val result = correct(pond(700, referenceEvery = 1))
+        val answer = result.stdout.lines().first()
+        assertTrue(answer.startsWith("The readings trail the water by "), answer)
+        val delay = answer.removePrefix("The readings trail the water by ").substringBefore(" s").toDouble()
+        // Kinds of response that rows a second apart do not tell apart differ by a second or two.
+        assertTrue(delay in 4.0..7.0, answer)
+        assertContains(answer, "Passes in opposite directions then disagree by ")
+        val page = directory.resolve("results/report.html").readText()
+        assertContains(page, Regex("<main><p class=\"answer\">The readings trail .*?</p><div class=\"warnings\""))
+        val still =
+            correct(
+                pond(60, referenceEvery = 1).lines().joinToString("\n") { it.replace(Regex(",.*?,.*?,"), ",0,0,") }
+                    .replaceFirst("time_s,0,0,", "time_s,x_m,y_m,"),
+            )
+        assertContains(still.stdout, "Nothing in this log shows how the sensor responds")
+    }
+
+    /** A sensor that was switched on late, that was not heard for three rows, and one digit that was lost. */
+    @Test
+    fun numbersThatAreNoReadingsChangeNothing() {
+        fun interval(result: CliktCommandTestResult) =
+            result.stdout.substringAfter("interval: 95 %, ").substringBefore(' ').toDouble()
+        val rows = pond(700, referenceEvery = 1).trimEnd().lines()
+        val clean = correct(rows.joinToString("\n"))
+        val codes = mapOf(1 to "9999", 100 to "65535", 101 to "65535", 102 to "65535", 350 to "-40")
+        val result = correct(
+            rows.mapIndexed { i, row ->
+                val cells = row.split(',')
+                codes[i]?.let { (cells.take(3) + it + cells.drop(4)).joinToString(",") } ?: row
+            }.joinToString("\n"),
+        )
+        assertContains(result.stderr, "stand out from those around them")
+        fun lag(result: CliktCommandTestResult) =
+            result.stdout.substringAfter("The readings trail the water by ").substringBefore(" s").toDouble()
+        assertEquals(lag(clean), lag(result), 0.1)
+        fun legs(result: CliktCommandTestResult) =
+            result.stdout.substringAfter("opposite legs: differ by ").substringBefore(" as").toDouble()
+        assertEquals(legs(clean), legs(result), 0.02 * legs(clean))
+        // Five rows of 700 say nothing any more, and those near them less.
+        assertEquals(interval(clean), interval(result), 0.2 * interval(clean))
     }
 
     /** The fixes of a boat at anchor wander over water that changes with time: that is no lag. */

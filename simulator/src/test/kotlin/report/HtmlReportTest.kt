@@ -19,6 +19,7 @@ class HtmlReportTest {
     }
 
     private fun page(): String = HtmlReport(evil, evil, Provenance("1 $evil", "stillwater $evil", 7)).apply {
+        answer(evil)
         summary(evil, evil)
         warning(evil)
         section(evil) {
