@@ -12,7 +12,7 @@ internal object ColumnNames {
         "time", "elapsed_time", "time_sec", "time_seconds", "elapsed_s",
     ) + listOf("unix", "unix_time", "epoch", "timestamp", "time", "elapsed").flatMap { name ->
         listOf("${name}_ms", "${name}_min", "${name}_h")
-    } + listOf("unix_s", "epoch_s", "timestamp_s", "date")
+    } + listOf("unix_s", "epoch_s", "timestamp_s", "unix_time_s", "time_s", "date")
     private val DATES = setOf("date", "utc_date", "date_utc", "local_date", "gps_date")
     private val LATITUDES = setOf(
         "latitude",
@@ -22,14 +22,15 @@ internal object ColumnNames {
         "latitude_deg",
         "latitude_degrees",
         "lat_degrees",
+        "lat_deg",
         "lat_dd",
     )
     private val LONGITUDES = setOf(
         "longitude", "lon", "long", "lng", "gps_longitude", "gps_lon", "gps_long", "gps_lng", "longitude_deg",
-        "longitude_degrees", "lon_degrees", "lon_dd", "long_dd",
+        "longitude_degrees", "lon_degrees", "lon_deg", "lon_dd", "long_dd",
     )
-    private val EASTS = setOf("x", "easting", "easting_m", "x_metres", "x_meters")
-    private val NORTHS = setOf("y", "northing", "northing_m", "y_metres", "y_meters")
+    private val EASTS = setOf("x", "easting", "easting_m", "x_m", "x_metres", "x_meters")
+    private val NORTHS = setOf("y", "northing", "northing_m", "y_m", "y_metres", "y_meters")
     private val OWN = setOf("time_s", "unix_time_s", "lat_deg", "lon_deg", "x_m", "y_m")
     private val COUNTERS = setOf("#", "record", "record_number", "row")
 

@@ -292,7 +292,7 @@ internal class CsvSurvey internal constructor(
         private fun timeSizeProblem(row: CsvRow): LogProblem? {
             val time = row.numbers[TIME]
             if (abs(time) <= LARGEST_SECONDS) return null
-            val found = "$time" + if (abs(time) < LARGEST_SECONDS * MILLIS) ": milliseconds?" else ""
+            val found = "$time" + if (abs(time) < LARGEST_SECONDS * MILLIS) ": milliseconds? --time-unit ms" else ""
             return problem(row.line, columns.time, "seconds", found, "rows with a number out of all bounds")
         }
 

@@ -183,7 +183,7 @@ class MapBadInputTest {
             csv(
                 "milliseconds",
                 HEAD + GOOD + "1752480000000,45.5,-73.1,8\n",
-                "log.csv:5: column time_s: expected seconds, found 1.75248E12: milliseconds?",
+                "log.csv:5: column time_s: expected seconds, found 1.75248E12: milliseconds? --time-unit ms",
                 "rows with a number out of all bounds",
             ),
             csv("empty time", HEAD + GOOD + ",45.5,-73.1,8\n", "column time_s", "rows with an empty field"),

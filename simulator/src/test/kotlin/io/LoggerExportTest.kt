@@ -266,6 +266,12 @@ class LoggerExportTest {
                 0.0,
             ),
             Case(
+                "names of one's own in capitals",
+                "TIME_S,X_M,Y_M,DO\n0,0,0,8.1\n60,1,0,8.2\n120,2,0,8.3\n",
+                "places from X_M and Y_M, times from TIME_S",
+                0.0,
+            ),
+            Case(
                 "a date before a table of two columns",
                 "Date,14/07/2025\nLatitude,45.5\nTime (s),DO\n0,8.1\n60,8.2\n120,8.3\n",
                 "header in line 3",
