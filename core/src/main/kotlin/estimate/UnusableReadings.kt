@@ -115,7 +115,8 @@ public class UnusableReadings(public val wild: BooleanArray, public val ends: By
                 val isOff = maxOf(values[i] - high, low - values[i]) > reach
                 val comes = i == 0 || abs(values[i] - values[i - 1]) > reach
                 val goes = end == values.size || abs(values[end] - values[end - 1]) > reach
-                if (isOff && comes && goes && (end > i + 1 || i == 0 || end == values.size)) wild.fill(true, i, end)
+                val isSingleWithin = end == i + 1 && i > 0 && end < values.size
+                if (isOff && comes && goes && !isSingleWithin) wild.fill(true, i, end)
                 i = end
             }
         }

@@ -275,8 +275,9 @@ class CorrectFiles(
             "Where the track does not cross itself, delays of single runs are held against that of the response: " +
                 "what they scatter by beyond a row's time or a second, which fixes may be off, widens the intervals " +
                 "where the water changes along the track.",
-            "A reading that stands alone, as no water here does, is left out: its row is foretold from the others, " +
-                "and its interval reaches to the reading. Of a reading at an end of the sensor's range it is known " +
+            "A reading that stands alone, as no water here does, and rows of one number far from all others, such as " +
+                "0 or 9999, are left out: such a row is foretold from the others, and its interval reaches to the " +
+                "reading. Of a reading at an end of the sensor's range it is known " +
                 "that the sensor was there or beyond.",
         )
     }

@@ -46,12 +46,19 @@ internal class MapWarnings(private val map: SurveyMap) {
     }
 
     private fun outliers(): String? {
-        val usual = statistics.values[1 - RARE] - statistics.values[RARE]
         val whole = statistics.highest - statistics.lowest
-        if (usual <= 0 || whole <= OUTLYING * usual) return null
-        val remedy = if (map.rangeGiven) "" else ": outliers set the range of the bounded filter; give --range"
-        return "values reach from ${digits(statistics.lowest)} to ${digits(statistics.highest)} but 98 % lie within " +
-            "${digits(statistics.values[RARE])} to ${digits(statistics.values[1 - RARE])}$remedy"
+        fun usual(rare: Double) = statistics.values[1 - rare] - statistics.values[rare]
+        // A code such as 9999 may be in more rows than one in a hundred; water is that far off in few.
+        val (rare, _) = OUTLYING.firstOrNull { (rare, times) -> usual(rare) > 0 && whole > times * usual(rare) }
+            ?: return null
+        val remedies = listOfNotNull(
+            "are in the means of their cells".takeIf { FilterKind.AVERAGING in map.maps },
+            "set the range of the bounded filter; give --range".takeUnless { map.rangeGiven },
+        )
+        val remedy = if (remedies.isEmpty()) "" else remedies.joinToString(" and ", ": those beyond ")
+        return "values reach from ${digits(statistics.lowest)} to ${digits(statistics.highest)} but " +
+            "${Math.round(PERCENT * (1 - 2 * rare))} % lie within " +
+            "${digits(statistics.values[rare])} to ${digits(statistics.values[1 - rare])}$remedy"
     }
 
     private fun outsideRange(): String? {
@@ -125,8 +132,10 @@ internal class MapWarnings(private val map: SurveyMap) {
         val HARMLESS =
             setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines", "lines of units")
         const val LONG_GAP = 60.0
-        const val RARE = 0.01
-        const val OUTLYING = 3
+        const val PERCENT = 100
+
+        /** Shares of readings, either way, and how many times as far as the others all together lie these are far off. */
+        val OUTLYING = listOf(0.01 to 3, 0.05 to 10)
         const val MANY_SKIPPED = 0.01
         const val FEW_SLOPES = 20
         const val FEW_BOUNDED = 0.5

@@ -56,6 +56,23 @@ class MapHonestyTest {
         assertEquals(listOf("7.89", "9.21"), range.drop(1))
     }
 
+    /** A logger's code in one row of 40 is in more rows than the hundredth that a wild reading or two are in. */
+    @Test
+    fun codesThatAreNoReadingsAreTold() {
+        fun warnings(every: Int, vararg flags: String): List<String> {
+            val rows = smallSurvey(400).trimEnd().lines().mapIndexed { i, row ->
+                if (i > 0 && i % every == 0) row.substringBeforeLast(',') + ",9999" else row
+            }
+            return json(rows.joinToString("\n"), *flags).warnings().filter { "% lie within" in it }
+        }
+        assertEquals(emptyList(), warnings(1000))
+        assertContains(warnings(399).single(), "to 9999 but 98 % lie within 8")
+        assertContains(warnings(40).single(), "to 9999 but 90 % lie within 8")
+        val both = "those beyond are in the means of their cells and set the range of the bounded filter; give --range"
+        assertContains(warnings(40).single(), both)
+        assertTrue(warnings(40, "--filter", "bounded", "--range", "7:10").single().last().isDigit())
+    }
+
     @Test
     fun countsCrossedBoundsApartAndWarns() {
         // Rising to 8.95, falling to 8.05: the lower bound ends above the upper one.
