@@ -119,6 +119,7 @@ class FirstOrderLagTest {
     @Test
     fun theSameBitsWithHalvesAndWithout() {
         val random = Random(20_261_123)
+
         // From numbers without a full mantissa to those whose difference overflows, and those of everyday water.
         fun drawn(): Double {
             val size = if (random.nextBoolean()) 0.0 else random.nextDouble(-323.0, 308.2)
