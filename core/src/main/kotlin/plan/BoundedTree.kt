@@ -28,11 +28,12 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private var depths = IntArray(FIRST_NODES)
 
     /**
-     * How often the boat was at each place, of those that may be beside a node, before it came to the node: in two bits,
-     * here and in [twos], at the place's slot. Never, once, twice, or more often.
+     * How often the boat was at each place, of those that may be beside a node, before it came to the node: in three
+     * bits, here, in [twos] and in [fours], at the place's slot. Seven times, or more often, is the most.
      */
     private var ones = LongArray(FIRST_NODES)
     private var twos = LongArray(FIRST_NODES)
+    private var fours = LongArray(FIRST_NODES)
     private var values = DoubleArray(FIRST_NODES)
     private var sensors = DoubleArray(FIRST_NODES)
 
@@ -137,20 +138,25 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         } else {
             ones[node] = 0L
             twos[node] = 0L
+            fours[node] = 0L
         }
         return node
     }
 
-    /** Counts the visit of [parent]'s place for [node]; three stay three. */
+    /** Counts the visit of [parent]'s place for [node]; seven stay seven. */
     private fun visit(node: Int, parent: Int) {
         val slot = 1L shl (places[parent] ushr cells.slotShift)
         // From edge to edge the other places are not beside the node.
         val before = if (cells.slotShift == 1) parents[parent] else parent
         val one = if (before == NONE) 0L else ones[before]
         val two = if (before == NONE) 0L else twos[before]
+        val four = if (before == NONE) 0L else fours[before]
         val carry = one and slot
-        ones[node] = (one xor slot) or (two and carry)
-        twos[node] = two or carry
+        val carryOn = two and carry
+        val full = four and carryOn
+        ones[node] = (one xor slot) or full
+        twos[node] = (two xor carry) or full
+        fours[node] = four or carryOn
     }
 
     /** What the sensor is expected to show on leaving [place], which it entered from the node [parent]. */
@@ -163,6 +169,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private fun branch(node: Int, depth: Int) {
         val one = ones[node]
         val two = twos[node]
+        val four = fours[node]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -178,7 +185,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             if (width >= 0) {
                 val promise = width - abs(middles[next] - sensor)
                 var total = value
-                if (promise > 0) total += discounted(promise, node, next, one, two)
+                if (promise > 0) total += discounted(promise, node, next, one, two, four)
                 if (total > value) {
                     if (total > bestValue) best(total, node, next)
                     val priority = if (perMove) total / depth else total
@@ -204,6 +211,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         order.drawn()
         val one = ones[node]
         val two = twos[node]
+        val four = fours[node]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -218,7 +226,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             if (width >= 0) {
                 val promise = width - abs(middles[next] - sensor)
                 var total = value
-                if (promise > 0) total += discounted(promise, node, next, one, two)
+                if (promise > 0) total += discounted(promise, node, next, one, two, four)
                 val priority = if (perMove) total / depth else total
                 if (priority >= waiting) {
                     due++
@@ -255,6 +263,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private fun finish(node: Int, packed: Int) {
         val one = ones[node]
         val two = twos[node]
+        val four = fours[node]
         val value = values[node]
         val sensor = sensors[node]
         val place = places[node]
@@ -265,7 +274,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
             val next = place + steps[direction]
             val promise = widths[next] - abs(middles[next] - sensor)
             if (promise > 0) {
-                val total = value + discounted(promise, node, next, one, two)
+                val total = value + discounted(promise, node, next, one, two, four)
                 if (total > bestValue) best(total, node, next)
             }
         }
@@ -288,16 +297,16 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /**
      * What is left of [promise] for a boat that goes to [place] from [node], when its visits on the path are taken into
-     * account, of which [one] and [two] are the node's bits.
+     * account, of which [one], [two] and [four] are the node's bits.
      *
-     * Mostly the boat was there twice at the most. The path is gone through only where it was there more often, or
+     * Mostly the boat was there once at the most. The path is gone through only where it was there very often, or
      * where another place on the path may have the same slot. A half is as exact by a product, without a jump.
      */
-    private fun discounted(promise: Double, node: Int, place: Int, one: Long, two: Long): Double {
+    private fun discounted(promise: Double, node: Int, place: Int, one: Long, two: Long, four: Long): Double {
         val slot = place ushr cells.slotShift
-        val count = ((one ushr slot) and 1L) + 2 * ((two ushr slot) and 1L)
-        if (count >= cells.uncertainVisits) return promise / (1 + visits(node, place))
-        return if (count == 2L) promise / 3 else promise * PARTS[count.toInt()]
+        val count = ((one ushr slot) and 1L) + 2 * ((two ushr slot) and 1L) + 4 * ((four ushr slot) and 1L)
+        if (count < minOf(cells.uncertainVisits, PARTS.size)) return promise * PARTS[count.toInt()]
+        return promise / (1 + if (count < cells.uncertainVisits) count.toInt() else visits(node, place))
     }
 
     /** How often [place] occurs on the path to the node [last]. O(moves). */
@@ -342,6 +351,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         depths = depths.copyOf(capacity)
         ones = ones.copyOf(capacity)
         twos = twos.copyOf(capacity)
+        fours = fours.copyOf(capacity)
         values = values.copyOf(capacity)
         sensors = sensors.copyOf(capacity)
     }

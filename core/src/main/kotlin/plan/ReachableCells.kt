@@ -88,8 +88,7 @@ internal class ReachableCells(private val ways: Int) {
         for (r in 0 until rows) widestBesideRow((r + 1) * stride + 1, columns)
         val apart = (rows - 1) * stride + columns - 1
         uncertainVisits = if (slotShift == 1 && slotsDiffer(apart, reach)) MANY_VISITS else 1
-        widest = 0.0
-        for (place in 0 until places) widest = maxOf(widest, widths[place])
+        widest = widestOf(widths)
     }
 
     private fun readRow(map: FieldMap, cell: Int, place: Int, columns: Int) {
@@ -103,6 +102,13 @@ internal class ReachableCells(private val ways: Int) {
             widths[place + i] = if (width <= Double.MAX_VALUE) width else 0.0
             middles[place + i] = lower / 2 + upper / 2
         }
+    }
+
+    /** By a jump, which is foreseen: maxima would wait for each other. */
+    private fun widestOf(widths: DoubleArray): Double {
+        var most = 0.0
+        for (place in 0 until places) if (widths[place] > most) most = widths[place]
+        return most
     }
 
     /** Without a jump as well. */
@@ -149,6 +155,6 @@ internal class ReachableCells(private val ways: Int) {
         private const val SLOTS = 64
 
         /** Visits that the planner's tree does not count any more. */
-        const val MANY_VISITS: Int = 3
+        const val MANY_VISITS: Int = 7
     }
 }

@@ -1,6 +1,7 @@
 package stillwater.sensor
 
 import stillwater.model.Conditions
+import kotlin.math.abs
 import kotlin.math.expm1
 import kotlin.math.ln1p
 
@@ -58,10 +59,23 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
 
 /** s + α (ψ − s) for [state] s, [input] ψ and [gain] α within 0..1. */
 internal fun towards(state: Double, input: Double, gain: Double): Double {
-    // In halves, because the difference of two huge numbers overflows.
-    val next = 2 * (state / 2 + gain * (input / 2 - state / 2))
+    // In halves, because the difference of two huge numbers overflows. Of numbers far from the ends of what a Double holds
+    // halves are exact and every rounding is the same without them; the next step has less to wait for.
+    val next = if (isMiddling(state) && isMiddling(input) && gain >= LEAST_GAIN) {
+        state + gain * (input - state)
+    } else {
+        2 * (state / 2 + gain * (input / 2 - state / 2))
+    }
     // Rounding must not carry it beyond the truth: bounds rest on the side from which it comes.
     // Not minOf and maxOf: they also order 0 and -0, and everything that follows would wait for it.
     val isBeyond = if (input > state) next > input else next < input
     return if (isBeyond) input else next
 }
+
+/**
+ * Whether nothing overflows, nor loses bits for being too small, in the difference of two such numbers, of which one is
+ * at least 1e-16 of the other or 0, and in its product with a gain of [LEAST_GAIN] or more.
+ */
+private fun isMiddling(number: Double): Boolean = abs(number) >= 1e-250 && abs(number) <= 1e250
+
+private const val LEAST_GAIN = 1e-15

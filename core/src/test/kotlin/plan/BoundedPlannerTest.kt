@@ -59,6 +59,23 @@ class BoundedPlannerTest {
         assertEquals(listOf(cell11), cells(plan, map.grid))
     }
 
+    /** A cell is worth a ninth at the ninth visit: the planner's bits count to seven, beyond that it looks at the path. */
+    @Test
+    fun moreVisitsThanBitsCountAreCounted() {
+        val map = flatMap(columns = 3, rows = 1)
+        val wide = 0
+        val middle = 1
+        val narrow = 2
+        map.setBounds(wide, 0.05, 0.95)
+        map.setBounds(middle, 0.5, 0.5)
+        // 0.106 wide: less than the wide cell's eighth visit gives, 0.9 / 8, and more than its ninth, 0.9 / 9.
+        map.setBounds(narrow, 0.447, 0.553)
+        // From the middle nine moves lead to either side, the last back to nothing; all paths are looked at.
+        val planner = BoundedPlanner(Random(1), BoundedPlannerSettings(horizon = 18, expansions = 10_000))
+        planner.run(map, middle, sensor = 0.5)
+        assertEquals(mapOf(wide to 8, middle to 8, narrow to 1), cells(plan, map.grid).groupingBy { it }.eachCount())
+    }
+
     @Test
     fun looksBeyondTheNextCell() {
         // Cells 0 1 2 3 in a row, the boat in 1: 0 promises .3, 2 promises .2 but leads to 3, which promises .9.

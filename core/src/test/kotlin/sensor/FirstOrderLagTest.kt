@@ -8,6 +8,8 @@ import stillwater.property.forEvery
 import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
+import kotlin.math.pow
+import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
@@ -112,6 +114,28 @@ class FirstOrderLagTest {
         val output = lag.step(Double.MAX_VALUE, 1.0)
         // −M + (1 − 1/e) 2M = (1 − 2/e) M.
         assertEquals(1 - 2 / exp(1.0), output / Double.MAX_VALUE, 1e-15)
+    }
+
+    @Test
+    fun theSameBitsWithHalvesAndWithout() {
+        val random = Random(20_261_123)
+
+        // From numbers without a full mantissa to those whose difference overflows, and those of everyday water.
+        fun drawn(): Double {
+            val size = if (random.nextBoolean()) 0.0 else random.nextDouble(-323.0, 308.2)
+            return listOf(-1, 1).random(random) * random.nextDouble(0.1, 1.0) * 10.0.pow(size)
+        }
+        repeat(200_000) {
+            val state = drawn()
+            // Near the state too, where the step is small.
+            val input = if (random.nextInt(3) == 0) state * (1 + random.nextDouble() * 1e-14) else drawn()
+            val gain = if (random.nextInt(4) == 0) 10.0.pow(random.nextDouble(-300.0, 0.0)) else random.nextDouble()
+            if (!input.isFinite()) return@repeat
+            val next = 2 * (state / 2 + gain * (input / 2 - state / 2))
+            val isBeyond = if (input > state) next > input else next < input
+            val expected = if (isBeyond) input else next
+            assertEquals(expected.toRawBits(), towards(state, input, gain).toRawBits(), "$state, $input, $gain")
+        }
     }
 
     @Test
