@@ -67,7 +67,8 @@ internal class Weighing(
         )
         val shifts = SmallShifts(last)
         val (small, clear) = chosen.zip(forward.alike(chosen)).partition { (trial, set) -> shifts.isSmall(trial, set) }
-        val verdict = still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
+        val verdict =
+            still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
         val sensor = ExtendedSensor(last, size, rounded, leftOut = small.map { (trial, _) -> trial.term.cause }.toSet())
@@ -260,8 +261,8 @@ internal class Weighing(
             "The errors of the extended model are those with what was fitted beside; the sensor file is without it."
 
         const val UNTIL_NEXT =
-            "The truth looks held from each row until the next, as a simulation may hold it. Half a row of delay would " +
-                "look the same, and is not named."
+            "The truth looks held from each row until the next, as a simulation may hold it. Half a row of delay " +
+                "would look the same, and is not named."
 
         /** Sudden changes that last: fewer are jumps. */
         const val FEWEST_CHANGES = 5

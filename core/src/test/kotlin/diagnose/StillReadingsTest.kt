@@ -68,7 +68,9 @@ class StillReadingsTest {
     fun noiseWithTailsInAShortLogIsNoOutlier() {
         val named = (1..12).count {
             val verdict = diagnosed(
-                readings { 0.01 * random.nextGaussian() / sqrt(List(5) { random.nextGaussian() }.sumOf { it * it } / 5) },
+                readings {
+                    0.01 * random.nextGaussian() / sqrt(List(5) { random.nextGaussian() }.sumOf { it * it } / 5)
+                },
             ).verdict
             verdict != Verdict.Consistent
         }
