@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.ln
+import kotlin.math.sqrt
 
 /**
  * A cause tried on top of a model.
@@ -69,7 +70,8 @@ internal class CauseSearch(
         // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
         // differs by chance.
         val cost = searched + 2 * degrees
-        val isNone = term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)
+        val isNone = (term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)) ||
+            (term.cause == Cause.QUANTISATION && scales.resolution < sqrt(best.variance))
         val own = if (places > 0) jumpsPValue(base, best, corrected) else Evidence.pValue(ratio, degrees)
         val p = if (isNone) 1.0 else maxOf(own, ownPValue(base, best, term))
         val worthHolding = p < settings.heldOutBelow

@@ -15,16 +15,25 @@ import kotlin.math.sqrt
  * Pure: the same log gives the same answer. Cost: of the order of a second for a thousand rows.
  *
  * @param loops how what can be done at once is; the answer is the same bits.
+ * @param before the share that the row before has in the reference of [series], which is held over each step; 0 of a log.
  * @param progress told how much is done, a share within 0..1 that grows; at most a few hundred times.
  * @throws IllegalArgumentException if there is a reference and parts of the given sensor would be lost, or take a
  *   condition that [series] has not; the message is for the user.
  */
-public class Diagnosis(
+public class Diagnosis private constructor(
     private val series: MeasuredSeries,
-    private val settings: DiagnosisSettings = DiagnosisSettings(),
-    private val loops: Loops = Loops.IN_TURN,
-    private val progress: (Double) -> Unit = {},
+    private val settings: DiagnosisSettings,
+    private val loops: Loops,
+    private val before: Double,
+    private val progress: (Double) -> Unit,
 ) {
+    public constructor(
+        series: MeasuredSeries,
+        settings: DiagnosisSettings = DiagnosisSettings(),
+        loops: Loops = Loops.IN_TURN,
+        progress: (Double) -> Unit = {},
+    ) : this(series, settings, loops, 0.0, progress)
+
     private val unknown = UnknownTruth.of(series)
     private val used = BooleanArray(series.size) { true }
     private val longest = CauseSearch.longest(series, settings)
@@ -45,7 +54,19 @@ public class Diagnosis(
         val reference = series.reference
             ?: return BlindDiagnosis(series, settings, loops, progress).run().also { progress(1.0) }
         val quieter = quieter(reference)
-        return if (quieter == null) weighed() else Diagnosis(quieter, settings, loops, progress).weighed()
+        val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
+        return weighed.result().also { progress(1.0) }
+    }
+
+    /**
+     * The weighing by [quiet], whose reference has less noise, unless what it has less was the truth's own: then this one
+     * explains more, and with no more causes, which might make up for the noise.
+     */
+    private fun likelier(quiet: Diagnosis): Weighing {
+        val quieter = quiet.weighed()
+        val noisier = weighed()
+        val isLikelier = noisier.explained > quieter.explained + HELD && noisier.chosen.size <= quieter.chosen.size
+        return if (isLikelier) noisier else quieter
     }
 
     /**
@@ -75,7 +96,7 @@ public class Diagnosis(
         return Fitting.fit(model, rough.numbers, rough.free, used, longest, guess = rough.noise).score
     }
 
-    private fun weighed(): DiagnosisResult {
+    private fun weighed(): Weighing {
         val first = weighing(null)
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
         // with each beginning of it, because what came after may make up for the wrong way.
@@ -86,7 +107,7 @@ public class Diagnosis(
         // A place ahead by just what a held truth is ahead by is rather that.
         val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
         val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
-        return (led(weighed) ?: weighed).result().also { progress(1.0) }
+        return led(weighed) ?: untilNext(weighed) ?: weighed
     }
 
     /**
@@ -95,35 +116,91 @@ public class Diagnosis(
      * ahead of the reference for certain; null where it is not.
      */
     private fun led(first: Weighing): Weighing? {
-        // A wrong time constant that was given is put right by much the same.
-        if (settings.base != null || unknown.isSharp || series.isSparse) return null
+        if (unknown.isSharp || series.isSparse) return null
         val (shifts, kept) = first.chosen.partition { it.term.cause in ReferenceLead.ALIKE }
+        // A time constant that was given and is too long does by itself what a late reference does.
+        if (settings.base != null && shifts.isEmpty()) return null
         // What else is at work beside a late reference shows only once that is put right.
         val explained = (if (shifts.isEmpty()) first.lateness else first.explained) ?: return null
         val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER
         // With a slow path beside it the time constant is that of the fast one.
         val shocks = scales(first.base, false).shocks
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
-        fun led(fit: ModelFit, rows: Double) = led(fit, tau, Scales(ahead(rows), shaken, shocks))
-        val (rows, best) = ReferenceLead.likeliest { led(first.last, it).score } ?: return null
+        fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
+            without(gone, fit, tau, Scales(ahead(rows), shaken, shocks), false, used)
+        val (rows, best) = ReferenceLead.likeliest { led(first.last, shifts, it).score } ?: return null
         if (best - kept.sumOf { it.cost } < least) return null
-        val second = weighing(led(first.base, rows), first.spikes, rows * series.period)
+        val second = weighing(led(first.base, emptyList(), rows), first.spikes, rows * series.period)
         return second.takeIf { it.explained >= least }
     }
 
-    /** [fit] without shifts and second paths, begun from a lag of [tau] s, to what [scales] have in place of this log. */
-    private fun led(fit: ModelFit, tau: Double, scales: Scales): ModelFit {
-        val terms = fit.model.terms.filter { it.cause !in ReferenceLead.ALIKE }
-        val model = ResponseModel(scales.series, terms, false, scales)
-        val start = fit.numbers.copyOf(model.parameters.size)
+    /**
+     * The weighing with a truth that is held from each row until the next, or goes straight there, where the log is as
+     * likely so without some of the shifts that were chosen in [first], or clearly likelier; null where it is not. A
+     * sensor that is stepped once a row by what the row before had is half a row late, which is no cause.
+     */
+    private fun untilNext(first: Weighing): Weighing? {
+        // When a sharp step came is not known to a row, and of a sparse reference a row is not one of the readings'.
+        if (unknown.isSharp || series.isSparse) return null
+        val rows = used.copyOf()
+        val shifts = first.chosen.filter(::isShift)
+        val fewer = (listOf(shifts) + shifts.map { listOf(it) } + listOf(emptyList())).distinct()
+        val (before, gone) = SHARES.flatMap { share ->
+            val before = Diagnosis(series.withQuieter(rowBefore(share)), settings, loops, share) { }
+            fewer.map { gone -> Triple(before, gone, before.ahead(first, gone, rows)) }
+        }.maxBy { it.third }.takeIf { it.third >= 0 } ?: return null
+        val second = before.weighing(true, first.spikes)
+        val isFewer = second.chosen.count(::isShift) < shifts.size
+        return second.takeIf { it.explained >= first.explained + if (isFewer && gone.isNotEmpty()) -SHIFT else HELD }
+    }
+
+    /** Whether [trial] is what half a row of delay looks like; of a given sensor the time constant is, too. */
+    private fun isShift(trial: Trial) = trial.term.cause in ReferenceLead.ALIKE ||
+        (settings.base != null && trial.term.cause == Cause.TIME_CONSTANT)
+
+    /**
+     * By how much this log, whose truth is held over each step, explains its [rows] better without [gone] of what was
+     * chosen in [first] than that is to; a log-likelihood, doubled.
+     */
+    private fun ahead(first: Weighing, gone: List<Trial>, rows: BooleanArray): Double {
+        val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
+        val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
+        val fit = without(gone, first.last, tau, scales(first.base, true), true, rows)
+        return fit.score - kept - first.explained + if (gone.isEmpty()) -HELD else SHIFT
+    }
+
+    /**
+     * [fit] to [rows] of what [scales] have without [gone], begun from a lag of [tau] s; steps are [held]. A given number
+     * that is among [gone] is given again.
+     */
+    private fun without(
+        gone: List<Trial>,
+        fit: ModelFit,
+        tau: Double,
+        scales: Scales,
+        held: Boolean,
+        rows: BooleanArray,
+    ): ModelFit {
+        val keys = gone.map { it.term.key }
+        val given = gone.flatMap { it.term.cause.baseNumbers }
+        val model = ResponseModel(scales.series, fit.model.terms.filter { it.key !in keys }, held, scales)
+        val start = model.carried(fit.model, fit.numbers)
         start[ResponseModel.TIME_CONSTANT] = tau
-        val free = BooleanArray(start.size) { it >= ResponseModel.BASE || fit.free[it] }
-        for (term in terms) {
-            val from = fit.model.slotOrNull(term) ?: continue
-            for (k in 0 until model.width(term)) start[model.slot(term) + k] = fit.numbers[from + k]
+        val free = BooleanArray(start.size) { it < ResponseModel.BASE && fit.free[it] && it !in given }
+        for (term in model.terms) {
+            for (k in 0 until model.width(term)) free[model.slot(term) + k] = fit.free[fit.model.slot(term) + k]
         }
-        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, scales.shocks)
-        return Fitting.fit(model, start, free, used, longest, guess = guess)
+        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, rows, scales.shocks)
+        return Fitting.fit(model, start, free, rows, longest, guess = guess)
+    }
+
+    /** [share] of the reference of the row before in that of each row, but where that is a gap away. */
+    private fun rowBefore(share: Double): DoubleArray {
+        val reference = requireNotNull(series.reference) { "the row before needs a reference" }
+        return DoubleArray(series.size) { i ->
+            val before = reference[if (i == 0 || unknown.isGap[i]) i else i - 1]
+            reference[i] + share * (before - reference[i])
+        }
     }
 
     /** This log with the truth that a reference with a lag of [rows] is late for. */
@@ -159,6 +236,14 @@ public class Diagnosis(
         return weighing(if (spikes.isEmpty()) settled else base(held, settled), spikes, 0.0)
     }
 
+    /** The weighing with steps [held] where [spikes] are known. */
+    private fun weighing(held: Boolean, spikes: List<Int>): Weighing {
+        used.fill(true)
+        val settled = settled(held)
+        spikes.forEach { used[it] = false }
+        return weighing(if (spikes.isEmpty()) settled else base(held, settled), spikes, 0.0)
+    }
+
     /** The weighing of all causes on top of [base], where [spikes] are left out of and the reference was [late] s late. */
     private fun weighing(base: ModelFit, spikes: List<Int>, late: Double) =
         Weighing(
@@ -168,6 +253,7 @@ public class Diagnosis(
             spikes,
             settings,
             late,
+            before,
             ::tell,
         )
 
@@ -253,6 +339,14 @@ public class Diagnosis(
         /** Twice the log-likelihood by which steps must look held. */
         const val HELD = 6.0
         const val SETTLING = 2
+
+        /** Of the row before in a truth that is held over a step: none, as in one that goes straight, and all. */
+        val SHARES = listOf(0.0, 0.5, 1.0)
+
+        /**
+         * Twice the log-likelihood, less two, above which a shift is more than half a row: 1 % over eighteen causes tried.
+         */
+        const val SHIFT = 9.9
 
         /** Twice the log-likelihood that a number gains by chance. */
         const val NUMBER = 2.0

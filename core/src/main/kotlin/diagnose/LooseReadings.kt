@@ -20,7 +20,7 @@ internal class LooseReadings(private val fit: ModelFit) {
     /** Share of rows that stick out where nothing is wrong with any of them: more of noise with heavy tails. */
     private val beyond: Double
 
-    /** Whether noise with heavy tails is likelier than normal noise with single wrong readings. */
+    /** Whether noise with heavy tails is about as likely as normal noise with single wrong readings, or likelier. */
     private val isTailed: Boolean
 
     init {
@@ -43,7 +43,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         spikes = Spikes.of(told).map { sure[it] }.filter(::isFar)
         mixture = Spikes.ratio(told)
         val tails = Spikes.student(told)
-        isTailed = tails.ratio > mixture.ratio + TAILED
+        isTailed = tails.ratio > mixture.ratio - TAILED
         beyond = if (isTailed) maxOf(BEYOND, tails.beyond(Spikes.farthest(told))) else BEYOND
     }
 

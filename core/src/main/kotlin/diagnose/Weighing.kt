@@ -11,6 +11,7 @@ import kotlin.math.sqrt
  *
  * @param used rows that are fitted. @param spikes rows that are not, because they are far off by themselves.
  * @param late by how much the reference was late, s, before it was put right; 0 where it was not.
+ * @param before the share that the row before has in the truth that is held over each step.
  */
 internal class Weighing(
     private val search: CauseSearch,
@@ -19,6 +20,7 @@ internal class Weighing(
     val spikes: List<Int>,
     private val settings: DiagnosisSettings,
     private val late: Double,
+    private val before: Double,
     told: (Int) -> Unit,
 ) {
     private val series = base.model.series
@@ -57,16 +59,19 @@ internal class Weighing(
         val outliers = loose.pValue * tried < settings.level
         val changing = water.pValue * tried < settings.level
         val left = Structure(last).dependences()
+        val rounded = chosen.none { it.term.cause == Cause.QUANTISATION } && isRounded
         val certain = listOfNotNull(
+            Cause.QUANTISATION.takeIf { rounded },
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
         val shifts = SmallShifts(last)
         val (small, clear) = chosen.zip(forward.alike(chosen)).partition { (trial, set) -> shifts.isSmall(trial, set) }
-        val verdict = insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
+        val verdict =
+            still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
-        val sensor = ExtendedSensor(last, size, leftOut = small.map { (trial, _) -> trial.term.cause }.toSet())
+        val sensor = ExtendedSensor(last, size, rounded, leftOut = small.map { (trial, _) -> trial.term.cause }.toSet())
         val extended = if (named) sensor.spec("extended") else null
         val candidates = candidates(size, loose.pValue)
         val baseline = report.assessment(base, baseHeldOut)
@@ -92,6 +97,9 @@ internal class Weighing(
         )
     }
 
+    /** Whether rounding makes a quarter of the noise: it need not show in what the model foretells of single readings. */
+    private val isRounded: Boolean get() = scales.resolution * scales.resolution / 12 > ROUNDED * last.variance
+
     private fun effect(term: Term) = NamedEffect(term.cause, report.estimates(last, listOf(term)))
 
     private fun lost(changing: Boolean) = if (changing) {
@@ -106,6 +114,8 @@ internal class Weighing(
         }
         if (scales.unknown?.isSharp == true) {
             add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
+        } else if (before > 0) {
+            if (before == 1.0) add(UNTIL_NEXT)
         } else if (base.model.held && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
             add(
                 "The truth looks held over each step, as a simulation holds it; a sensor in water would have a time " +
@@ -170,6 +180,9 @@ internal class Weighing(
             else -> Verdict.Named(all.map { it.single() })
         }
     }
+
+    /** What hides all else: who gives one number for many readings shows no lag. */
+    private fun still(): Verdict? = StillReadings(last).words(settings.level / tried)?.let(Verdict::Unexplained)
 
     /** What explains the log better than any cause of the list and is none. */
     private fun unlisted(loose: LooseReadings): Verdict? {
@@ -247,6 +260,10 @@ internal class Weighing(
         const val BESIDE =
             "The errors of the extended model are those with what was fitted beside; the sensor file is without it."
 
+        const val UNTIL_NEXT =
+            "The truth looks held from each row until the next, as a simulation may hold it. Half a row of delay " +
+                "would look the same, and is not named."
+
         /** Sudden changes that last: fewer are jumps. */
         const val FEWEST_CHANGES = 5
         const val NORMAL_95 = 1.96
@@ -255,6 +272,9 @@ internal class Weighing(
         const val LEAST_SPREAD = 0.03
         const val LEAST_WARMTH = 0.05
         const val COARSE = 0.3
+
+        /** Of the noise's variance: more of it is told of rounding. */
+        const val ROUNDED = 0.25
 
         /** Standard errors by which what is not known of the truth may move a fit before its causes are in doubt. */
         const val MOST_UNKNOWN = 2.0

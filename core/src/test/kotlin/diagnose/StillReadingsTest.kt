@@ -1,0 +1,79 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.math.sin
+import kotlin.math.sqrt
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertFalse
+import kotlin.test.assertIs
+import kotlin.test.assertTrue
+
+/** What the digits of readings say, beside a reference: that a logger hung, and how much of the noise is rounding. */
+class StillReadingsTest {
+    private val n = 600
+    private val truth = DoubleArray(n) { 5 + sin(it / 14.0) + 0.7 * sin(it / 37.0 + 1) }
+    private val random = java.util.Random(5)
+
+    private fun readings(noise: () -> Double): DoubleArray {
+        var state = truth[0]
+        val lagged = DoubleArray(n) { i ->
+            if (i > 0) state += (1 - exp(-1 / 8.0)) * (truth[i] - state)
+            state
+        }
+        return DoubleArray(n) { lagged[it] + noise() }
+    }
+
+    private fun normal() = readings { 0.01 * random.nextGaussian() }
+
+    private fun diagnosed(values: DoubleArray) =
+        Diagnosis(MeasuredSeries(DoubleArray(n) { it.toDouble() }, DoubleArray(n), DoubleArray(n), values, truth)).run()
+
+    private fun rounded(values: DoubleArray, step: Double) = DoubleArray(n) { step * Math.rint(values[it] / step) }
+
+    @Test
+    fun readingsThatAreFrozenAreNoJump() {
+        val values = normal()
+        for (from in listOf(100, 300, 450)) values.fill(values[from], from, from + 15)
+        val reason = assertIs<Verdict.Unexplained>(diagnosed(values).verdict).what
+        assertContains(reason, "stand still to the last digit for 15 rows, 3 times")
+    }
+
+    @Test
+    fun oneNumberInThePlaceOfReadingsIsToldThoughItMakesTheNoiseLarge() {
+        val values = normal()
+        for (from in listOf(100, 300, 450)) values.fill(-9.0, from, from + 8)
+        assertContains(assertIs<Verdict.Unexplained>(diagnosed(values).verdict).what, "8 rows, 3 times")
+    }
+
+    @Test
+    fun readingsThatStandStillOfThemselvesAreNotFrozen() {
+        val coarse = diagnosed(rounded(normal(), 0.06))
+        assertEquals(Verdict.Named(listOf(Cause.QUANTISATION)), coarse.verdict)
+        val ended = diagnosed(normal().map { minOf(it, 6.2) }.toDoubleArray())
+        assertEquals(Verdict.Named(listOf(Cause.SATURATION)), ended.verdict)
+        val repeated = normal()
+        val held = diagnosed(DoubleArray(n) { repeated[it - it % 5] }).verdict
+        assertFalse(held is Verdict.Unexplained && "stand still" in held.what, "$held")
+    }
+
+    @Test
+    fun roundingIsNamedByItsPartOfTheNoise() {
+        assertEquals(Verdict.Named(listOf(Cause.QUANTISATION)), diagnosed(rounded(normal(), 0.025)).verdict)
+        assertEquals(Verdict.Consistent, diagnosed(rounded(normal(), 0.01)).verdict)
+    }
+
+    @Test
+    fun noiseWithTailsInAShortLogIsNoOutlier() {
+        val named = (1..12).count {
+            val verdict = diagnosed(
+                readings {
+                    0.01 * random.nextGaussian() / sqrt(List(5) { random.nextGaussian() }.sumOf { it * it } / 5)
+                },
+            ).verdict
+            verdict != Verdict.Consistent
+        }
+        assertTrue(named <= 1, "$named of 12 logs without an effect")
+    }
+}
