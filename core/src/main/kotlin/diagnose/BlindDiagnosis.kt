@@ -46,7 +46,7 @@ internal class BlindDiagnosis(
             loose.rows.forEach { search.used[it] = false }
             base = search.improved(search.evened(base))
             // Wild readings hide that steps are held; they do not make them look so.
-            if (!search.held) base = search.stepped(base)
+            if (!search.steps.isHeld) base = search.stepped(base)
         }
         return answer(base)
     }
@@ -65,9 +65,7 @@ internal class BlindDiagnosis(
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === found) round(start, still) else round(start)
-        // A truth that is held over steps is ahead by half of one: what shifts readings as much may do for that.
-        val shift = if (isTurned) null else first.shift()
-        val turned = shift?.let { search.turned(base, it.score - BlindLag.MUCH) }
+        val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
         val chosen = forward(first)
         val last = chosen.lastOrNull()?.state ?: first.state
@@ -76,6 +74,16 @@ internal class BlindDiagnosis(
         val given = settings.base?.let { GivenLag(search, base, it) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
             .of(first, chosen, sets, end)
+    }
+
+    /**
+     * [base] with other steps, where what [first] found is a shift that these do for: a truth that is held over each step
+     * is ahead by half of one, or behind. Null where they do not.
+     */
+    private fun turned(base: BlindState, first: BlindRound): BlindState? {
+        val ahead = first.shift()?.let { search.turned(base, search.otherSteps, it.score - BlindLag.MUCH) }
+        if (ahead != null || search.steps.isHeld) return ahead
+        return first.halfRowLate(base)?.let { search.turned(it, Steps.HELD_ON, it.score - BlindLag.MUCH) }
     }
 
     /** What the log says of a lag alone. */
@@ -171,7 +179,7 @@ internal class BlindDiagnosis(
         val full = chosen.last().state
         val dropped = chosen[left].trial.name
         val terms = full.model.terms.filter { it.key != dropped }
-        val model = ResponseModel(series.withReference(full.water), terms, search.held, search.scales)
+        val model = ResponseModel(series.withReference(full.water), terms, search.steps, search.scales)
         val numbers = model.carried(full.model, full.numbers)
         return search.improved(search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full))
     }

@@ -84,7 +84,7 @@ internal class Weighing(
             left,
             spikes,
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
-                shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
+                report.warnings +
                 listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
@@ -106,11 +106,13 @@ internal class Weighing(
         }
         if (scales.unknown?.isSharp == true) {
             add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
-        } else if (base.model.held && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
+        } else if (base.model.steps == Steps.HELD && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
             add(
                 "The truth looks held over each step, as a simulation holds it; a sensor in water would have a time " +
                     "constant half a step shorter.",
             )
+        } else if (base.model.steps == Steps.HELD_ON) {
+            add(SmallShifts.HELD_ON)
         }
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         val off = spikes.size
