@@ -102,7 +102,8 @@ internal class SmallShifts(private val last: ModelFit) {
         fun words(term: Term, model: ResponseModel, numbers: DoubleArray, why: String): String {
             val slot = model.slot(term)
             val number = "%.2g".format(Locale.ROOT, numbers[slot])
-            return "A ${term.cause.label} of $number ${model.parameters[slot].unit} was fitted beside and is not named: $why"
+            val size = "$number ${model.parameters[slot].unit}"
+            return "A ${term.cause.label} of $size was fitted beside and is not named: $why"
         }
 
         /** What is to be said of readings that are as late as steps held on make them. */
