@@ -144,18 +144,20 @@ internal class BlindSearch private constructor(
 
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
     fun stepped(state: BlindState): BlindState {
-        val margin = if (steps.isHeld) -HELD else HELD
-        return within(otherSteps, state.score + margin) { improved(again(state, state.fit.design.noise)) } ?: state
+        val least = state.score + if (steps.isHeld) -HELD else HELD
+        return within(otherSteps, least) { improved(again(state, state.fit.design.noise)) } ?: state
     }
 
-    /** Steps that are held where they are not, and the other way round. */
+    /** Held where they are not, and the other way round. */
     val otherSteps: Steps get() = if (steps.isHeld) Steps.EVEN else Steps.HELD
 
-    /** The lag alone of [state] with steps [to] and what suits that, as all that follows has them; null if below [least]. */
-    fun turned(state: BlindState, to: Steps, least: Double): BlindState? = within(to, least) {
-        val lag = state.numbers.copyOf(ResponseModel.BASE)
-        val begun = settled(emptyList(), lag, state.fit.design.noise, state.variances, before = state)
-        climbed(requieted(climbed(begun)))
+    /**
+     * Only the lag and [terms] of [state], with steps [to] and what suits that, as all that follows has them; null if
+     * below [least].
+     */
+    fun turned(state: BlindState, to: Steps, least: Double, terms: List<Term> = emptyList()) = within(to, least) {
+        val own = ResponseModel(state.model.series, terms, to, scales).carried(state.model, state.numbers)
+        climbed(requieted(climbed(settled(terms, own, state.fit.design.noise, state.variances, before = state))))
     }
 
     private fun within(to: Steps, least: Double, fitted: () -> BlindState): BlindState? {

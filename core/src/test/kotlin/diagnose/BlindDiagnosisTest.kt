@@ -146,6 +146,21 @@ class BlindDiagnosisTest {
         assertContains(result.warnings.joinToString(" "), "half a row late")
     }
 
+    /** Two lags, each of which a simulation in steps has half a row sooner: that shows only once both are in the model. */
+    @Test
+    fun twoLagsInStepsAreNamed() {
+        val random = java.util.Random(9)
+        var first = truth[0]
+        var reading = first
+        val values = DoubleArray(n) { i ->
+            first += -expm1(-1 / 9.0) * (truth[i] - first)
+            reading += -expm1(-1 / 6.0) * (first - reading)
+            reading + 0.001 * random.nextGaussian()
+        }
+        val result = Diagnosis(MeasuredSeries(track.times, x, y, values, null)).run()
+        assertEquals(Verdict.Named(listOf(Cause.SECOND_ORDER_RESPONSE)), result.verdict, "${result.warnings}")
+    }
+
     /** Clear, and no more than fixes and clocks are off. */
     @Test
     fun aShiftOfNextToNothingIsToldAndNotNamed() {
