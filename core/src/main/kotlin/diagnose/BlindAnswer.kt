@@ -35,11 +35,13 @@ internal class BlindAnswer(
             Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, adjustedLooks[i])
         }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
-        val isRounded = isCoarse && sets.none { Cause.QUANTISATION in it }
+        // What shifts readings by next to nothing, however surely, stays in the model.
+        val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let { BlindTerms.isLittle(it, last) } != true }
+        val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
         // A drift or a jump that was chosen is held against such water already.
-        val isChangeTold = sets.any { Cause.TIME_VARYING_FIELD in it }
+        val isChangeTold = told.any { Cause.TIME_VARYING_FIELD in it }
         val isLikelyChange = chosen.isEmpty() && end.changed > CHANGED
-        val all = sets + listOfNotNull(
+        val all = told + listOfNotNull(
             changes(end.changed, chosen).takeIf { it.isNotEmpty() && !isChangeTold },
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
@@ -73,7 +75,7 @@ internal class BlindAnswer(
             left,
             outliers.rows,
             warnings(left.first(), isNamed) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
-                cautions(chosen).takeIf { isNamed }.orEmpty() +
+                little(chosen) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
             lag = lag.channel(""),
@@ -149,8 +151,9 @@ internal class BlindAnswer(
             exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
     /** What is to be said of those [chosen] that do next to nothing, however surely. */
-    private fun cautions(chosen: List<BlindStep>) = chosen.mapNotNull { it.trial.term }
-        .filter { BlindTerms.isLittle(it, last) }.map { SmallShifts.caution(it.cause) }
+    private fun little(chosen: List<BlindStep>) = chosen.mapNotNull { it.trial.term }
+        .filter { BlindTerms.isLittle(it, last) }
+        .map { SmallShifts.words(it, last.model, last.numbers, SmallShifts.LITTLE) }
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {
@@ -182,6 +185,7 @@ internal class BlindAnswer(
                     "neither should be relied on.",
             )
         }
+        if (search.steps == Steps.UNTIL_NEXT) add(SmallShifts.UNTIL_NEXT)
         if (!last.isResolved) {
             add(
                 "The water has finer structure than these numbers show, or the response another shape: the interval " +

@@ -17,7 +17,7 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         private val terms: List<Term>,
         private val numbers: List<Double>,
         private val modes: WaterModes,
-        private val held: Boolean,
+        private val steps: Steps,
     ) {
         /** Number of columns. */
         val size: Int get() = modes.size + 1
@@ -27,20 +27,20 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
          * log. Whenever some columns are there, [then] is told the first of them and the one behind the last.
          */
         fun write(out: List<DoubleArray>, then: (Int, Int) -> Unit) {
-            response(terms, numbers, modes.columns, held).of(modes.columns, loops, out, bends(modes), then)
+            response(terms, numbers, modes.columns, steps).of(modes.columns, loops, out, bends(modes), then)
             val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
             for (i in 0 until n) out[size - 1][i] = exp(-(series.times[i] - series.times[0]) / timeConstant)
             then(size - 1, size)
         }
 
         fun isSame(other: Shown): Boolean =
-            modes === other.modes && held == other.held && numbers == other.numbers && terms == other.terms
+            modes === other.modes && steps == other.steps && numbers == other.numbers && terms == other.terms
     }
 
     /** Water of [modes] as the linear parts of the sensor with [terms] and [numbers] show it. */
-    fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes, held: Boolean): Shown {
+    fun shown(terms: List<Term>, numbers: DoubleArray, modes: WaterModes, steps: Steps): Shown {
         val (linear, own) = linear(terms, numbers)
-        return Shown(linear, own, modes, held)
+        return Shown(linear, own, modes, steps)
     }
 
     /** The bends of the water that was shown last; null for more of them than are worth their memory. */
@@ -99,15 +99,15 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         Combination.of(modes.columns.asList(), heights, n, loops)
 
     /** [waters] along the track as the linear parts of the sensor show them. */
-    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, held: Boolean): Array<DoubleArray> {
+    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, steps: Steps): Array<DoubleArray> {
         val (linear, own) = linear(terms, numbers)
         val out = Array(waters.size) { DoubleArray(n) }
-        response(linear, own, waters, held).of(waters, loops, out.asList())
+        response(linear, own, waters, steps).of(waters, loops, out.asList())
         return out
     }
 
-    private fun response(linear: List<Term>, numbers: List<Double>, waters: Array<DoubleArray>, held: Boolean) =
-        ResponseModel(series.withReference(waters[0]), linear, held, scales).linear(numbers.toDoubleArray())
+    private fun response(linear: List<Term>, numbers: List<Double>, waters: Array<DoubleArray>, steps: Steps) =
+        ResponseModel(series.withReference(waters[0]), linear, steps, scales).linear(numbers.toDoubleArray())
 
     /** Those of [terms] that are linear in the water, and what of [numbers] tells what the sensor shows of it. */
     private fun linear(terms: List<Term>, numbers: DoubleArray): Pair<List<Term>, List<Double>> {

@@ -46,36 +46,66 @@ internal class BlindDiagnosis(
             loose.rows.forEach { search.used[it] = false }
             base = search.improved(search.evened(base))
             // Wild readings hide that steps are held; they do not make them look so.
-            if (!search.held) base = search.stepped(base)
+            if (!search.steps.isHeld) base = search.stepped(base)
         }
         return answer(base)
     }
 
-    /** The answer on top of [found], a lag alone. */
-    private fun answer(found: BlindState, isTurned: Boolean = false): DiagnosisResult {
+    /** The answer on top of [likeliest], a lag alone. */
+    private fun answer(likeliest: BlindState, isTurned: Boolean = false): DiagnosisResult {
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
-        val still = search.still(found)
-        val lags = if (still.score > found.score - FAR_CHANGE) {
-            loops.all(listOf(found, still).distinct()) { state -> BlindLag(search, state).also { it.likeliest } }
+        val still = search.still(likeliest)
+        val lags = if (still.score > likeliest.score - FAR_CHANGE) {
+            loops.all(listOf(likeliest, still).distinct()) { state -> BlindLag(search, state).also { it.likeliest } }
         } else {
-            listOf(BlindLag(search, found, still.takeIf { !found.isResolved }))
+            listOf(BlindLag(search, likeliest, still.takeIf { !likeliest.isResolved }))
         }
         lag = lags.maxBy { it.likeliest }
-        val base = lag.timeConstant
+        var base = lag.timeConstant
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
-        val first = if (start === found) round(start, still) else round(start)
-        // A truth that is held over steps is ahead by half of one: what shifts readings as much may do for that.
-        val shift = if (isTurned) null else first.shift()
-        val turned = shift?.let { search.turned(base, it.score - BlindLag.MUCH) }
+        val first = if (start === likeliest) round(start, still) else round(start)
+        val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
-        val chosen = forward(first)
+        val found = forward(first)
+        val chosen = heldInstead(found) ?: found
+        if (base.model.steps !=
+            search.steps
+        ) {
+            base = checkNotNull(search.turned(base, search.steps, Double.NEGATIVE_INFINITY))
+        }
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = if (chosen.isEmpty()) first else ended ?: round(last)
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
             .of(first, chosen, sets, end)
+    }
+
+    /**
+     * [base] with other steps, where what [first] found is a shift that these do for: a truth that is held over each step
+     * is ahead by half of one, or behind. Null where they do not.
+     */
+    private fun turned(base: BlindState, first: BlindRound): BlindState? {
+        val ahead = first.shift()?.let { search.turned(base, search.otherSteps, it.score - BlindLag.MUCH) }
+        if (ahead != null || search.steps.isHeld) return ahead
+        return first.halfRowLate(base)?.let { search.turned(it, Steps.UNTIL_NEXT, it.score - BlindLag.MUCH) }
+    }
+
+    /**
+     * [chosen] without its shifts, with steps that are held, where these do as much; null where they do not. Each lag has
+     * what is held half a row sooner or later, so that two have it a row.
+     */
+    private fun heldInstead(chosen: List<BlindStep>): List<BlindStep>? {
+        val rest = chosen.filter { it.trial.term?.cause !in SHIFTS }
+        val last = chosen.lastOrNull()?.state
+        if (last == null || rest.isEmpty() || rest.size == chosen.size || search.steps.isHeld) return null
+        val (shifts, others) = last.model.terms.partition { it.cause in SHIFTS }
+        val rows = shifts.sumOf { SmallShifts.late(it, last.model, last.numbers) ?: 0.0 } / series.period
+        val steps = Steps.entries.firstOrNull { it.isHeld && -rows / it.lead in HALVES } ?: return null
+        val state = search.turned(last, steps, last.score - BlindLag.MUCH, others) ?: return null
+        ended = round(state)
+        return rest.dropLast(1) + BlindStep(rest.last().trial, rest.last().round, state)
     }
 
     /** What the log says of a lag alone. */
@@ -148,7 +178,10 @@ internal class BlindDiagnosis(
 
     private fun added(state: BlindState, trial: BlindTrial): BlindState {
         val next = trial.state ?: search.improved(search.with(state, trial))
-        return search.climbed(search.improved(search.evened(next)))
+        val model = search.climbed(search.improved(search.evened(next)))
+        // How steps are held shows only once the response is right.
+        val stepped = search.stepped(model)
+        return if (stepped === model) model else search.climbed(search.requieted(stepped))
     }
 
     /** For each chosen cause those that explain as much in its place. */
@@ -171,7 +204,7 @@ internal class BlindDiagnosis(
         val full = chosen.last().state
         val dropped = chosen[left].trial.name
         val terms = full.model.terms.filter { it.key != dropped }
-        val model = ResponseModel(series.withReference(full.water), terms, search.held, search.scales)
+        val model = ResponseModel(series.withReference(full.water), terms, search.steps, search.scales)
         val numbers = model.carried(full.model, full.numbers)
         return search.improved(search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full))
     }
@@ -206,6 +239,12 @@ internal class BlindDiagnosis(
 
         /** Twice a gain in log-likelihood below which a cause goes again, once others are named beside it. */
         private const val NEEDLESS = 8.0
+
+        /** Shifts of the whole log. */
+        private val SHIFTS = setOf(Cause.DEAD_TIME, Cause.POSITION_OFFSET)
+
+        /** Half rows of a shift that held steps are tried for. */
+        private val HALVES = 0.5..2.5
 
         /** Causes that water which changes in time can imitate. */
         val SLOW = setOf(Cause.DRIFT, Cause.OFFSET_STEPS)

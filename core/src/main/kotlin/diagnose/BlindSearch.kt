@@ -46,7 +46,7 @@ internal class BlindSearch private constructor(
         val other = BlindSearch(series.withReadings(values), loops, {}, ground)
         used.copyInto(other.used)
         other.fine = fine
-        other.held = held
+        other.steps = steps
         other.lastVariance = lastVariance
         return other
     }
@@ -65,17 +65,16 @@ internal class BlindSearch private constructor(
         // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise
         // that wanders.
         val first = quieted(stepped(improved(improved(coarse.maxBy { it.score }))))
-        val found = improved(first)
         progress(2 * ROUGH)
-        var state = finer(found)
+        var state = finer(improved(first))
         fine = state.modes
         // More waves may explain what looked like noise that wanders.
         progress(3 * ROUGH)
         state = improved(improved(requieted(evened(state))))
-        val was = held
+        val was = steps
         // Few waves may have told wrongly whether steps are held.
         state = stepped(state)
-        if (held != was) state = improved(requieted(evened(state)))
+        if (steps != was) state = improved(requieted(evened(state)))
         state = restarted(state)
         lastVariance = state.variance
         return state
@@ -95,10 +94,8 @@ internal class BlindSearch private constructor(
         return if (other.score > state.score) other else state
     }
 
-    private fun hardlyWandering(state: BlindState) = BlindNoise(
-        noise(QUIET, FIRST_STEPS),
-        state.fit.design.noise.spread,
-    )
+    private fun hardlyWandering(state: BlindState) =
+        BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
 
     /**
      * [state] with noise that hardly wanders, where it does: such noise has taken what a sensor does that the model does
@@ -141,24 +138,32 @@ internal class BlindSearch private constructor(
     var lastVariance: Double = 0.0
         private set
 
-    /** Whether the truth is held over each step, as the simulator's own sensors do, in place of going on evenly. */
-    var held: Boolean = false
+    /** How the truth goes on between the rows. */
+    var steps: Steps = Steps.EVEN
         private set
 
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
     fun stepped(state: BlindState): BlindState {
-        val margin = if (held) -HELD else HELD
-        return kept(improved(flipped(state)), state.score + margin) ?: state
+        val least = state.score + if (steps.isHeld) -HELD else HELD
+        return within(otherSteps, least) { improved(again(state, state.fit.design.noise)) } ?: state
     }
 
-    /** [state] with steps the other way and what suits that, as all that follows has them; null if below [least]. */
-    fun turned(state: BlindState, least: Double) = kept(climbed(requieted(climbed(flipped(state)))), least)
+    /** Held where they are not, and the other way round. */
+    val otherSteps: Steps get() = if (steps.isHeld) Steps.EVEN else Steps.HELD
 
-    private fun kept(other: BlindState, least: Double) = other.takeIf { it.score > least } ?: null.also { held = !held }
+    /**
+     * Only the lag and [terms] of [state], with steps [to] and what suits that, as all that follows has them; null if
+     * below [least].
+     */
+    fun turned(state: BlindState, to: Steps, least: Double, terms: List<Term> = emptyList()) = within(to, least) {
+        val own = ResponseModel(state.model.series, terms, to, scales).carried(state.model, state.numbers)
+        climbed(requieted(climbed(settled(terms, own, state.fit.design.noise, state.variances, before = state))))
+    }
 
-    private fun flipped(state: BlindState): BlindState {
-        held = !held
-        return again(state, state.fit.design.noise)
+    private fun within(to: Steps, least: Double, fitted: () -> BlindState): BlindState? {
+        val was = steps
+        steps = to
+        return fitted().takeIf { it.score > least } ?: null.also { steps = was }
     }
 
     /** Numbers of a lag of [timeConstant] s. */
@@ -285,18 +290,17 @@ internal class BlindSearch private constructor(
     ): BlindState {
         val waves = modes ?: before?.modes ?: this.modes
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
-        val columns = designs.shown(terms, own, waves, held)
+        val columns = designs.shown(terms, own, waves, steps)
         var heights = before?.fit?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
-        var bands =
-            variances.takeIf { it.size == waves.bands } ?: waves.first
+        var bands = variances.takeIf { it.size == waves.bands } ?: waves.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-        var model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, held, scales)
+        var model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
         var hidden = RangeEnd.beyond(model, at)
         var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
         for (round in 0..rounds) {
             val change = fit.change(residuals(model, at))
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
-            model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, held, scales)
+            model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             if (round < rounds) {
@@ -318,7 +322,7 @@ internal class BlindSearch private constructor(
 
     /** [waters] along the track as the linear parts of the sensor show them. */
     fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> =
-        designs.seen(terms, numbers, waters, held)
+        designs.seen(terms, numbers, waters, steps)
 
     /** The waters of [modes] with [heights] along the track. */
     fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> = designs.along(modes, heights)

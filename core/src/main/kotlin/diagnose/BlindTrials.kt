@@ -33,7 +33,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     private fun fitted(term: Term, searched: Double): BlindTrial {
         val kept = state.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, kept + term, search.held, scales)
+        val model = ResponseModel(series, kept + term, search.steps, scales)
         val free = search.free(model)
         val starts = Starts(asFit, model, term, small = true).all()
         val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
@@ -172,7 +172,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     /** What [term] adds to what [found] shows, all else the same. */
     private fun added(term: Term, found: BlindState): DoubleArray {
         val kept = found.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(found.model.series, kept, search.held, scales)
+        val model = ResponseModel(found.model.series, kept, search.steps, scales)
         val out = DoubleArray(n)
         model.predict(model.carried(found.model, found.numbers), out)
         // What the model with it shows = reading − residual.

@@ -103,7 +103,7 @@ internal class CauseSearch(
 
     private fun extended(base: ModelFit, term: Term): ModelFit {
         val kept = base.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, kept + term, base.model.held, scales)
+        val model = ResponseModel(series, kept + term, base.model.steps, scales)
         val free = freed(model, base, term)
         val rough = starts(base, model, term)
             .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
@@ -220,7 +220,7 @@ internal class CauseSearch(
      */
     fun without(fit: ModelFit, term: Term, base: ModelFit): ModelFit {
         val rest = fit.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, rest, fit.model.held, scales)
+        val model = ResponseModel(series, rest, fit.model.steps, scales)
         val start = DoubleArray(model.parameters.size)
         val free = BooleanArray(model.parameters.size)
         val open = rest.filter { base.model.slotOrNull(it) == null }

@@ -92,7 +92,7 @@ public class Diagnosis private constructor(
 
     /** Twice the log-likelihood of the base for [quiet], this log with another reference. */
     private fun explained(quiet: MeasuredSeries): Double {
-        val model = ResponseModel(quiet, rough.model.terms, false, Scales(quiet, unknown))
+        val model = ResponseModel(quiet, rough.model.terms, Steps.EVEN, Scales(quiet, unknown))
         return Fitting.fit(model, rough.numbers, rough.free, used, longest, guess = rough.noise).score
     }
 
@@ -124,10 +124,10 @@ public class Diagnosis private constructor(
         val explained = (if (shifts.isEmpty()) first.lateness else first.explained) ?: return null
         val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER
         // With a slow path beside it the time constant is that of the fast one.
-        val shocks = scales(first.base, false).shocks
+        val shocks = scales(first.base, Steps.EVEN).shocks
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
-            without(gone, fit, tau, Scales(ahead(rows), shaken, shocks), false, used)
+            without(gone, fit, tau, Scales(ahead(rows), shaken, shocks), Steps.EVEN, used)
         val (rows, best) = ReferenceLead.likeliest { led(first.last, shifts, it).score } ?: return null
         if (best - kept.sumOf { it.cost } < least) return null
         val second = weighing(led(first.base, emptyList(), rows), first.spikes, rows * series.period)
@@ -149,7 +149,7 @@ public class Diagnosis private constructor(
             val before = Diagnosis(series.withQuieter(rowBefore(share)), settings, loops, share) { }
             fewer.map { gone -> Triple(before, gone, before.ahead(first, gone, rows)) }
         }.maxBy { it.third }.takeIf { it.third >= 0 } ?: return null
-        val second = before.weighing(true, first.spikes)
+        val second = before.weighing(Steps.HELD, first.spikes)
         val isFewer = second.chosen.count(::isShift) < shifts.size
         return second.takeIf { it.explained >= first.explained + if (isFewer && gone.isNotEmpty()) -SHIFT else HELD }
     }
@@ -165,25 +165,25 @@ public class Diagnosis private constructor(
     private fun ahead(first: Weighing, gone: List<Trial>, rows: BooleanArray): Double {
         val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
-        val fit = without(gone, first.last, tau, scales(first.base, true), true, rows)
+        val fit = without(gone, first.last, tau, scales(first.base, Steps.HELD), Steps.HELD, rows)
         return fit.score - kept - first.explained + if (gone.isEmpty()) -HELD else SHIFT
     }
 
     /**
-     * [fit] to [rows] of what [scales] have without [gone], begun from a lag of [tau] s; steps are [held]. A given number
-     * that is among [gone] is given again.
+     * [fit] to [rows] of what [scales] have without [gone], begun from a lag of [tau] s, with [steps]. A given number that
+     * is among [gone] is given again.
      */
     private fun without(
         gone: List<Trial>,
         fit: ModelFit,
         tau: Double,
         scales: Scales,
-        held: Boolean,
+        steps: Steps,
         rows: BooleanArray,
     ): ModelFit {
         val keys = gone.map { it.term.key }
         val given = gone.flatMap { it.term.cause.baseNumbers }
-        val model = ResponseModel(scales.series, fit.model.terms.filter { it.key !in keys }, held, scales)
+        val model = ResponseModel(scales.series, fit.model.terms.filter { it.key !in keys }, steps, scales)
         val start = model.carried(fit.model, fit.numbers)
         start[ResponseModel.TIME_CONSTANT] = tau
         val free = BooleanArray(start.size) { it < ResponseModel.BASE && fit.free[it] && it !in given }
@@ -210,38 +210,40 @@ public class Diagnosis private constructor(
     /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
     private fun better(first: Weighing, margin: Double): Weighing {
         val rows = used.copyOf()
-        val second = weighing(!first.last.model.held)
+        val second = weighing(other(first.last))
         if (second.explained > first.explained - margin) return second
         rows.copyInto(used)
         return first
     }
 
+    private fun other(fit: ModelFit) = if (fit.model.steps.isHeld) Steps.EVEN else Steps.HELD
+
     /** [fit] with steps held if they are not, and the other way round. */
     private fun turned(fit: ModelFit): ModelFit {
-        val scales = scales(fit, !fit.model.held)
-        val other = ResponseModel(series, fit.model.terms, !fit.model.held, scales)
+        val scales = scales(fit, other(fit))
+        val other = ResponseModel(series, fit.model.terms, other(fit), scales)
         val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, scales.shocks)
         return Fitting.fit(other, fit.numbers, fit.free, used, longest, guess = guess)
     }
 
-    private fun weighing(held: Boolean?): Weighing {
+    private fun weighing(steps: Steps?): Weighing {
         used.fill(true)
-        val settled = settled(held)
+        val settled = settled(steps)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
         val spikes = Spikes.of(settled.whitened).filter {
             abs(settled.residuals[it]) > settled.model.scales.resolution && !shaken.isInDoubt(it) &&
                 !settled.model.scales.isInDoubt(it) && Spikes.isSingle(settled.residuals, it)
         }
         spikes.forEach { used[it] = false }
-        return weighing(if (spikes.isEmpty()) settled else base(held, settled), spikes, 0.0)
+        return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)
     }
 
-    /** The weighing with steps [held] where [spikes] are known. */
-    private fun weighing(held: Boolean, spikes: List<Int>): Weighing {
+    /** The weighing with [steps] where [spikes] are known. */
+    private fun weighing(steps: Steps, spikes: List<Int>): Weighing {
         used.fill(true)
-        val settled = settled(held)
+        val settled = settled(steps)
         spikes.forEach { used[it] = false }
-        return weighing(if (spikes.isEmpty()) settled else base(held, settled), spikes, 0.0)
+        return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)
     }
 
     /** The weighing of all causes on top of [base], where [spikes] are left out of and the reference was [late] s late. */
@@ -261,21 +263,21 @@ public class Diagnosis private constructor(
      * The base model. How much a gap or a sharp front shakes the reading is told by the lag, and that by what is left
      * of the log: each in turn.
      */
-    private fun settled(held: Boolean?): ModelFit {
-        var last = if (held == null) rough else base(held, null)
+    private fun settled(steps: Steps?): ModelFit {
+        var last = if (steps == null) rough else base(steps, null)
         repeat(SETTLING) {
-            if (scales(last, last.model.held).shocks == null) return last
-            last = base(held, last)
+            if (scales(last, last.model.steps).shocks == null) return last
+            last = base(steps, last)
         }
         return last
     }
 
     /** What models share where the readings have lag and noise like those of [fit]. */
-    private fun scales(fit: ModelFit?, held: Boolean): Scales {
+    private fun scales(fit: ModelFit?, steps: Steps): Scales {
         if (fit == null) return Scales(series, unknown)
         val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
         val spread = Spikes.spread(fit.whitened)
-        return Scales(series, shaken, shaken.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, held))
+        return Scales(series, shaken, shaken.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, steps.isHeld))
     }
 
     /**
@@ -285,7 +287,7 @@ public class Diagnosis private constructor(
     private fun late(): Double {
         val term = Term(Cause.DEAD_TIME, isEitherWay = true)
         if (rough.model.slotOrNull(term) != null) return 0.0
-        val model = ResponseModel(series, rough.model.terms + term, rough.model.held, rough.model.scales)
+        val model = ResponseModel(series, rough.model.terms + term, rough.model.steps, rough.model.scales)
         val slot = model.slot(term)
         val free = BooleanArray(model.parameters.size) { it == slot || rough.free.getOrElse(it) { false } }
         val tau = rough.numbers[ResponseModel.TIME_CONSTANT]
@@ -306,10 +308,10 @@ public class Diagnosis private constructor(
     }
 
     /**
-     * The base model; steps are held where [held], as the log says where that is null. Lag and noise are as [rough].
+     * The base model with [steps], as the log says where that is null. Lag and noise are as [rough].
      */
-    private fun base(held: Boolean?, rough: ModelFit?): ModelFit {
-        val fits = listOf(false, true).filter { held == null || it == held }.map { base(it, scales(rough, it)) }
+    private fun base(steps: Steps?, rough: ModelFit?): ModelFit {
+        val fits = (steps?.let { listOf(it) } ?: listOf(Steps.EVEN, Steps.HELD)).map { base(it, scales(rough, it)) }
         // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given
         // sensor's numbers may be wrong, so that this is told with them free.
         val best = if (fits.last().score > fits[0].score + HELD) fits.last() else fits[0]
@@ -319,9 +321,9 @@ public class Diagnosis private constructor(
         return Fitting.fit(best.model, numbers, free, used, longest)
     }
 
-    private fun base(held: Boolean, scales: Scales): ModelFit {
+    private fun base(steps: Steps, scales: Scales): ModelFit {
         val given = settings.base?.let { GivenSensor(it, scales) }
-        val model = ResponseModel(series, given?.terms.orEmpty(), held, scales)
+        val model = ResponseModel(series, given?.terms.orEmpty(), steps, scales)
         val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
         val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
         return starts.map { Fitting.fit(model, it, free, used, longest) }.maxBy { it.score }

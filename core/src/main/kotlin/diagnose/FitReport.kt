@@ -86,7 +86,7 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
      */
     private fun open(fit: ModelFit, parameter: Parameter): Pair<Double, Double> = when {
         parameter.name != "dead_time_s" || fit.model.scales.unknown?.isSharp != true -> 0.0 to 0.0
-        fit.model.held -> series.period to 0.0
+        fit.model.steps.isHeld -> series.period to 0.0
         else -> series.period / 2 to series.period / 2
     }
 

@@ -35,13 +35,16 @@ internal class NeighbourSums(private val times: DoubleArray, val isBent: Boolean
     /** Row [i] is the input there. */
     fun same(i: Int) = if (i == 0) put(0, 0, 1.0, 0.0, 0.0, 0.0) else put(i, i - 1, 0.0, 1.0, 0.0, 0.0)
 
-    /** Row [i] is what a lag of [tau] s shows of an input that is held over the step before it. */
-    fun hold(i: Int, tau: Double) {
+    /**
+     * Row [i] is what a lag of [tau] s shows of an input that is held over the step before it, as that row or, where
+     * [isUntilNext], the one before says.
+     */
+    fun hold(i: Int, tau: Double, isUntilNext: Boolean) {
         val fade = exp(-(times[i] - times[i - 1]) / tau)
-        put(i, i - 1, 0.0, 1 - fade, 0.0, 0.0, fade)
+        if (isUntilNext) put(i, i - 1, 1 - fade, 0.0, 0.0, 0.0, fade) else put(i, i - 1, 0.0, 1 - fade, 0.0, 0.0, fade)
     }
 
-    /** The same of an input that is the spline; see [Spline.follower]. */
+    /** Row [i] is what a lag of [tau] s shows of an input that is the spline; see [Spline.follower]. */
     fun follow(i: Int, tau: Double) {
         val h = times[i] - times[i - 1]
         val faded = -expm1(-h / tau)

@@ -65,18 +65,19 @@ internal class ReferenceFaults(
     }
 
     /** Twice the log-likelihood of a truth that the reference follows with a lag of [lag] s. */
-    private fun led(lag: Double): Double = listOf(false, true).maxOf { held ->
+    private fun led(lag: Double): Double = listOf(Steps.EVEN, Steps.HELD).maxOf { between ->
         val lead = series.withQuieter(
-            if (held) steps(lag) else ReferenceLead.course(series, lag, base.model.scales.unknown?.isBroken),
+            if (between.isHeld) steps(lag) else ReferenceLead.course(series, lag, base.model.scales.unknown?.isBroken),
         )
         val unknown = UnknownTruth.of(lead)
         val tau = base.numbers[ResponseModel.TIME_CONSTANT] +
             if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0
         val spread = Spikes.spread(base.whitened)
-        val scales = Scales(lead, unknown, unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, held))
+        val scales =
+            Scales(lead, unknown, unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, between.isHeld))
         val start = base.numbers.copyOf().also { it[ResponseModel.TIME_CONSTANT] = tau }
         val guess = CorrelatedNoise(series.times, base.noise.share, base.noise.time, used, scales.shocks)
-        val model = ResponseModel(lead, base.model.terms, held, scales)
+        val model = ResponseModel(lead, base.model.terms, between, scales)
         Fitting.fit(model, start, base.free, used, search.longest, guess = guess).score
     }
 
@@ -93,7 +94,7 @@ internal class ReferenceFaults(
     private fun smoothest(): Double = WIDTHS.maxOf { width ->
         val smooth = series.withQuieter(smoothed(width * series.period))
         val scales = Scales(smooth, base.model.scales.unknown, base.model.scales.shocks)
-        val model = ResponseModel(smooth, base.model.terms, base.model.held, scales)
+        val model = ResponseModel(smooth, base.model.terms, base.model.steps, scales)
         Fitting.fit(model, base.numbers, base.free, used, search.longest, guess = base.noise).score
     } - CHANCE
 

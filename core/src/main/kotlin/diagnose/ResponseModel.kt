@@ -12,12 +12,14 @@ import kotlin.math.sqrt
  *
  * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag or
  * slow path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The
- * truth is taken as a cubic spline through the rows, or as held over each step where [held]; each lag is exact for
+ * truth is taken as a cubic spline through the rows, or as held over each step ([steps]); each lag is exact for
  * that.
  *
- * @property series the log; its reference must be there. @property terms what acts beside the base.
+ * @property series the log; its reference must be there. @property terms what acts beside the base. @property steps how
+ *   the truth goes on between the rows.
  */
-internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, val held: Boolean, val scales: Scales) {
+internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, val steps: Steps, val scales: Scales) {
+    private val held = steps.isHeld
     private val n = series.size
     private val truth = requireNotNull(series.reference) { "a response model needs a reference" }
     private val layout = ParameterLayout(series, terms, scales)
@@ -30,6 +32,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private val second = DoubleArray(n)
     private val taus = DoubleArray(n)
     private val isGap = scales.unknown?.isGap
+    private val isUntilNext = steps == Steps.UNTIL_NEXT
     private val spline = Spline(series.times, scales.unknown?.isBroken)
     private val truthSpline by lazy { Spline(series.times, scales.unknown?.isBroken) }
     private var isFitted = false
@@ -125,7 +128,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         for (i in 0 until n) {
             when {
                 i == 0 || isGap(i, series.times[i] - series.times[i - 1]) -> sums.same(i)
-                held -> sums.hold(i, taus[i] * factor)
+                held -> sums.hold(i, taus[i] * factor, isUntilNext)
                 else -> sums.follow(i, taus[i] * factor)
             }
         }
@@ -190,8 +193,9 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         var fade = 0.0
         for (i in 1 until n) {
             val dt = series.times[i] - series.times[i - 1]
-            val before = if (held) input[i] else input[i - 1]
-            val tau = taus[i] * if ((before + input[i]) / 2 > state) up else down
+            val before = if (held) input[over(i)] else input[i - 1]
+            val after = if (held) before else input[i]
+            val tau = taus[i] * if ((before + after) / 2 > state) up else down
             if (isGap(i, dt)) {
                 state = input[i]
             } else {
@@ -202,13 +206,16 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
                     lastTau = tau
                 }
                 // The response to a cubic is a cubic; what is off it fades.
-                val early = if (held) input[i] else curve.follower(i - 1, 0.0, tau)
-                val late = if (held) input[i] else curve.follower(i - 1, dt, tau)
+                val early = if (held) before else curve.follower(i - 1, 0.0, tau)
+                val late = if (held) before else curve.follower(i - 1, dt, tau)
                 state = late + (state - early) * fade
             }
             out[i] = state
         }
     }
+
+    /** The row that says what is held over the step before row [i]. */
+    private fun over(i: Int) = if (isUntilNext) i - 1 else i
 
     /** Whether nothing is known of the step of [dt] s before row [i]: the sensor is taken to have settled. */
     private fun isGap(i: Int, dt: Double) = isGap?.get(i) ?: (dt > series.gap)

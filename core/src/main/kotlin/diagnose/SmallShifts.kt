@@ -19,34 +19,30 @@ internal class SmallShifts(private val last: ModelFit) {
     private val isWithinRows = model.scales.unknown?.isSharp == true
 
     /** By how much a truth that is held over each step is ahead of one that goes on evenly, s. */
-    private val lead = if (model.held) period / 2 else 0.0
+    private val lead = model.steps.lead * period
 
     /** Of [trial], which may be any of [set]: whether it is too small. */
     fun isSmall(trial: Trial, set: List<Cause>): Boolean {
         val shift = shift(trial.term, set)
-        val isUndone = shift != null && model.held && abs(shift - lead) < LEAST_ROWS * period
-        return isUndone || (isWithinRows && isLessThanARow(trial.term))
+        val isUndone = shift != null && model.steps.isHeld && abs(shift - lead) < LEAST_ROWS * period
+        return isUndone || isLittle(shift) || (isWithinRows && isLessThanARow(trial.term))
     }
 
     /** Whether [term] puts the readings ahead by about as much as a truth held over each step does, which this is not. */
     fun isLikeHeld(term: Term): Boolean =
-        !model.held && shift(term, emptyList())?.let { abs(it + period / 2) < period / 4 } == true
+        !model.steps.isHeld && shift(term, emptyList())?.let { abs(it / period + Steps.HELD.lead) < NEARLY } == true
 
     /** [small] effects in words for the reader; none if there are none. */
     fun words(small: List<Trial>): List<String> = small.map { trial ->
-        val number = last.numbers[model.slot(trial.term)]
-        val unit = model.parameters[model.slot(trial.term)].unit
-        "A ${trial.term.cause.label} of ${"%.2g".format(Locale.ROOT, number)} $unit was fitted beside and is " +
-            "not named: " + when {
-                isWithinRows -> SHARP
-                else -> "it undoes the lead of a truth that is held over each step."
-            }
+        val why = when {
+            isLittle(shift(trial.term, listOf(Cause.DEAD_TIME))) -> LITTLE
+            isWithinRows -> SHARP
+            else -> "it undoes the shift of a truth that is held over each step."
+        }
+        words(trial.term, model, last.numbers, why)
     }
 
-    /** What is to be said of those among [named] that are shifts of next to nothing; none if there are none. */
-    fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
-        named.filter { (trial, set) -> shift(trial.term, set)?.let { abs(it) < LEAST_ROWS * period } == true }
-            .map { (trial, _) -> caution(trial.term.cause) }
+    private fun isLittle(shift: Double?) = shift != null && abs(shift) < LEAST_ROWS * period
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */
     private fun shift(term: Term, set: List<Cause>): Double? =
@@ -68,7 +64,7 @@ internal class SmallShifts(private val last: ModelFit) {
 
     /** What the model shows with [terms] alone, their numbers as in [last]; a dead time is one row's. */
     private fun shown(terms: List<Term>): DoubleArray {
-        val other = ResponseModel(model.series, terms, model.held, model.scales)
+        val other = ResponseModel(model.series, terms, model.steps, model.scales)
         val numbers = DoubleArray(other.parameters.size) { if (it < ResponseModel.BASE) last.numbers[it] else 0.0 }
         for (term in terms) {
             val to = other.slotOrNull(term) ?: continue
@@ -95,10 +91,25 @@ internal class SmallShifts(private val last: ModelFit) {
             }
         }
 
-        /** What is to be said of [cause] where it is named for a shift of next to nothing. */
-        fun caution(cause: Cause): String =
-            "The ${cause.label} is a shift of less than a tenth of a row: clocks, fixes and the way a log is sampled " +
-                "do as much."
+        /** Of [term] of [model] with [numbers], which is fitted and not named, for the reader. */
+        fun words(term: Term, model: ResponseModel, numbers: DoubleArray, why: String): String {
+            val slot = model.slot(term)
+            val number = "%.2g".format(Locale.ROOT, numbers[slot])
+            val size = "$number ${model.parameters[slot].unit}"
+            return "A ${term.cause.label} of $size was fitted beside and is not named: $why"
+        }
+
+        /** What is to be said of readings that are as late as a truth held until the next row makes them. */
+        const val UNTIL_NEXT =
+            "The truth looks held from each row until the next, as a simulation may hold it. Half a row of delay " +
+                "would look the same, and is not named."
+
+        /** Why a shift of next to nothing is not named. */
+        const val LITTLE =
+            "it is a shift of less than a tenth of a row; clocks, fixes and the way a log is sampled do as much."
+
+        /** Rows by which a shift may differ from that of held steps and still be asked whether it is one. */
+        const val NEARLY = 0.25
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

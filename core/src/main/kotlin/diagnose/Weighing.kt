@@ -89,7 +89,7 @@ internal class Weighing(
             left,
             spikes,
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
-                shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
+                report.warnings +
                 listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
@@ -115,8 +115,8 @@ internal class Weighing(
         if (scales.unknown?.isSharp == true) {
             add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
         } else if (before > 0) {
-            if (before == 1.0) add(UNTIL_NEXT)
-        } else if (base.model.held && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
+            if (before == 1.0) add(SmallShifts.UNTIL_NEXT)
+        } else if (base.model.steps == Steps.HELD && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
             add(
                 "The truth looks held over each step, as a simulation holds it; a sensor in water would have a time " +
                     "constant half a step shorter.",
@@ -259,10 +259,6 @@ internal class Weighing(
         /** Of what was too small to be named. */
         const val BESIDE =
             "The errors of the extended model are those with what was fitted beside; the sensor file is without it."
-
-        const val UNTIL_NEXT =
-            "The truth looks held from each row until the next, as a simulation may hold it. Half a row of delay " +
-                "would look the same, and is not named."
 
         /** Sudden changes that last: fewer are jumps. */
         const val FEWEST_CHANGES = 5

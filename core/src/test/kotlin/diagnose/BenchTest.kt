@@ -52,7 +52,7 @@ class BenchTest {
         wild.forEach { values[it] += 3 + random.nextDouble() }
         val series = log(values, truth)
         val used = BooleanArray(n) { it !in wild }
-        val model = ResponseModel(series, emptyList(), held = false, Scales(series))
+        val model = ResponseModel(series, emptyList(), Steps.EVEN, Scales(series))
         val noise = CorrelatedNoise(series.times, 0.3, 10.0, used)
         val promptly = doubleArrayOf(series.period / 50, 1.0, 0.0, 0.0)
         val loose = LooseReadings(Fitting.at(model, promptly, BooleanArray(promptly.size), noise))
@@ -91,11 +91,11 @@ class BenchTest {
         val times = DoubleArray(n) { it.toDouble() }
         val series = MeasuredSeries(times, times, times, values, truth, mapOf("salinity" to salinity))
         val used = BooleanArray(n) { true }
-        val given = ResponseModel(series, emptyList(), held = false, Scales(series))
+        val given = ResponseModel(series, emptyList(), Steps.EVEN, Scales(series))
         val promptly = doubleArrayOf(series.period / 50, 1.0, 0.0, 0.0)
         val base = Fitting.fit(given, promptly, BooleanArray(promptly.size), used, longest = 20.0)
         val term = Term(Cause.CROSS_SENSITIVITY, "salinity")
-        val model = ResponseModel(series, listOf(term), held = false, Scales(series))
+        val model = ResponseModel(series, listOf(term), Steps.EVEN, Scales(series))
         val free = BooleanArray(model.parameters.size) { it == ResponseModel.OFFSET || it == model.slot(term) }
         val fit = Fitting.fit(model, promptly.copyOf(free.size), free, used, longest = 20.0)
         // Of water of the log's own salinities the offset is 3.3 to 3.5.

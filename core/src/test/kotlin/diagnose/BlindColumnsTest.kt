@@ -40,7 +40,7 @@ class BlindColumnsTest {
 
         fun of(columns: BlindColumns) =
             columns.designed(
-                columns.shown(emptyList(), doubleArrayOf(lag, 1.0, 0.0, 0.0), modes, held = false),
+                columns.shown(emptyList(), doubleArrayOf(lag, 1.0, 0.0, 0.0), modes, Steps.EVEN),
                 hidden,
                 noise,
             )

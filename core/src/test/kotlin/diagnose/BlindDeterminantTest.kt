@@ -52,7 +52,7 @@ class BlindDeterminantTest {
         val search = BlindSearch(log(1, 0.1))
         val state = search.best()
         val determinant = BlindDeterminant(search, state)
-        val delayed = ResponseModel(state.model.series, listOf(Term(Cause.DEAD_TIME)), search.held, search.scales)
+        val delayed = ResponseModel(state.model.series, listOf(Term(Cause.DEAD_TIME)), search.steps, search.scales)
 
         fun truly(terms: List<Term>, numbers: DoubleArray) =
             search.settled(terms, numbers, state.fit.design.noise, state.variances, 0, before = state)

@@ -40,7 +40,7 @@ class GivenSensorTest {
         val scales = Scales(series)
         val given = GivenSensor(SensorSpec("given", stages), scales)
         // The simulator holds the truth over a step.
-        val model = ResponseModel(series, given.terms, true, scales)
+        val model = ResponseModel(series, given.terms, Steps.HELD, scales)
         return model to given.numbers(model)
     }
 

@@ -31,21 +31,20 @@ class LinearResponseTest {
     fun manyWatersAreShownAsEachByItself() {
         for ((terms, own) in models()) {
             for (lag in listOf(0.02, 4.0, 20.0)) {
-                check(terms, doubleArrayOf(lag, 1.0, 0.0, 0.0) + own, held = false)
-                check(terms, doubleArrayOf(lag, 1.0, 0.0, 0.0) + own, held = true)
+                for (steps in Steps.entries) check(terms, doubleArrayOf(lag, 1.0, 0.0, 0.0) + own, steps)
             }
         }
     }
 
-    private fun check(terms: List<Term>, p: DoubleArray, held: Boolean) {
-        fun model(water: DoubleArray) = ResponseModel(series.withReference(water), terms, held, scales)
+    private fun check(terms: List<Term>, p: DoubleArray, steps: Steps) {
+        fun model(water: DoubleArray) = ResponseModel(series.withReference(water), terms, steps, scales)
         val shown = List(waters.size) { DoubleArray(60) }
         model(waters[0]).linear(p).of(waters, Loops.IN_TURN, shown)
         for ((k, water) in waters.withIndex()) {
             val one = DoubleArray(60).also { model(water).predict(p, it) }
             // A lag of twenty rows or some forty, where the boat is slow, cancels its cube, 1e5, in each step.
             val worst = one.indices.maxOf { abs(one[it] - shown[k][it]) }
-            assertEquals(0.0, worst, 1e-9, "$terms, ${p[0]} s, held $held, water $k")
+            assertEquals(0.0, worst, 1e-9, "$terms, ${p[0]} s, $steps, water $k")
         }
     }
 }

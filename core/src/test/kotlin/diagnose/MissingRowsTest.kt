@@ -58,7 +58,7 @@ class MissingRowsTest {
         val unknown = UnknownTruth.of(series)
         assertTrue((2 until MOVING).count(unknown::isInDoubt) > 0.9 * MOVING)
         val scales = Scales(series, unknown)
-        val model = ResponseModel(series, emptyList(), true, scales)
+        val model = ResponseModel(series, emptyList(), Steps.HELD, scales)
         val numbers = DoubleArray(model.parameters.size).also {
             it[ResponseModel.TIME_CONSTANT] = 1e-3
             it[ResponseModel.GAIN] = 1.0

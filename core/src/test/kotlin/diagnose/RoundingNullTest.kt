@@ -33,7 +33,7 @@ class RoundingNullTest {
     }
 
     private fun fit(series: MeasuredSeries, terms: List<Term>, numbers: List<Double>): ModelFit {
-        val model = ResponseModel(series, terms, true, Scales(series))
+        val model = ResponseModel(series, terms, Steps.HELD, Scales(series))
         val start = (listOf(3.0, 1.0, 0.0, 0.0) + numbers).toDoubleArray()
         return Fitting.fit(model, start, BooleanArray(start.size) { true }, used, LONGEST)
     }
