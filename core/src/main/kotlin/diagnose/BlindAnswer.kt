@@ -153,7 +153,7 @@ internal class BlindAnswer(
     /** What is to be said of those [chosen] that do next to nothing, however surely. */
     private fun little(chosen: List<BlindStep>) = chosen.mapNotNull { it.trial.term }
         .filter { BlindTerms.isLittle(it, last) }
-        .map { SmallShifts.words(it, last.model, last.numbers, SmallShifts.LITTLE) }
+        .map { SmallShifts.words(it, last.model, last.numbers, "it is a ${SmallShifts.LITTLE}") }
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {

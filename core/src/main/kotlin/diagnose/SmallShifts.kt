@@ -25,7 +25,7 @@ internal class SmallShifts(private val last: ModelFit) {
     fun isSmall(trial: Trial, set: List<Cause>): Boolean {
         val shift = shift(trial.term, set)
         val isUndone = shift != null && model.steps.isHeld && abs(shift - lead) < LEAST_ROWS * period
-        return isUndone || isLittle(shift) || (isWithinRows && isLessThanARow(trial.term))
+        return isUndone || (isWithinRows && isLessThanARow(trial.term))
     }
 
     /** Whether [term] puts the readings ahead by about as much as a truth held over each step does, which this is not. */
@@ -35,14 +35,16 @@ internal class SmallShifts(private val last: ModelFit) {
     /** [small] effects in words for the reader; none if there are none. */
     fun words(small: List<Trial>): List<String> = small.map { trial ->
         val why = when {
-            isLittle(shift(trial.term, listOf(Cause.DEAD_TIME))) -> LITTLE
             isWithinRows -> SHARP
             else -> "it undoes the shift of a truth that is held over each step."
         }
         words(trial.term, model, last.numbers, why)
     }
 
-    private fun isLittle(shift: Double?) = shift != null && abs(shift) < LEAST_ROWS * period
+    /** What is to be said of those among [named] that are shifts of next to nothing; none if there are none. */
+    fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
+        named.filter { (trial, set) -> shift(trial.term, set)?.let { abs(it) < LEAST_ROWS * period } == true }
+            .map { (trial, _) -> "The ${trial.term.cause.label} is a $LITTLE" }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */
     private fun shift(term: Term, set: List<Cause>): Double? =
@@ -104,9 +106,9 @@ internal class SmallShifts(private val last: ModelFit) {
             "The truth looks held from each row until the next, as a simulation may hold it. Half a row of delay " +
                 "would look the same, and is not named."
 
-        /** Why a shift of next to nothing is not named. */
+        /** What is to be said of a shift of next to nothing. */
         const val LITTLE =
-            "it is a shift of less than a tenth of a row; clocks, fixes and the way a log is sampled do as much."
+            "shift of less than a tenth of a row: clocks, fixes and the way a log is sampled do as much."
 
         /** Rows by which a shift may differ from that of held steps and still be asked whether it is one. */
         const val NEARLY = 0.25

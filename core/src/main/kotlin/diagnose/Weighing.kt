@@ -89,7 +89,7 @@ internal class Weighing(
             left,
             spikes,
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
-                report.warnings +
+                shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
                 listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
