@@ -89,7 +89,9 @@ internal class BlindDiagnosis(
     private fun turned(base: BlindState, first: BlindRound): BlindState? {
         val ahead = first.shift()?.let { search.turned(base, search.otherSteps, it.score - BlindLag.MUCH) }
         if (ahead != null || search.steps.isHeld) return ahead
-        return first.halfRowLate(base)?.let { search.turned(it, Steps.UNTIL_NEXT, it.score - BlindLag.MUCH) }
+        return first.halfRowLate(base)?.let {
+            search.turned(it, Steps.UNTIL_NEXT, first.likeliestShape - BlindLag.MUCH)
+        }
     }
 
     /**

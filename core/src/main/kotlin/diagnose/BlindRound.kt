@@ -352,6 +352,14 @@ internal class BlindRound(
             abs(rows + Steps.UNTIL_NEXT.lead) < SmallShifts.NEARLY && other.score > base.score + BlindLag.MUCH
         }
 
+    /** Score of the likeliest model with the lag alone or another shape of it. */
+    val likeliestShape: Double
+        get() = (
+            causes.filter {
+                it.term?.cause in BlindTerms.OF_LAG
+            }.mapNotNull { it.state } + state
+            ).maxOf { it.score }
+
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)
 
