@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import java.util.Locale
+import kotlin.math.abs
 
 /**
  * The diagnosis of a log without a reference: the water is inferred with the sensor, from passes over the same place.
@@ -87,10 +88,24 @@ internal class BlindDiagnosis(
      * is ahead by half of one, or behind. Null where they do not.
      */
     private fun turned(base: BlindState, first: BlindRound): BlindState? {
-        val ahead = first.shift()?.let { search.turned(base, search.otherSteps, it.score - BlindLag.MUCH) }
+        val ahead = first.shift()?.let { search.turned(base, search.steps.other, it.score - BlindLag.MUCH) }
         if (ahead != null || search.steps.isHeld) return ahead
-        return first.halfRowLate(base)?.let {
-            search.turned(it, Steps.UNTIL_NEXT, first.likeliestShape - BlindLag.MUCH)
+        val late = halfRowLate(base, first) ?: return null
+        // Of those that shift readings another may explain more: an offset of place, where speeds differ.
+        val shapes = first.causes.filter { it.term?.cause in BlindTerms.OF_LAG }.mapNotNull { it.state } + first.state
+        return search.turned(late, Steps.UNTIL_NEXT, shapes.maxOf { it.score } - BlindLag.MUCH)
+    }
+
+    /**
+     * The model of [first] with a dead time of about half a row beside the lag that is much likelier than [base], whether
+     * or not finer water may do as much; null for none.
+     */
+    private fun halfRowLate(base: BlindState, first: BlindRound): BlindState? {
+        val dead = first.causes.firstOrNull { it.term?.cause == Cause.DEAD_TIME }?.state
+        return listOfNotNull(first.state, dead).firstOrNull { other ->
+            val slot = other.model.slotOrNull(Term(Cause.DEAD_TIME))
+            val rows = slot?.let { other.numbers[it] / series.period } ?: 0.0
+            abs(rows + Steps.UNTIL_NEXT.lead) < SmallShifts.NEARLY && other.score > base.score + BlindLag.MUCH
         }
     }
 

@@ -1,7 +1,5 @@
 package stillwater.diagnose
 
-import kotlin.math.abs
-
 /**
  * All causes and looks on top of one model of a log without a reference.
  *
@@ -340,25 +338,6 @@ internal class BlindRound(
     /** The model with the likeliest cause where that is another shape of the lag; null where it is not, or none is sure. */
     fun shift(): BlindState? = causes.filter { it.pValue < settings.level }.maxByOrNull { it.likelier }
         ?.takeIf { it.term?.cause in BlindTerms.OF_LAG }?.state
-
-    /**
-     * The model with a dead time of about half a row beside the lag that is much likelier than [base], whether or not
-     * finer water may do as much; null for none.
-     */
-    fun halfRowLate(base: BlindState): BlindState? =
-        listOfNotNull(state, causes.firstOrNull { it.term?.cause == Cause.DEAD_TIME }?.state).firstOrNull { other ->
-            val slot = other.model.slotOrNull(Term(Cause.DEAD_TIME))
-            val rows = slot?.let { other.numbers[it] / other.model.series.period } ?: 0.0
-            abs(rows + Steps.UNTIL_NEXT.lead) < SmallShifts.NEARLY && other.score > base.score + BlindLag.MUCH
-        }
-
-    /** Score of the likeliest model with the lag alone or another shape of it. */
-    val likeliestShape: Double
-        get() = (
-            causes.filter {
-                it.term?.cause in BlindTerms.OF_LAG
-            }.mapNotNull { it.state } + state
-            ).maxOf { it.score }
 
     /** p-values of [causes] for all that was tried. */
     val adjustedCauses: List<Double> get() = adjusted.take(causes.size)

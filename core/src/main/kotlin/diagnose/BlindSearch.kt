@@ -145,11 +145,8 @@ internal class BlindSearch private constructor(
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
     fun stepped(state: BlindState): BlindState {
         val least = state.score + if (steps.isHeld) -HELD else HELD
-        return within(otherSteps, least) { improved(again(state, state.fit.design.noise)) } ?: state
+        return within(steps.other, least) { improved(again(state, state.fit.design.noise)) } ?: state
     }
-
-    /** Held where they are not, and the other way round. */
-    val otherSteps: Steps get() = if (steps.isHeld) Steps.EVEN else Steps.HELD
 
     /**
      * Only the lag and [terms] of [state], with steps [to] and what suits that, as all that follows has them; null if

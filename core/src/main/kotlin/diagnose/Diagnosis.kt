@@ -142,8 +142,11 @@ public class Diagnosis private constructor(
     private fun untilNext(first: Weighing): Weighing? {
         // When a sharp step came is not known to a row, and of a sparse reference a row is not one of the readings'.
         if (unknown.isSharp || series.isSparse) return null
-        val rows = used.copyOf()
+        // Of a sensor that shows the truth within a row, what is held until the next is a delay of a row like any other.
         val shifts = first.chosen.filter(::isShift)
+        val isAtOnce = first.last.numbers[ResponseModel.TIME_CONSTANT] < series.period / 2
+        if (isAtOnce && shifts.none { it.term.cause == Cause.TWO_PATH_RESPONSE }) return null
+        val rows = used.copyOf()
         val fewer = (listOf(shifts) + shifts.map { listOf(it) } + listOf(emptyList())).distinct()
         val (before, gone) = SHARES.flatMap { share ->
             val before = Diagnosis(series.withQuieter(rowBefore(share)), settings, loops, share) { }
@@ -210,18 +213,16 @@ public class Diagnosis private constructor(
     /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
     private fun better(first: Weighing, margin: Double): Weighing {
         val rows = used.copyOf()
-        val second = weighing(other(first.last))
+        val second = weighing(first.last.model.steps.other)
         if (second.explained > first.explained - margin) return second
         rows.copyInto(used)
         return first
     }
 
-    private fun other(fit: ModelFit) = if (fit.model.steps.isHeld) Steps.EVEN else Steps.HELD
-
     /** [fit] with steps held if they are not, and the other way round. */
     private fun turned(fit: ModelFit): ModelFit {
-        val scales = scales(fit, other(fit))
-        val other = ResponseModel(series, fit.model.terms, other(fit), scales)
+        val scales = scales(fit, fit.model.steps.other)
+        val other = ResponseModel(series, fit.model.terms, fit.model.steps.other, scales)
         val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, scales.shocks)
         return Fitting.fit(other, fit.numbers, fit.free, used, longest, guess = guess)
     }

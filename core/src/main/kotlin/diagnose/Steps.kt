@@ -18,6 +18,9 @@ internal enum class Steps {
     /** Whether the truth stands still over each step. */
     val isHeld: Boolean get() = this != EVEN
 
+    /** Held where these are not, and the other way round. */
+    val other: Steps get() = if (isHeld) EVEN else HELD
+
     /** By how much of a step the sensor has the truth sooner than where it goes on evenly. */
     val lead: Double get() = when (this) {
         EVEN -> 0.0

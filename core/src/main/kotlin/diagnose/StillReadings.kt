@@ -33,7 +33,8 @@ internal class StillReadings(private val fit: ModelFit) {
         var from = 0
         for (i in 1..values.size) {
             if (i < values.size && values[i] == values[from]) continue
-            if (i - from >= FEWEST && !isAtEnd(from, i)) add(i - from)
+            // What a delayed sensor shows first has not changed yet.
+            if (from > 0 && i - from >= FEWEST && !isAtEnd(from, i)) add(i - from)
             from = i
         }
     }

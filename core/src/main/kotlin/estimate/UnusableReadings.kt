@@ -4,11 +4,11 @@ import kotlin.math.abs
 
 /**
  * Readings from which a sensor's response is not to be learned: single wild ones, numbers that were written in
- * place of readings, and those at an end of the sensor's range. A sensor that follows slowly shows neither on its own; so they are found in the readings as they are, before
- * anything is learned.
+ * place of readings, and those at an end of the sensor's range. A sensor that follows slowly shows neither on its own;
+ * so they are found in the readings as they are, before anything is learned.
  *
- * @property wild readings that stand off their neighbours, alone or with others of the same number, length n. @property ends 1 for a reading at the upper
- * end of the range, −1 at the lower end, else 0; length n.
+ * @property wild readings that stand off their neighbours, alone or with others of the same number, length n.
+ * @property ends 1 for a reading at the upper end of the range, −1 at the lower end, else 0; length n.
  */
 public class UnusableReadings(public val wild: BooleanArray, public val ends: ByteArray) {
     init {
