@@ -108,31 +108,14 @@ internal class BlindSearch private constructor(
     private fun finer(state: BlindState): BlindState {
         fun at(waves: WaterModes, lag: Double) =
             settled(emptyList(), base(lag), state.fit.design.noise, DoubleArray(0), FIRST_ROUNDS, waves)
-        if (isEnough(state)) return redone(state)
+        if (WaterDetail.isEnough(state)) return redone(state)
         val best = at(rough.flat(most), state.timeConstant)
         if (best.isResolved) return redone(best)
         val others = LAGS.map { it * series.period }.filter { abs(ln(it / state.timeConstant)) > FAR_LAG }
         return redone((others.map { at(best.modes, it) } + best).maxBy { it.score })
     }
 
-    /** Whether the shortest waves that [state] has are not in the water. */
-    private fun isEnough(state: BlindState): Boolean =
-        state.modes.lengths.isNotEmpty() && state.power(state.modes.bands - 1) < UNSEEN * state.variance
-
-    /** [state] with waves as strong as they have been found to be, of which so many are enough as show above the noise. */
-    private fun redone(state: BlindState): BlindState {
-        var now = state
-        repeat(REDONE) {
-            val waves = now.modes.refined(now.variances, most)
-            if (waves === now.modes) return now
-            val next = improved(
-                settled(now.model.terms, now.numbers, now.fit.design.noise, waves.first, FIRST_ROUNDS, waves),
-            )
-            if (next.score < now.score - ENOUGH) return now
-            now = next
-        }
-        return now
-    }
+    private fun redone(state: BlindState) = WaterDetail(this, most).of(state)
 
     /** The noise's variance that [best] found, sensor units². */
     var lastVariance: Double = 0.0
@@ -343,11 +326,6 @@ internal class BlindSearch private constructor(
         /** Share of the search that one of its parts is. */
         const val ROUGH = 0.25
         const val FEWEST_WAVES = 30
-
-        /** Mean square of waves, over the noise's, that no cause's fit would miss. */
-        const val UNSEEN = 1e-3
-
-        const val REDONE = 2
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5

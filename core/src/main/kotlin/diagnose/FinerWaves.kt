@@ -9,8 +9,8 @@ import kotlin.math.sqrt
  * Whether the water has waves finer than those that a model of it was given: a score test for the variance of waves of
  * all directions just shorter than its shortest, seen through the sensor.
  *
- * Of whitened residuals z with a part c of such a wave that the water's own cannot show, (c·z)² is σ²|c|² on average
- * where nothing is missing, and more by what such waves hold.
+ * Of what is left of whitened residuals, z, a wave w, whitened, has (w·z)², which is σ² times the square of what the
+ * water's own cannot show of w on average where nothing is missing, and more by what such waves hold.
  */
 internal object FinerWaves {
     private const val WAVES = 32
@@ -28,22 +28,25 @@ internal object FinerWaves {
     fun isNone(state: BlindState, search: BlindSearch): Boolean = excess(state, search) < 1 + NOISE
 
     /** Power of what is left of [state] along such waves, over the noise's: 1 where none is missing. */
-    fun excess(state: BlindState, search: BlindSearch): Double {
-        val longest = state.modes.shortest
+    fun excess(state: BlindState, search: BlindSearch): Double =
+        excess(state, search, state.modes.shortest, state.modes.shortest / SHORTER)
+
+    /** The same along waves from [longest] down to [shortest], m. */
+    fun excess(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): Double {
         val waves = (0 until WAVES).flatMap { k ->
-            val length = longest * (1 - (1 - 1 / SHORTER) * (k + 0.5) / WAVES)
+            val length = longest - (longest - shortest) * (k + 0.5) / WAVES
             val phase = phases(search.track, 2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
             listOf(DoubleArray(phase.size) { cos(phase[it]) }, DoubleArray(phase.size) { sin(phase[it]) })
         }
-        var found = 0.0
-        var expected = 0.0
-        for (wave in search.seen(state.model.terms, state.numbers, waves.toTypedArray())) {
-            val column = state.fit.unlike(wave)
-            val score = dot(column, state.whitened)
-            found += score * score
-            expected += state.variance * squares(column)
+        val seen = search.seen(state.model.terms, state.numbers, waves.toTypedArray()).asList()
+        val left = state.whitened
+        // With P = 1 − R H⁻¹ Rᵀ what is left has the covariance σ² P, where H is the posterior's precision.
+        val found = search.loops.all(seen) { wave ->
+            val white = state.fit.whitened(wave)
+            val score = dot(white, left)
+            score * score to state.variance * (squares(white) - squares(state.fit.imitated(white)))
         }
-        return found / expected
+        return found.sumOf { it.first } / found.sumOf { it.second }
     }
 
     /** The phase along [track] of a wave with [east] and [north] radians per metre. */

@@ -81,21 +81,27 @@ internal class WaterModes private constructor(
 
     /** Water of [most] columns of which nothing is known, on the same track. */
     fun flat(most: Int): WaterModes =
-        if (rings == null) flat(series, track, most) else flatRings(series, track, most, rings)
+        if (rings == null) flat(series, track, most) else flatRings(series, track, most, rings, STEPS_A_WAVE * step)
 
     /** Whether rings finer than these were offered, and are not in the water. */
     val isWhole: Boolean
         get() = rings != null && !isFlat && size < most &&
             spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
 
-    /** These, of [most] columns, with rings as strong as [variances] of their processes have been found to be. */
-    fun refined(variances: DoubleArray, most: Int): WaterModes {
+    /** The shortest waves of the rings that are finer than these, m, the longest first; none where the track is a line. */
+    val finer: List<Double> get() = rings?.lengths.orEmpty().filter { it < finest }
+
+    /**
+     * These, of [most] columns, with rings as strong as [variances] of their processes have been found to be, and with
+     * those whose shortest waves are [offered], m, as strong as the noise to begin with.
+     */
+    fun refined(variances: DoubleArray, most: Int, offered: Set<Double> = emptySet()): WaterModes {
         if (rings == null) return this
         val own = ringOf.withIndex().associate { (i, ring) -> ring to variances[moving.last + 1 + i] }
         val next = DoubleArray(spectrum.size) { ring ->
             // A ring without columns of its own is as strong as the next one, where nothing is known of it.
             val times = own[ring] ?: if (isFlat) own.minBy { (other, _) -> abs(other - ring) }.value else 1.0
-            minOf(spectrum[ring] * times, BlindSearch.MOST)
+            if (rings.lengths[ring] in offered) 1.0 else minOf(spectrum[ring] * times, BlindSearch.MOST)
         }
         // The kernel itself is interpolated.
         val left = maxOf(UNSEEN, LEAST_SHARE * next.sum())
@@ -184,7 +190,7 @@ internal class WaterModes private constructor(
     companion object {
         /**
          * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to
-         * waves of [shortest] m; found in parts that [loops] goes through.
+         * waves of [shortest] m and of eight steps; found in parts that [loops] goes through.
          */
         fun flat(
             series: MeasuredSeries,
@@ -199,8 +205,9 @@ internal class WaterModes private constructor(
                 DoubleArray(series.size - 1) { hypot(track.x[it + 1] - track.x[it], track.y[it + 1] - track.y[it]) },
             )
             val extent = hypot(track.x.max() - track.x.min(), track.y.max() - track.y.min())
-            val least = maxOf(STEPS_A_WAVE * step, extent / MOST_WAVES_ACROSS, shortest)
-            return flatRings(series, track, most, WaterRings(track.x, track.y, least, loops))
+            val least = maxOf(FEWEST_STEPS * step, extent / MOST_WAVES_ACROSS)
+            val rings = WaterRings(track.x, track.y, least, loops)
+            return flatRings(series, track, most, rings, maxOf(STEPS_A_WAVE * step, shortest))
         }
 
         /** Whether the way is a line, in whatever direction: as wide as a thousandth of its length. */
@@ -221,9 +228,15 @@ internal class WaterModes private constructor(
             return (xx + yy) / 2 - half < LINE * LINE * ((xx + yy) / 2 + half)
         }
 
-        private fun flatRings(series: MeasuredSeries, track: SmoothTrack, most: Int, rings: WaterRings): WaterModes {
+        private fun flatRings(
+            series: MeasuredSeries,
+            track: SmoothTrack,
+            most: Int,
+            rings: WaterRings,
+            shortest: Double,
+        ): WaterModes {
             val room = most - 1 - TIMES.size * SHARES.size * (MOVING * most / (TIMES.size * SHARES.size)).toInt()
-            val coarsest = rings.coarsest(room)
+            val coarsest = rings.coarsest(room, rings.lengths.count { it >= shortest })
             val spectrum = DoubleArray(rings.size) { if (it < coarsest) 1.0 else 0.0 }
             return WaterModes(series, track, most, rings, spectrum, PivotedCholesky.LEFT * coarsest, null)
         }
@@ -239,8 +252,11 @@ internal class WaterModes private constructor(
         /** The shortest waves that a process holds, over its length: e⁻⁴ of the longest's power. */
         private const val WAVE = 2.2
 
-        /** Steps from row to row in the shortest wave of a ring: shorter ones nobody's lag lets through. */
+        /** Steps from row to row in the shortest wave of a ring that is looked for at once: few lags let shorter ones through. */
         private const val STEPS_A_WAVE = 8.0
+
+        /** The same of any ring. */
+        private const val FEWEST_STEPS = 3.0
 
         /** So many of the shortest waves across the track are more than columns can show, where fixes stand still. */
         private const val MOST_WAVES_ACROSS = 500.0

@@ -44,10 +44,10 @@ internal class WaterRings(
     /** The shortest wave of each ring, m. */
     val lengths: List<Double> get() = edges.map { 2 * PI / it }
 
-    /** The first rings, as many as [most] columns can show where all are equally strong. */
-    fun coarsest(most: Int): Int {
+    /** The first rings, as many as [most] columns can show where all are equally strong; of the first [count] alone. */
+    fun coarsest(most: Int, count: Int = size): Int {
         var low = 1
-        var high = size
+        var high = maxOf(count, 1)
         val thin = maxOf(1, n / PivotedCholesky.THINNED)
         while (low < high) {
             val middle = (low + high + 1) / 2
@@ -70,7 +70,7 @@ internal class WaterRings(
         val r = places.size
         val lower = Array(r) { a -> DoubleArray(a + 1) { b -> factor.columns[b][places[a]] } }
         // In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue.
-        val orders = DistanceCurve(step) { ordered(spectrum, it) }
+        val orders = DistanceCurve(step(spectrum)) { ordered(spectrum, it) }
         val order = Array(r) { a -> DoubleArray(r) { b -> orders.at(distance(places[a], places[b])) } }
         solve(lower, order)
         for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a].also { order[b][a] = order[a][b] }
@@ -133,13 +133,13 @@ internal class WaterRings(
     private fun ordered(spectrum: DoubleArray, d: Double): Double = sum(spectrum, d) { it.toDouble() }
 
     /** Between places of a curve: a hundredth of a radian of the shortest wave. */
-    private val step = FINE / edges.last()
+    private fun step(spectrum: DoubleArray) = FINE / edges[maxOf(spectrum.indexOfLast { it > 0 }, 0)]
 
     private fun distance(a: Int, b: Int) = sqrt((x[a] - x[b]) * (x[a] - x[b]) + (y[a] - y[b]) * (y[a] - y[b]))
 
     private fun factor(spectrum: DoubleArray, left: Double, most: Int, thin: Int): PivotedCholesky {
         val variance = spectrum.sum()
-        val curve = DistanceCurve(step) { covariance(spectrum, it) }
+        val curve = DistanceCurve(step(spectrum)) { covariance(spectrum, it) }
         // The first column is there however little may be left.
         return PivotedCholesky.of((n + thin - 1) / thin, variance, minOf(left, variance), most, loops) { a, b ->
             curve.at(distance(a * thin, b * thin))

@@ -17,9 +17,9 @@ internal class CrossingTrack(private val rows: Int) {
     /** Water of three waves along it. */
     val truth = DoubleArray(rows) { water(x[it], y[it]) }
 
-    /** What the last of [lags], s, in a row shows of the water at each row, stepped a hundred times as often. */
-    fun shown(vararg lags: Double): DoubleArray {
-        val states = DoubleArray(lags.size) { truth[0] }
+    /** What the last of [lags], s, in a row shows of [water] at each row, stepped a hundred times as often. */
+    fun shown(vararg lags: Double, water: (Double, Double) -> Double = ::water): DoubleArray {
+        val states = DoubleArray(lags.size) { water(x[0], y[0]) }
         return DoubleArray(rows) { row ->
             for (k in 0 until if (row > 0) STEPS else 0) {
                 val time = row - 1 + (k + 0.5) / STEPS

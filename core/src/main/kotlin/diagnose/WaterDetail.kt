@@ -1,0 +1,85 @@
+package stillwater.diagnose
+
+import kotlin.math.sqrt
+
+/**
+ * How fine the water of a log without a reference is: as many waves as show above the noise, and no more.
+ *
+ * The water's power need not fall from ring to ring: a chessboard has next to none between waves of twice its squares and
+ * of one, and water with sharp fronts has more than rings that were cut off say. So rings far finer than the finest found
+ * are asked for ([FinerWaves]) and offered where the readings show more along them than noise.
+ *
+ * @param most columns at most of rings that are found from the longest down.
+ */
+internal class WaterDetail(private val search: BlindSearch, private val most: Int) {
+    /** Columns at most with rings that are offered: with few rows more columns take no longer. */
+    private val mostOffered = search.track.x.size.let { rows ->
+        (rows * COLUMNS_A_ROW).coerceAtMost(BlindSearch.MOST_WAVES * sqrt(MANY_ROWS / rows)).toInt().coerceAtLeast(most)
+    }
+
+    /** [state] with waves as strong as they have been found to be, of which so many are enough as show above the noise. */
+    fun of(state: BlindState): BlindState {
+        var now = state
+        repeat(REDONE) {
+            val next = refined(now, most, emptySet())
+            if (next == null || next.score < now.score - BlindSearch.ENOUGH) return filled(now)
+            now = next
+        }
+        return filled(now)
+    }
+
+    /** [state] with rings that are finer still, as long as that makes it likelier. */
+    private fun filled(state: BlindState): BlindState {
+        var now = state
+        repeat(FILLED) {
+            val offered = missing(now)
+            val next = if (offered.isEmpty()) null else refined(now, mostOffered, offered)
+            if (next == null || !(next.score > now.score + BlindSearch.ENOUGH)) return now
+            now = next
+        }
+        return now
+    }
+
+    /** The rings finer than those of [state], by their shortest waves, m, along which more is left than noise. */
+    private fun missing(state: BlindState): Set<Double> {
+        val finest = state.modes.finest
+        val asked = state.modes.finer.filter { it > finest / FINER }
+        return asked.filterIndexedTo(HashSet()) { i, shortest ->
+            FinerWaves.excess(state, search, if (i == 0) finest else asked[i - 1], shortest) > MISSING
+        }
+    }
+
+    /** [state] with the waves that suit it and rings of the shortest waves [offered], m; null where waves are not rings. */
+    private fun refined(state: BlindState, most: Int, offered: Set<Double>): BlindState? {
+        val waves = state.modes.refined(state.variances, most, offered)
+        if (waves === state.modes) return null
+        val noise = state.fit.design.noise
+        return search.improved(
+            search.settled(state.model.terms, state.numbers, noise, waves.first, BlindSearch.FIRST_ROUNDS, waves),
+        )
+    }
+
+    companion object {
+        private const val REDONE = 2
+        private const val FILLED = 3
+
+        /** How many times finer than the finest rings others are asked for. */
+        private const val FINER = 4
+
+        /** Power of what is left along waves over the noise's from which they are offered; whether they stay is then asked. */
+        private const val MISSING = 1.25
+
+        /** Columns for a row, as [BlindSearch] has. */
+        private const val COLUMNS_A_ROW = 0.4
+
+        /** Rows with which columns more than [BlindSearch.MOST_WAVES] would take longer than ten seconds. */
+        private const val MANY_ROWS = 5000.0
+
+        /** Mean square of waves, over the noise's, that no cause's fit would miss. */
+        private const val UNSEEN = 1e-3
+
+        /** Whether the shortest waves that [state] has are not in the water. */
+        fun isEnough(state: BlindState): Boolean =
+            state.modes.lengths.isNotEmpty() && state.power(state.modes.bands - 1) < UNSEEN * state.variance
+    }
+}
