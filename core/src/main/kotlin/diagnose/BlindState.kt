@@ -56,7 +56,8 @@ internal class BlindState(
     val water: DoubleArray get() = checkNotNull(model.series.reference)
 
     /** Whether the finest waves are small, over the noise: where they are not, still finer ones may be there. */
-    val isResolved: Boolean get() = modes.isWhole || power(modes.bands - 1) < MOST_FINEST * variance
+    val isResolved: Boolean
+        get() = modes.isWhole || (!modes.isCut && power(modes.bands - 1) < MOST_FINEST * variance)
 
     /** Mean square of what was found of process [band], sensor units². */
     fun power(band: Int): Double {

@@ -8,9 +8,14 @@ import kotlin.math.sqrt
  * Source: Harbrecht, Peters and Schneider 2012, On the low-rank approximation by the pivoted Cholesky decomposition,
  * doi:10.1016/j.apnum.2011.10.001.
  *
- * @property columns each along the rows. @property pivots the row that told most when each was added.
+ * @property columns each along the rows. @property pivots the row that told most when each was added. @property left the
+ *   greatest variance of a row that they do not have.
  */
-internal class PivotedCholesky private constructor(val columns: List<DoubleArray>, val pivots: List<Int>) {
+internal class PivotedCholesky private constructor(
+    val columns: List<DoubleArray>,
+    val pivots: List<Int>,
+    val left: Double,
+) {
     /** What two rows have in common. */
     fun interface Covariance {
         /** Between rows [a] and [b]. */
@@ -69,7 +74,7 @@ internal class PivotedCholesky private constructor(val columns: List<DoubleArray
                 columns += column
                 pivots += pivot
             }
-            return PivotedCholesky(columns, pivots)
+            return PivotedCholesky(columns, pivots, rest.max())
         }
     }
 }

@@ -49,6 +49,10 @@ internal class WaterModes private constructor(
     var lengths: List<Double> = emptyList()
         private set
 
+    /** Whether columns were too few for the rings: some of their waves are missing, by a tenth of the noise's variance. */
+    var isCut: Boolean = false
+        private set
+
     /** The processes that change in time. */
     val moving: IntRange
 
@@ -69,7 +73,9 @@ internal class WaterModes private constructor(
             finest = shortest((FINEST * still).toInt())
             ladder(still).forEach { add(it, next++) }
         } else {
-            val columns = rings.columns(spectrum, left, still).groupBy({ it.first }, { it.second }).toSortedMap()
+            val found = rings.columns(spectrum, left, still)
+            isCut = !isFlat && found.left > MOST_CUT
+            val columns = found.all.groupBy({ it.first }, { it.second }).toSortedMap()
             lengths = List(next) { Double.POSITIVE_INFINITY } + columns.keys.map { rings.lengths[it] }
             finest = lengths.last()
             columns.forEach { (ring, own) ->
@@ -85,7 +91,7 @@ internal class WaterModes private constructor(
 
     /** Whether rings finer than these were offered, and are not in the water. */
     val isWhole: Boolean
-        get() = rings != null && !isFlat && size < most &&
+        get() = rings != null && !isFlat && !isCut && size < most &&
             spectrum.indices.any { spectrum[it] > 0 && rings.lengths[it] < finest }
 
     /** The shortest waves of the rings that are finer than these, m, the longest first; none where the track is a line. */
@@ -246,6 +252,9 @@ internal class WaterModes private constructor(
         /** Part of the noise's variance that may be left anywhere, where that is known. */
         private const val UNSEEN = 1e-3
         private const val LEAST_SHARE = 1e-8
+
+        /** The same that is too much. */
+        private const val MOST_CUT = 0.1
         private const val FINEST = 0.75
         private const val FACTOR = 2.2
 

@@ -58,13 +58,16 @@ internal class WaterRings(
         return low
     }
 
+    /** Columns along the track and the ring of each in [all], and the variance that they leave of some row, [left]. */
+    class Columns(val all: List<Pair<Int, DoubleArray>>, val left: Double)
+
     /**
      * Columns along the track and the ring of each, the longest waves first.
      *
      * @param spectrum variance of each ring. @param left variance that may be left anywhere.
      * @param most columns at most.
      */
-    fun columns(spectrum: DoubleArray, left: Double, most: Int): List<Pair<Int, DoubleArray>> {
+    fun columns(spectrum: DoubleArray, left: Double, most: Int): Columns {
         val factor = factor(spectrum, left, most, 1)
         val places = factor.pivots
         val r = places.size
@@ -85,7 +88,7 @@ internal class WaterRings(
             val from = part * AT_ONCE
             for (k in 0 until r) Combination.add(factor.columns, heights[k], out[k], r, from, minOf(from + AT_ONCE, n))
         }
-        return rings.zip(out).sortedBy { it.first }
+        return Columns(rings.zip(out).sortedBy { it.first }, factor.left)
     }
 
     /** Replaces [rows] by L⁻¹ of them, with L = [lower]; whole rows are taken off each other. */

@@ -48,7 +48,7 @@ class WaterRingsTest {
     @Test
     fun columnsHaveTheCovarianceOfTheirRings() {
         val spectrum = DoubleArray(rings.size) { if (it < 5) 1.0 / (it + 1) else 0.0 }
-        val columns = rings.columns(spectrum, left = 1e-8, most = n).map { it.second }
+        val columns = rings.columns(spectrum, left = 1e-8, most = n).all.map { it.second }
         assertTrue(columns.size < n, "${columns.size} columns")
         val lengths = rings.lengths
         fun covariance(d: Double): Double {
@@ -71,7 +71,7 @@ class WaterRingsTest {
     @Test
     fun aWaveIsShownByTheRingsDownToItsOwn() {
         val ring = rings.size - 3
-        val columns = rings.columns(DoubleArray(rings.size) { 1.0 }, left = 1e-7, most = n)
+        val columns = rings.columns(DoubleArray(rings.size) { 1.0 }, left = 1e-7, most = n).all
         val length = (rings.lengths[ring] + rings.lengths[ring - 1]) / 2
         val waves = List(8) { k ->
             val turn = PI * k / 8
@@ -88,7 +88,7 @@ class WaterRingsTest {
     fun ringsThatAreAsStrongAreAsManyAsColumnsCanShow() {
         val coarsest = rings.coarsest(60)
         fun columns(count: Int) =
-            rings.columns(DoubleArray(rings.size) { if (it < count) 1.0 else 0.0 }, 1e-6 * count, n).size
+            rings.columns(DoubleArray(rings.size) { if (it < count) 1.0 else 0.0 }, 1e-6 * count, n).all.size
         assertTrue(columns(coarsest) <= 60 && columns(coarsest + 1) > 60, "$coarsest")
     }
 
