@@ -29,7 +29,9 @@ internal fun mavenBuild(root: File): BuildFacts {
         modules =
         modulePoms(root)
             .filterValues { it.optionalText("packaging") != POM }
-            .mapValues { (_, own) -> (shared + own.dependencies(bills)).filter { it.name != STANDARD_LIBRARY }.toSet() },
+            .mapValues { (_, own) ->
+                (shared + own.dependencies(bills)).filter { it.name != STANDARD_LIBRARY }.toSet()
+            },
     )
 }
 
