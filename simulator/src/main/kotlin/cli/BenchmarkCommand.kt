@@ -151,7 +151,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
                 json -> echo(BenchmarkJson.text(result, written))
                 !quiet -> show(result)
             }
-            if (!quiet) for (warning in warnings) echo("stillwater benchmark: warning: $warning", err = true)
+            if (!quiet) for (warning in warnings) echo("warning: $warning", err = true)
             if (!quiet && !json) echo(wrote(written, out, "report.html"))
         }
     }
