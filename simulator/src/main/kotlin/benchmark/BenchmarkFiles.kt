@@ -4,6 +4,7 @@ import stillwater.plot.Figure
 import stillwater.plot.drawAll
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
+import stillwater.report.counted
 import stillwater.report.writeFigures
 import stillwater.run.ExperimentResult
 
@@ -39,7 +40,19 @@ class BenchmarkFiles(private val result: ExperimentResult, private val command: 
         val warnings = directory.writeFigures((figures.map { it.name } + more.map { it.first }).zip(drawn))
         val ofFields = figures.map { it.field }.zip(drawn)
         directory.write("report.html", BenchmarkReport(result, ofFields, command, drawn.drop(figures.size)).render())
-        return warnings + BudgetTable.warnings(result)
+        return warnings + listOfNotNull(beyond()) + BudgetTable.warnings(result)
+    }
+
+    /** A warning where errors are beyond all numbers, as with a sensor of enormous gain; null where none is. */
+    private fun beyond(): String? {
+        val errors = result.curves.flatMap { it.summaries }
+        val lost = errors.count { !it.mean.isFinite() }
+        if (lost == 0) return null
+        return "$lost of ${counted(
+            errors.size,
+            "mean error",
+        )} are larger than any number and left empty: the sensor's " +
+            "readings grow out of bounds; see what gain, drift, noise or outliers it has"
     }
 
     private fun rows(table: CsvTable) {

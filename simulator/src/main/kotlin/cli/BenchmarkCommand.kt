@@ -144,16 +144,24 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         val settings = settings()
         // Opened first: where results cannot be written, nobody wants to wait for them.
         OutputDirectory(Path.of(out)).use { directory ->
-            val result = measure(Experiment(settings))
+            val result = measure(experiment(settings))
             val warnings = BenchmarkFiles(result, commandLine()).write(directory)
             val written = directory.commit()
             when {
                 json -> echo(BenchmarkJson.text(result, written))
                 !quiet -> show(result)
             }
-            if (!quiet) for (warning in warnings) echo("stillwater benchmark: warning: $warning", err = true)
+            if (!quiet) for (warning in warnings) echo("warning: $warning", err = true)
             if (!quiet && !json) echo(wrote(written, out, "report.html"))
         }
+    }
+
+    /** Only now it shows whether boats find a way through the water of an area. */
+    private fun experiment(settings: ExperimentSettings) = try {
+        Experiment(settings)
+    } catch (unfit: IllegalArgumentException) {
+        val expected = "water on which boats find ways with this --cell, --margin and --resolution"
+        throw BadFlag("--area", expected, "that ${unfit.message}")
     }
 
     private fun measure(experiment: Experiment): ExperimentResult {

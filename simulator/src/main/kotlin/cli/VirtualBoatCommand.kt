@@ -65,6 +65,8 @@ class VirtualBoatCommand : WorkCommand("virtual-boat") {
         }
         val spec = boat.mission(MissionFile.read(Path.of(mission)))
         requireProbe(spec.probe)
+        // Written at the end: where it cannot be, nobody wants to sail for hours first.
+        out?.let { OutputDirectory(Path.of(it)).close() }
         val world = VirtualWorld(boat.settings(), WorldSite.of(spec))
         try {
             (if (pty) PseudoTerminal() else TcpServedWire(host, checkNotNull(tcp))).use { wire ->

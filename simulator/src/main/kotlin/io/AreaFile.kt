@@ -2,6 +2,7 @@ package stillwater.io
 
 import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonElement
+import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.booleanOrNull
@@ -88,8 +89,7 @@ private class AreaText(private val text: String, private val units: AreaUnits) {
             }
             "Feature" -> {
                 val geometry = item["geometry"] ?: fail(path, "the field geometry", "none")
-                val property = (item["properties"] as? JsonObject)?.get("keep-out") as? JsonPrimitive
-                collect(geometry, property?.booleanOrNull == true, "$path.geometry")
+                collect(geometry, keepOut(item["properties"] as? JsonObject, "$path.properties"), "$path.geometry")
             }
             "Polygon" -> polygons += Polygon(rings(item["coordinates"], "$path.coordinates"), isKeepOut)
             "MultiPolygon" ->
@@ -98,6 +98,15 @@ private class AreaText(private val text: String, private val units: AreaUnits) {
                 }
             else -> fail("$path.type", "Polygon or MultiPolygon", type?.let { "'$it'" } ?: "no type")
         }
+    }
+
+    /** Water that somebody meant to keep out of must not become the water for a "yes". */
+    private fun keepOut(properties: JsonObject?, path: String): Boolean {
+        val property = properties?.get("keep-out") ?: return false
+        val primitive = property as? JsonPrimitive
+        if (primitive is JsonNull) return false
+        return primitive?.takeIf { !it.isString }?.booleanOrNull
+            ?: fail("$path.keep-out", "true or false without quotes", "$property")
     }
 
     private fun rings(element: JsonElement?, path: String): List<Ring> {

@@ -292,8 +292,11 @@ internal class CsvSurvey internal constructor(
         private fun timeSizeProblem(row: CsvRow): LogProblem? {
             val time = row.numbers[TIME]
             if (abs(time) <= LARGEST_SECONDS) return null
+            val reason = "rows with a number out of all bounds"
+            // What a date may have come to: nobody has meant it as milliseconds.
+            if (abs(time) < YEAR_10000) return problem(row.line, columns.time, LAST_YEAR, "$time s", reason)
             val found = "$time" + if (abs(time) < LARGEST_SECONDS * MILLIS) ": milliseconds? --time-unit ms" else ""
-            return problem(row.line, columns.time, "seconds", found, "rows with a number out of all bounds")
+            return problem(row.line, columns.time, "seconds", found, reason)
         }
 
         private fun sizeProblem(row: CsvRow, slot: Int, column: Int, largest: Double): LogProblem? {
@@ -375,6 +378,8 @@ internal class CsvSurvey internal constructor(
 
         /** The year 5138, or 1973 in milliseconds. */
         private const val LARGEST_SECONDS = 1e11
+        private const val LAST_YEAR = "a time before the year 5138"
+        private const val YEAR_10000 = 253_402_300_800.0
         private const val MILLIS = 1000
         private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
 

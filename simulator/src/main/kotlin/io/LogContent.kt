@@ -74,6 +74,7 @@ internal class LogContent private constructor(
         private val ZIP = byteArrayOf(0x50, 0x4b, 3, 4)
         private val CONTROLS = 1.toByte()..31.toByte()
         private val BLANKS = "\t\n\u000b\u000c\r\u001a".toByteArray()
+        private val UTF_32 = listOf(byteArrayOf(-1, -2, 0, 0), byteArrayOf(0, 0, -2, -1))
         private val PDF = "%PDF-".toByteArray()
 
         fun of(file: Path): LogContent {
@@ -82,6 +83,8 @@ internal class LogContent private constructor(
             if (bytes.isEmpty()) throw problem("a log", "an empty file")
             if (bytes.startsWith(GZIP)) throw problem("a text log", "a gzip archive: unpack it first")
             if (bytes.startsWith(ZIP)) throw problem("a text log", "a zip archive or a workbook: save its sheet as CSV")
+            // Before UTF-16: its mark begins that of UTF-32.
+            if (UTF_32.any { bytes.startsWith(it) }) throw problem("text in UTF-8 or UTF-16", "text in UTF-32")
             if (bytes.startsWith(PDF)) throw problem("a text log", "a PDF document")
             val (charset, mark) = when {
                 bytes.startsWith(byteArrayOf(0xEF.toByte(), 0xBB.toByte(), 0xBF.toByte())) -> Charsets.UTF_8 to 3

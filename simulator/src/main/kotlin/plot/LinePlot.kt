@@ -62,9 +62,10 @@ public class LinePlot(
         val axes = Axes.around(strokes.map { it.second }, xScale, yScale) ?: return sheet.empty("no data")
         val names = series.map { it.name }.distinct()
         val colours = names.indices.map(Palette::of)
+        val keys = names.zip(colours) { name, colour -> if (isBandAlone(name)) Palette.ofBand(colour) else colour }
         val lines = strokes.filter { it.first.mark != Mark.POINTS }.map { it.second.on(axes) }
         val points = strokes.filter { it.first.mark != Mark.LINE }.map { it.second }
-        var plot = letsPlot() + scaleColorManual(colours, name = "", limits = names, guide = guide(names)) +
+        var plot = letsPlot() + scaleColorManual(keys, name = "", limits = names, guide = guide(names)) +
             scaleFillManual(colours, limits = names, guide = "none") + axes.scales(xLabel, yLabel)
         for (level in references.filter(axes::showsY)) {
             plot +=
@@ -75,6 +76,10 @@ public class LinePlot(
         if (points.isNotEmpty()) plot += points(points.map { it.visible(axes) })
         return sheet.figure(plot)
     }
+
+    /** Whether all that is drawn of [name] is a band: a legend that shows a line of full colour would name nothing. */
+    private fun isBandAlone(name: String) =
+        series.filter { it.name == name }.all { line -> line.lower != null && line.y.none { it.isFinite() } }
 
     private fun guide(names: List<String>): Any? = if (names.all(String::isEmpty)) "none" else null
 

@@ -1,5 +1,7 @@
 package stillwater.plot
 
+import kotlin.math.roundToInt
+
 /**
  * The colours of this project's figures, distinguishable with the common kinds of colour blindness.
  *
@@ -22,6 +24,16 @@ internal object Palette {
     const val LEVEL = "#F7F7F7"
     const val ABOVE = "#B2182B"
 
+    /** [colour], as `#0072B2`, as thin as a band of it is on the paper, if a little stronger for a line to be seen. */
+    fun ofBand(colour: String): String = (1..5 step 2).joinToString("", prefix = "#") { at ->
+        val part = colour.substring(at, at + 2).toInt(HEX)
+        "%02X".format((WHITE - (WHITE - part) * BAND_IN_LEGEND).roundToInt())
+    }
+
     /** The colour of the n-th group (from 0), repeating after the last. */
     fun of(index: Int): String = groups[index % groups.size]
+
+    private const val HEX = 16
+    private const val WHITE = 255
+    private const val BAND_IN_LEGEND = 0.3
 }

@@ -48,6 +48,7 @@ class Site(val area: WaterArea, val grid: Grid, private val settings: PolygonRrt
             sizes += reached.size
             for (other in reached) labels[other] = sizes.size
         }
+        if (sizes.isEmpty()) return emptyList()
         val largest = 1 + sizes.indices.maxBy { sizes[it] }
         return (0 until routes.points).filter { labels[it] == largest }.map { Position(routes.x(it), routes.y(it)) }
             .filter { grid.cellAt(it) != Grid.OUTSIDE }

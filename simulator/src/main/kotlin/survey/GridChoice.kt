@@ -111,8 +111,8 @@ class GridChoice(private val statistics: SurveyStatistics, private val track: Tr
         val columns = floor(extent.right / side) - left + 1
         val rows = floor(extent.top / side) - bottom + 1
         if (!(columns * rows <= Grid.MAX_CELLS)) {
-            val size = if (columns * rows < LARGEST_COUNT) "${columns.toLong()} x ${rows.toLong()}" else "more"
-            throw UnfitGrid("cells of $side m would make a grid of $size, above ${Grid.MAX_CELLS} cells")
+            val size = if (columns * rows < LARGEST_COUNT) " of ${columns.toLong()} x ${rows.toLong()}," else ""
+            throw UnfitGrid("cells of $side m would make a grid$size above ${Grid.MAX_CELLS} cells")
         }
         // Rounding may put a point on a border on its other side: the grid then gets one more cell there.
         return MARGINS.firstNotNullOfOrNull { margin ->

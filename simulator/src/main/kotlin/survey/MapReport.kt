@@ -5,6 +5,7 @@ import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.SignificantDigits
 import stillwater.report.Table
+import stillwater.report.counted
 
 /**
  * The page about a [SurveyMap].
@@ -51,7 +52,10 @@ internal class MapReport(
         val mismatch = map.mismatch
         if (mismatch == null) {
             paragraph(
-                "This log has ${map.legs.legs.size} straight legs, too few with neighbours in the opposite direction " +
+                "This log has ${counted(
+                    map.legs.legs.size,
+                    "straight leg",
+                )}, too few with neighbours in the opposite direction " +
                     "to compare: the lag cannot be seen in it this way.",
             )
             return

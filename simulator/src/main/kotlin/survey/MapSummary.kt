@@ -1,5 +1,6 @@
 package stillwater.survey
 
+import stillwater.report.counted
 import stillwater.run.FilterKind
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
@@ -107,7 +108,10 @@ class MapSummary(private val map: SurveyMap) {
     private fun agreement(): List<Pair<String, String>> = buildList {
         val mismatch = map.mismatch
         if (mismatch == null) {
-            add("opposite legs" to "${map.legs.legs.size} straight legs: too few with opposite neighbours to compare")
+            add(
+                "opposite legs" to
+                    "${counted(map.legs.legs.size, "straight leg")}: too few with opposite neighbours to compare",
+            )
         } else {
             add("opposite legs" to "${mismatch.scores.size} of ${map.legs.legs.size} legs compared")
             add("opposite legs disagree by" to wording.estimate(mismatch.opposite))

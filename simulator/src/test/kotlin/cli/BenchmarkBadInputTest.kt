@@ -208,6 +208,15 @@ class BenchmarkBadInputTest {
             flag("--sensor: DIR: expected a sensor spec (JSON), found a directory", "--sensor", "DIR"),
         )
 
+        private const val SQUARE = "[[0,0],[9,0],[9,9],[0,9],[0,0]]"
+
+        /** Water of [rings] that is water, and no place for what the flags ask for. */
+        private fun unfit(said: String, rings: String, vararg flags: String) = Case(
+            "--area: expected water on which boats find ways with this --cell, --margin and --resolution, found that $said",
+            listOf("--area", "SPEC", "--area-units", "metres", *flags),
+            """{"type": "Polygon", "coordinates": [$rings]}""".toByteArray(),
+        )
+
         private fun area(said: String, json: String) =
             Case("--area: DIR/spec.json:$said", listOf("--area", "SPEC"), json.toByteArray())
 
@@ -253,6 +262,19 @@ class BenchmarkBadInputTest {
                 listOf("--area", "SPEC", "--area-units", "metres"),
                 """{"type": "Polygon", "coordinates": [[[0, 0], [4, 4], [4, 0], [0, 3]]]}""".toByteArray(),
             ),
+            unfit(
+                "no water is left 1000.0 m away from land; take a smaller margin or a finer resolution",
+                SQUARE,
+                "--margin",
+                "1000",
+            ),
+            unfit(
+                "a resolution of 0.001 m makes 9000 x 9000 points; 250000 are allowed",
+                SQUARE,
+                "--resolution",
+                "0.001",
+            ),
+            unfit("no centre of the 10 x 10 cells is on the water; take more cells", "$SQUARE, $SQUARE"),
             Case(
                 "--grid: expected --cell with --area, found --grid",
                 listOf("--area", "SPEC", "--area-units", "metres", "--planner", "polygon-rrt", "--grid", "4x4"),

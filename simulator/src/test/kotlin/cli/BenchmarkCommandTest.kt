@@ -49,6 +49,19 @@ class BenchmarkCommandTest {
     }
 
     @Test
+    fun errorsBeyondAllNumbersAreCounted() {
+        val file = directory.resolve("loud.json")
+        val gain = """{"type": "gain-offset", "gain": 1e300, "offset": 0}"""
+        file.writeText("""{"name": "loud", "stages": [$gain, $gain]}""")
+        val flags = arrayOf("--field", "uniform", "--planner", "lawnmower", "--sensor", "$file")
+        val result = runSmallBenchmark(out, *flags)
+        val empty = results(out).count { it.getValue("mean_abs_error").isEmpty() }
+        assertTrue(empty > 0)
+        val told = "warning: $empty of ${results(out).size} mean errors are larger than any number and left empty"
+        assertContains(result.stderr, told)
+    }
+
+    @Test
     fun subsetsAreRunInTheOrderAskedFor() {
         val flags = arrayOf("--field", "gaussian", "--filter", "exponential,bounded", "--planner", "lawnmower, bounded")
         runSmallBenchmark(out, *flags)

@@ -54,6 +54,15 @@ class DriveBadInputTest {
         assertFalse(out.exists())
     }
 
+    /** Before it serves, not when it has. */
+    @Test
+    fun anOutputThatIsAFile() {
+        val file = directory.resolve("truth.csv").also { it.writeText("kept") }
+        val flags = arrayOf("virtual-boat", mission, "--tcp", "0", "--for", "0.1", "--out", file.toString())
+        assertRefused("stillwater virtual-boat: output $file is a file; name a directory", *flags)
+        assertEquals("kept", file.readText())
+    }
+
     @Test
     fun aBoardThatDoesNotListen() {
         val free = ServerSocket(0, 1, InetAddress.getLoopbackAddress()).use { it.localPort }

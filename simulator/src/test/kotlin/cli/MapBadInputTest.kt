@@ -186,6 +186,13 @@ class MapBadInputTest {
                 "log.csv:5: column time_s: expected seconds, found 1.75248E12: milliseconds? --time-unit ms",
                 "rows with a number out of all bounds",
             ),
+            csv(
+                "year 9999",
+                "time,x_m,y_m,v\n2025-06-01T12:00:00Z,0,0,1\n2025-06-01T12:00:01Z,1,0,1\n2025-06-01T12:00:02Z,2,0,1\n" +
+                    "9999-06-01T12:00:03Z,3,0,1\n",
+                "log.csv:5: column time: expected a time before the year 5138, found 2.53383854403E11 s (--skip-bad-rows",
+                "rows with a number out of all bounds",
+            ),
             csv("empty time", HEAD + GOOD + ",45.5,-73.1,8\n", "column time_s", "rows with an empty field"),
             csv(
                 "time going back",
@@ -248,6 +255,12 @@ class MapBadInputTest {
                 "found columns t${"v".repeat(47)}..., x_m, y_m",
             ),
             csv("long header", "time_s,x_m,y_m," + "v".repeat(70_000) + "\n0,1,2,3\n", "log.csv:1: expected a header"),
+            Case("UTF-32", (HEAD + GOOD).toByteArray(Charsets.UTF_32), "expected a text log, found binary data"),
+            Case(
+                "UTF-32 with its mark",
+                byteArrayOf(-1, -2, 0, 0) + (HEAD + GOOD).toByteArray(Charsets.UTF_32LE),
+                "expected text in UTF-8 or UTF-16, found text in UTF-32",
+            ),
             Case("binary", byteArrayOf(0x7f, 0x45, 0x4c, 0x46, 0, 0, 1, 2), "expected a text log, found binary data"),
             cut("after a row", HEAD + GOOD + "\u0000".repeat(500), "5: expected a row of text, found 500 zero bytes"),
             cut("in a row", HEAD + GOOD + "3,45" + "\u0000".repeat(7), "5: expected a row of text, found 7 zero bytes"),

@@ -72,6 +72,20 @@ class AreaFileTest {
     }
 
     @Test
+    fun aKeepOutIsTrueOrFalse() {
+        val ring = "[[0,0],[10,0],[10,10],[0,10],[0,0]]"
+        for (none in listOf("{}", "null", """{"keep-out": null}""", """{"keep-out": false}""")) {
+            assertEquals(1, AreaFile.parse(feature(ring, none), "lake.geojson", AreaUnits.METRES).outlines.size, none)
+        }
+        for (other in listOf("\"yes\"", "1", "\"true\"", "[true]")) {
+            val text = feature(ring, """{"keep-out": $other}""")
+            val refused = assertFailsWith<JsonFileProblem> { AreaFile.parse(text, "lake.geojson", AreaUnits.METRES) }
+            val expected = "properties.keep-out: expected true or false without quotes, found $other"
+            assertTrue(refused.message.orEmpty().endsWith(expected), refused.message)
+        }
+    }
+
+    @Test
     fun theRingThatDoesNotFitIsPointedAt() {
         val shore = "[[0,0],[10,0],[10,10],[0,10]]"
         val text = "{\"type\": \"Polygon\", \"coordinates\": [\n$shore,\n [[20,0],[21,0],[21,1]]]}"

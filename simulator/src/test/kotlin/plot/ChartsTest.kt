@@ -5,6 +5,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
+import kotlin.test.assertTrue
 
 class ChartsTest {
     private val time = DoubleArray(100) { it.toDouble() }
@@ -33,6 +34,11 @@ class ChartsTest {
         val band = Series("bounds", time, none, low, DoubleArray(100) { 7.0 })
         val parts = SvgParts(LinePlot("Probe", "", listOf(band, Series("truth", time, time)), "s", "mg/L").draw())
         assertEquals(0, parts.strokes(SvgParts.BLUE).size, "no line")
+        val keys = parts.all("line").map { it.getAttribute("stroke") }
+        assertTrue(
+            "rgb(179,213,232)" in keys && SvgParts.BLUE !in keys,
+            "the legend's key has the band's colour: $keys",
+        )
         val bands = parts.fills(SvgParts.BLUE)
         assertEquals(2, bands.size, "either side of the gap")
     }

@@ -56,6 +56,17 @@ class BuildParityTest {
     }
 
     @Test
+    fun whatTestsLookAtIsBuiltBeforeAndStyleHidesNone() {
+        val order = mavenOrder(Repository.root)
+        // Modules are built side by side, and ApkTest, PackagerTest and PhoneLogTest look into android-app/target.
+        assertEquals(setOf("core", "simulator", "android-app"), order["tests"])
+        // A module that fails stops those that wait for it, also with --fail-at-end.
+        assertTrue(order.none { (_, before) -> "style" in before }, "waits for style: $order")
+        val classPath = maven.modules.getValue("tests").map { it.name }
+        assertTrue("module android-app" !in classPath, "the app on the tests' class path")
+    }
+
+    @Test
     fun theBuildsAreReallyRead() {
         // Guards the two readers: a comparison of nothing with nothing would pass.
         assertTrue(
