@@ -35,7 +35,7 @@ public class Diagnosis private constructor(
     ) : this(series, settings, loops, 0.0, progress)
 
     private val unknown = UnknownTruth.of(series)
-    private val used = BooleanArray(series.size) { true }
+    private val used = series.readRows()
     private val longest = CauseSearch.longest(series, settings)
     private var trials = 0
 
@@ -55,7 +55,7 @@ public class Diagnosis private constructor(
             ?: return BlindDiagnosis(series, settings, loops, progress).run().also { progress(1.0) }
         val quieter = quieter(reference)
         val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
-        return weighed.result().also { progress(1.0) }
+        return weighed.result().ofRead(series.isRead).also { progress(1.0) }
     }
 
     /**
@@ -78,7 +78,7 @@ public class Diagnosis private constructor(
         if (series.size < FEWEST || series.isSparse) return null
         val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
         val shown = noise.spread * abs(rough.numbers[ResponseModel.GAIN])
-        if (!(shown > NOISY * Spikes.spread(rough.whitened))) return null
+        if (!(shown > NOISY * Spikes.spread(series.shown(rough.whitened)))) return null
         // How much of its noise is taken off is asked of the readings: what is left would make a response that smooths
         // it (the truth held, and a lag more that undoes the lead) look likelier than the right one. Nothing is to go
         // that is more than the noise.
@@ -228,10 +228,10 @@ public class Diagnosis private constructor(
     }
 
     private fun weighing(steps: Steps?): Weighing {
-        used.fill(true)
+        series.readRows().copyInto(used)
         val settled = settled(steps)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
-        val spikes = Spikes.of(settled.whitened).filter {
+        val spikes = lone(settled).filter {
             abs(settled.residuals[it]) > settled.model.scales.resolution && !shaken.isInDoubt(it) &&
                 !settled.model.scales.isInDoubt(it) && Spikes.isSingle(settled.residuals, it)
         }
@@ -239,9 +239,15 @@ public class Diagnosis private constructor(
         return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)
     }
 
+    /** The rows of [fit] that stick out of those beside them. */
+    private fun lone(fit: ModelFit): List<Int> {
+        val rows = used.indices.filter { used[it] }
+        return Spikes.of(DoubleArray(rows.size) { fit.whitened[rows[it]] }).map { rows[it] }
+    }
+
     /** The weighing with [steps] where [spikes] are known. */
     private fun weighing(steps: Steps, spikes: List<Int>): Weighing {
-        used.fill(true)
+        series.readRows().copyInto(used)
         val settled = settled(steps)
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)
@@ -277,7 +283,7 @@ public class Diagnosis private constructor(
     private fun scales(fit: ModelFit?, steps: Steps): Scales {
         if (fit == null) return Scales(series, unknown)
         val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
-        val spread = Spikes.spread(fit.whitened)
+        val spread = Spikes.spread(series.shown(fit.whitened))
         return Scales(series, shaken, shaken.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, steps.isHeld))
     }
 

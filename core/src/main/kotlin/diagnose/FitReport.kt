@@ -21,7 +21,7 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
     }
 
     /** What the model of [fit] shows along the log, sensor units. */
-    fun predicted(fit: ModelFit) = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
+    fun predicted(fit: ModelFit): DoubleArray = fit.predicted
 
     /** [fit] as the answer shows it. */
     fun assessment(fit: ModelFit, heldOut: HeldOutScore) = ModelAssessment(

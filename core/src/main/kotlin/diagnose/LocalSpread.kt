@@ -65,7 +65,7 @@ internal object LocalSpread {
 
     private fun columns(fit: ModelFit): List<DoubleArray> {
         val series = fit.model.series
-        val shown = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
+        val shown = fit.predicted
         val rates = DoubleArray(series.size) { abs(shown[it] - shown[maxOf(it - 1, 0)]) }
         // A lag shows a front late and flat: noise that is larger in the front itself goes with the truth's own rate.
         val truth = series.reference?.let { u ->

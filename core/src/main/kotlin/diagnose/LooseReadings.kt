@@ -6,7 +6,7 @@ import kotlin.math.sqrt
 /** Single readings that the model of [fit] leaves far off, among all rows. */
 internal class LooseReadings(private val fit: ModelFit) {
     private val series = fit.model.series
-    private val z = whitened(BooleanArray(series.size) { true })
+    private val z = whitened(series.readRows())
     private val spread = sqrt(fit.variance)
 
     /** Half of this is what rounding alone may move a reading by. */
@@ -31,7 +31,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         val sudden = z.indices.filter { abs(z[it]) > FARTHEST * usual }
         // What is foretold of the rows after a single wild reading is to come from those before it.
         val single = sudden.filter { isSingle(it) && isFar(it) }
-        val others = BooleanArray(series.size) { true }
+        val others = series.readRows()
         single.forEach { others[it] = false }
         val beside = whitened(others)
         lasting = sudden.filterNot { isSingle(it) || (it > 0 && abs(z[it - 1]) > FARTHEST * usual && isSingle(it - 1)) }
@@ -47,7 +47,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         beyond = if (isTailed) maxOf(BEYOND, tails.beyond(Spikes.farthest(told))) else BEYOND
     }
 
-    private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i)
+    private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i) || series.isRead?.get(i) == false
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->

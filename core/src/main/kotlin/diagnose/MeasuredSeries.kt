@@ -17,6 +17,8 @@ import kotlin.math.hypot
  *   positions.
  * @property isSparse whether rows were left out because their reference is not known, so that the truth between the
  *   rows must be guessed.
+ * @property isRead whether the sensor's reading in each row is known, length n; null where all are. The truth in the other
+ *   rows is what the sensor has seen; their values count for nothing.
  * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
  */
 public class MeasuredSeries(
@@ -27,6 +29,7 @@ public class MeasuredSeries(
     internal val reference: DoubleArray?,
     internal val conditions: Map<String, DoubleArray> = emptyMap(),
     internal val isSparse: Boolean = false,
+    internal val isRead: BooleanArray? = null,
 ) {
     init {
         val columns =
@@ -42,6 +45,7 @@ public class MeasuredSeries(
                 "$name (${column.size} rows) must be as long as times (${times.size})"
             }
         }
+        require(isRead == null || isRead.size == times.size) { "isRead must be as long as times (${times.size})" }
         require(times.all { it.isFinite() }) { "times must be finite" }
         for (i in 1 until times.size) {
             require(times[i] > times[i - 1]) { "times[$i] (${times[i]} s) must be after ${times[i - 1]} s" }
@@ -106,16 +110,25 @@ public class MeasuredSeries(
         return (column[after] - column[before]) / (times[after] - times[before])
     }
 
+    /** The rows whose readings are known, as those to be used. */
+    internal fun readRows(): BooleanArray = isRead?.copyOf() ?: BooleanArray(size) { true }
+
+    /** [column] in the rows whose readings are known alone; itself where that is all. */
+    public fun shown(column: DoubleArray): DoubleArray {
+        val known = isRead ?: return column
+        return column.filterIndexed { i, _ -> known[i] }.toDoubleArray()
+    }
+
     /** This log with the same [reference] but for its noise. */
     internal fun withQuieter(reference: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead)
 
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
 
     /** The same log with other readings. */
     internal fun withReadings(values: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead)
 
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {

@@ -31,7 +31,7 @@ internal class Structure(private val fit: ModelFit) {
     private val basis by lazy { Evidence.orthonormal(fit.jacobian.toList() + stepShifts()) }
     private val square = squares(fit.whitened)
     private val isSharp = scales.unknown?.isSharp == true
-    private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
+    private val prediction = fit.predicted
     private val rate = DoubleArray(n) { series.rise(prediction, it, it) }
 
     /** All looks, the most striking first. */

@@ -146,7 +146,7 @@ internal class Weighing(
         }
         add(Term(Cause.DRIFT))
         // A handful of rows has no place for a jump.
-        if (series.size >= FEWEST_ROWS) add(Term(Cause.OFFSET_STEPS))
+        if (series.readRows().count { it } >= FEWEST_ROWS) add(Term(Cause.OFFSET_STEPS))
         add(Term(Cause.HYSTERESIS))
         if (scales.resolution > COARSE * sqrt(base.variance)) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
@@ -197,8 +197,9 @@ internal class Weighing(
     }
 
     private fun insufficient(): Verdict? {
-        if (series.size < FEWEST_ROWS) return Verdict.InsufficientData("there are ${series.size} rows only")
-        if (isFlat(series.values) && isFlat(truth)) {
+        val rows = series.readRows().count { it }
+        if (rows < FEWEST_ROWS) return Verdict.InsufficientData("there are $rows rows only")
+        if (isFlat(series.shown(series.values)) && isFlat(truth)) {
             return Verdict.InsufficientData("neither the readings nor the truth ever change")
         }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&

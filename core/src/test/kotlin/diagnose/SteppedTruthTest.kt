@@ -76,6 +76,22 @@ class SteppedTruthTest {
     }
 
     @Test
+    fun whatASensorHasSeenWhereItsReadingIsMissingIsNoCause() {
+        val isRead = BooleanArray(n) { it % 5 != 2 }
+        for (share in listOf(0.0, 1.0)) {
+            val truth = rough()
+            val values = noisy(stepped(truth, 8.0, share), 0.01)
+            for (i in values.indices) if (!isRead[i]) values[i] = 1e3
+            val times = DoubleArray(n) { it.toDouble() }
+            val still = DoubleArray(n)
+            val result = Diagnosis(MeasuredSeries(times, still, still, values, truth, isRead = isRead)).run()
+            assertEquals(Verdict.Consistent, result.verdict, "$share")
+            assertEquals(n * 4 / 5, result.baseline.predicted.size)
+            assertEquals(8.0, result.baseline.parameters.first { it.name == "time_constant_s" }.value, 0.1)
+        }
+    }
+
+    @Test
     fun aRoughTruthIsNotTakenForTheNoiseOfItsReference() {
         val truth = DoubleArray(n).also { for (i in 1 until n) it[i] = it[i - 1] + random.nextGaussian() }
         val shown = stepped(truth, 4.0, 0.0)

@@ -69,22 +69,28 @@ class DiagnosisLog private constructor(
         ): DiagnosisLog {
             val names = conditions.keys + compare.map { compared(it) }
             val columns = LogColumns(names)
+            // With the rows whose readings are missing: what the sensor has seen there shows later.
+            val all = LogColumns(names)
             val steps = ReferenceSteps()
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
                 when {
+                    value.isNaN() -> if (columns.size < MOST_ROWS && !others[REFERENCE].isNaN()) {
+                        all.add(time.seconds, x, y, value, others)
+                    }
                     columns.size >= MOST_ROWS -> cut++
                     reference != null && others[REFERENCE].isNaN() -> steps.add(time.seconds, isKnown = false)
                     else -> {
                         if (reference != null) steps.add(time.seconds, isKnown = true)
                         columns.add(time.seconds, x, y, value, others)
+                        all.add(time.seconds, x, y, value, others)
                     }
                 }
             }
             val heading = conditions[Conditions.HEADING]?.let { column ->
                 HeadingUnit(column, checkNotNull(columns.condition(Conditions.HEADING)))
             }
-            if (heading?.inDegrees == true) columns.toRadians(Conditions.HEADING)
+            if (heading?.inDegrees == true) listOf(columns, all).forEach { it.toRadians(Conditions.HEADING) }
             val others = names.mapNotNull { columns.condition(it) }.toTypedArray()
             SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
@@ -92,7 +98,11 @@ class DiagnosisLog private constructor(
                 log.format,
                 log.quantity,
                 reference,
-                columns.series(reference != null, steps.isSparse, conditions.keys),
+                if (all.size == columns.size || compare.isNotEmpty()) {
+                    columns.series(reference != null, steps.isSparse, conditions.keys)
+                } else {
+                    all.unread(steps.isSparse, conditions.keys)
+                },
                 columns,
                 pass,
                 steps,
