@@ -53,9 +53,18 @@ public class Diagnosis private constructor(
     public fun run(): DiagnosisResult {
         val reference = series.reference
             ?: return BlindDiagnosis(series, settings, loops, progress).run().also { progress(1.0) }
+        val sane = series.withoutWild()
+        val truth = sane.reference ?: reference
+        val wrong = reference.indices.count { truth[it] != reference[it] }
+        val answer = if (sane === series) answer(reference) else Diagnosis(sane, settings, loops, progress).answer(truth)
+        return answer.ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
+            .also { progress(1.0) }
+    }
+
+    private fun answer(reference: DoubleArray): DiagnosisResult {
         val quieter = quieter(reference)
         val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
-        return weighed.result().ofRead(series.isRead).also { progress(1.0) }
+        return weighed.result()
     }
 
     /**

@@ -170,9 +170,10 @@ public class DiagnosisResult internal constructor(
     public val revisits: Revisits? = null,
     internal val lag: ChannelLag? = null,
 ) {
-    /** The same of the rows that [isRead] alone; itself where that is null. */
-    internal fun ofRead(isRead: BooleanArray?): DiagnosisResult {
-        val rows = (isRead ?: return this).indices.filter { isRead[it] }.toIntArray()
+    /** The same of the rows that [isRead] alone, of all where that is null, with [more] warnings. */
+    internal fun ofRead(isRead: BooleanArray?, more: List<String>): DiagnosisResult {
+        if (isRead == null && more.isEmpty()) return this
+        val rows = baseline.predicted.indices.filter { isRead == null || isRead[it] }.toIntArray()
         val base = baseline.of(rows)
         return DiagnosisResult(
             verdict,
@@ -184,7 +185,7 @@ public class DiagnosisResult internal constructor(
             separatingManoeuvre,
             dependences,
             spikes.map { rows.binarySearch(it) },
-            warnings,
+            warnings + more,
             effects,
             revisits,
             lag,

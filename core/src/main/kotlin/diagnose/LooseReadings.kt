@@ -65,7 +65,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         get() = if (LocalSpread.isConcentrated(fit, lasting)) 1.0 else tail(lasting.size, BEYOND)
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
-    val pValue: Double = tail(spikes.size, beyond).let { lone ->
+    val pValue: Double = tail(spikes.size + series.wild.size, beyond).let { lone ->
         val far = mixture.size > FARTHEST * spread && resolution < spread && !isTailed
         val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
         val usual = usual()
@@ -75,9 +75,11 @@ internal class LooseReadings(private val fit: ModelFit) {
     /** Of so many rows being far off by chance where a [share] of all is. */
     private fun tail(count: Int, share: Double) = Evidence.poissonTail(count, series.size * share)
 
+    private fun off() = DoubleArray(series.size) { fit.residuals[it] + (series.wild[it] ?: 0.0) }
+
     /** How often and how far. */
     fun size(): SpikeSize =
-        SpikeSize.of(spikes, fit.residuals, spread) ?: SpikeSize(mixture.share, mixture.size)
+        SpikeSize.of((spikes + series.wild.keys).sorted(), off(), spread) ?: SpikeSize(mixture.share, mixture.size)
 
     private companion object {
         const val BEYOND = 4e-5

@@ -19,6 +19,8 @@ import kotlin.math.hypot
  *   rows must be guessed.
  * @property isRead whether the sensor's reading in each row is known, length n; null where all are. The truth in the other
  *   rows is what the sensor has seen; their values count for nothing.
+ * @property wild by how much the readings that are far beyond all others are off those beside them, sensor units, by row;
+ *   they count as not read.
  * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
  */
 public class MeasuredSeries(
@@ -30,6 +32,7 @@ public class MeasuredSeries(
     internal val conditions: Map<String, DoubleArray> = emptyMap(),
     internal val isSparse: Boolean = false,
     internal val isRead: BooleanArray? = null,
+    internal val wild: Map<Int, Double> = emptyMap(),
 ) {
     init {
         val columns =
@@ -119,16 +122,39 @@ public class MeasuredSeries(
         return column.filterIndexed { i, _ -> known[i] }.toDoubleArray()
     }
 
+    /** This log without single numbers that are far beyond all others; itself where there are none. */
+    internal fun withoutWild(): MeasuredSeries {
+        val truth = reference ?: return this
+        val unread = readRows()
+        val rows = unread.indices.filter { unread[it] }
+        val off = WildNumbers.of(shown(values)).map { rows[it] }
+        val wrong = WildNumbers.of(truth)
+        if (off.isEmpty() && wrong.isEmpty()) return this
+        val bridged = WildNumbers.bridged(values, off)
+        off.forEach { unread[it] = false }
+        return MeasuredSeries(
+            times,
+            x,
+            y,
+            bridged,
+            WildNumbers.bridged(truth, wrong),
+            conditions,
+            isSparse,
+            if (off.isEmpty()) isRead else unread,
+            off.associateWith { values[it] - bridged[it] },
+        )
+    }
+
     /** This log with the same [reference] but for its noise. */
     internal fun withQuieter(reference: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild)
 
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
 
     /** The same log with other readings. */
     internal fun withReadings(values: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild)
 
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {

@@ -87,7 +87,7 @@ internal class Weighing(
                 Manoeuvres.of(open.sets.filter { it.size > 1 }.flatten().toSet())
             },
             left,
-            spikes,
+            (spikes + series.wild.keys).sorted(),
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
                 listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
@@ -123,7 +123,7 @@ internal class Weighing(
             )
         }
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
-        val off = spikes.size
+        val off = spikes.size + series.wild.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }
 
