@@ -88,6 +88,13 @@ class BenchTest {
     }
 
     @Test
+    fun wildReadingsOnPlateausAreNotGatheredWhereTheTruthStandsStill() {
+        val log = moved(60.0, 0.0)
+        for (row in listOf(37, 90, 171, 239, 311, 402, 460)) log.values[row] += 0.2
+        assertEquals(Verdict.Named(listOf(Cause.OUTLIERS)), Diagnosis(log).run().verdict)
+    }
+
+    @Test
     fun aTruthThatNeverMovesShowsNoLag() {
         val result = Diagnosis(log(noisy(DoubleArray(FEW) { 8.2 }, 0.015), DoubleArray(FEW) { 8.2 })).run()
         assertIs<Verdict.InsufficientData>(result.verdict)
