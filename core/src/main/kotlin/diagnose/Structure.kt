@@ -35,7 +35,7 @@ internal class Structure(private val fit: ModelFit) {
 
     /** All looks, the most striking first. */
     fun dependences(): List<Dependence> {
-        val tests = groups().map { (name, columns) -> test(name, columns) } + periodic()
+        val tests = groups().map { (name, columns) -> test(name, columns) } + periodic() + settling()
         val adjusted = Evidence.holm(tests.map { it.pValue })
         return tests.mapIndexed { i, test -> test.copy(adjusted = adjusted[i]) }.sortedBy { it.pValue }
     }
@@ -141,6 +141,14 @@ internal class Structure(private val fit: ModelFit) {
         }
     }
 
+    /** The likeliest of offsets that settle; neighbours among them are much the same. */
+    private fun settling(): Dependence {
+        val best = Settling.TIMES.map { test(SETTLES, listOf(Settling.column(series, it * series.duration))) }
+            .minBy { it.pValue }
+        val p = minOf(1.0, best.pValue * Settling.TIMES.size / ALIKE)
+        return best.copy(pValue = p, adjusted = p)
+    }
+
     /** The strongest of all frequencies that the log can tell apart. */
     private fun periodic(): Dependence {
         val highest = 0.4 / series.period
@@ -190,6 +198,9 @@ internal class Structure(private val fit: ModelFit) {
         /** The description of what wanders slowly with time. */
         const val SLOW = "time (a slow wandering)"
 
+        /** The description of an offset that moves and comes to rest. */
+        const val SETTLES = "time (an offset that settles)"
+
         /** Six slow cosines over [series]. */
         fun slow(series: MeasuredSeries): List<DoubleArray> = (1..6).map { k ->
             DoubleArray(series.size) {
@@ -197,6 +208,8 @@ internal class Structure(private val fit: ModelFit) {
             }
         }
 
+        /** Of times within which an offset settles, so many count as one. */
+        private const val ALIKE = 2
         private const val MOST_FREQUENCIES = 2500
 
         /** Frequencies that are looked at more closely, in which places beside them, and as how many they count. */
