@@ -116,6 +116,9 @@ public class Diagnosis private constructor(
         // A place ahead by just what a held truth is ahead by is rather that.
         val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
         val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
+        // Sharp steps that are held until the next row are a row late, which a dead time may do as well.
+        val isLate = weighed.last.model.steps == Steps.UNTIL_NEXT && weighed.chosen.any { it.term.cause == Cause.DEAD_TIME }
+        if (isLate) return better(weighed, HELD, Steps.HELD)
         return led(weighed) ?: untilNext(weighed) ?: weighed
     }
 
@@ -220,9 +223,9 @@ public class Diagnosis private constructor(
         series.withQuieter(ReferenceLead.course(series, rows * series.period, unknown.isBroken))
 
     /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
-    private fun better(first: Weighing, margin: Double): Weighing {
+    private fun better(first: Weighing, margin: Double, steps: Steps = first.last.model.steps.other): Weighing {
         val rows = used.copyOf()
-        val second = weighing(first.last.model.steps.other)
+        val second = weighing(steps)
         if (second.explained > first.explained - margin) return second
         rows.copyInto(used)
         return first
@@ -327,10 +330,12 @@ public class Diagnosis private constructor(
      * The base model with [steps], as the log says where that is null. Lag and noise are as [rough].
      */
     private fun base(steps: Steps?, rough: ModelFit?): ModelFit {
-        val fits = (steps?.let { listOf(it) } ?: listOf(Steps.EVEN, Steps.HELD)).map { base(it, scales(rough, it)) }
+        val ways = listOf(Steps.EVEN, Steps.HELD) + listOfNotNull(Steps.UNTIL_NEXT.takeIf { unknown.isSharp })
+        val fits = (steps?.let { listOf(it) } ?: ways).map { base(it, scales(rough, it)) }
         // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given
         // sensor's numbers may be wrong, so that this is told with them free.
-        val best = if (fits.last().score > fits[0].score + HELD) fits.last() else fits[0]
+        val likeliest = fits.maxBy { it.score }
+        val best = if (likeliest.score > fits[0].score + HELD) likeliest else fits[0]
         if (settings.base == null) return best
         val free = BooleanArray(best.free.size) { it == ResponseModel.FIRST }
         val numbers = GivenSensor(settings.base, best.model.scales).numbers(best.model)

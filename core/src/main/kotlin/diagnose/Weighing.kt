@@ -25,7 +25,7 @@ internal class Weighing(
 ) {
     private val series = base.model.series
     private val scales = base.model.scales
-    private val report = FitReport(series, used)
+    private val report = FitReport(series, used, isOpen = before == 0.0)
     private val baseHeldOut = HeldOut.score(base, used)
     private val terms = terms()
     private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings) { told(terms.size) }

@@ -58,6 +58,24 @@ class SteppedTruthTest {
         val shown = stepped(smooth, 8.0, 1.0)
         val result = diagnosed(noisy(DoubleArray(n) { shown[maxOf(it - 3, 0)] }, 0.01), smooth)
         assertEquals(Verdict.Named(listOf(Cause.DEAD_TIME)), result.verdict)
+        // In water as smooth as this the way of stepping does not show, and half a row is open.
+        val late = result.effects.single().parameters.first { it.name == "dead_time_s" }
+        assertTrue(3.0 in late.interval!!.lower..late.interval!!.upper, "$late")
+        assertTrue(late.interval!!.upper - late.interval!!.lower < 1.2, "$late")
+    }
+
+    @Test
+    fun cellsOfEvenWaterSteppedByTheRowBeforeHaveNoDeadTimeAtUnevenTimes() {
+        val times = DoubleArray(n) { it + 0.6 * random.nextDouble() }
+        val cells = DoubleArray(n / 6) { random.nextDouble() }
+        val truth = DoubleArray(n) { cells[(times[it] / 6.3).toInt()] }
+        var state = truth[0]
+        val values = DoubleArray(n) { i ->
+            if (i > 0) state += (times[i] - times[i - 1]) / 9 * (truth[i - 1] - state)
+            state + 0.001 * random.nextGaussian()
+        }
+        val still = DoubleArray(n)
+        assertEquals(Verdict.Consistent, Diagnosis(MeasuredSeries(times, still, still, values, truth)).run().verdict)
     }
 
     @Test
