@@ -244,8 +244,9 @@ public class Diagnosis private constructor(
         val settled = settled(steps)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
         val spikes = lone(settled).filter {
-            abs(settled.residuals[it]) > settled.model.scales.resolution && !shaken.isInDoubt(it) &&
-                !settled.model.scales.isInDoubt(it) && Spikes.isSingle(settled.residuals, it)
+            val isDoubtful = shaken.isInDoubt(it) || settled.model.scales.isInDoubt(it)
+            abs(settled.residuals[it]) > settled.model.scales.resolution && Spikes.isSingle(settled.residuals, it) &&
+                (!isDoubtful || settled.isBeyondDoubt(it))
         }
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)

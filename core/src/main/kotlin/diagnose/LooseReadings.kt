@@ -47,7 +47,8 @@ internal class LooseReadings(private val fit: ModelFit) {
         beyond = if (isTailed) maxOf(BEYOND, tails.beyond(Spikes.farthest(told))) else BEYOND
     }
 
-    private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i) || series.isRead?.get(i) == false
+    private fun isInDoubt(i: Int) =
+        (fit.model.scales.isInDoubt(i) && !fit.isBeyondDoubt(i)) || series.isRead?.get(i) == false
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->

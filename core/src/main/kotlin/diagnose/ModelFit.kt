@@ -39,9 +39,22 @@ internal class ModelFit(
         }
     }
 
+    private val usual by lazy { Spikes.spread(model.series.shown(whitened)) }
+
+    /**
+     * Whether row [i] is off alone by more than what is not known of the truth may make it: that fades with the lag, over
+     * the rows after it.
+     */
+    fun isBeyondDoubt(i: Int): Boolean = numbers[ResponseModel.TIME_CONSTANT] > FADING * model.series.period &&
+        abs(residuals[i]) > FAR_OFF * usual && Spikes.isSingle(residuals, i)
+
     /** Parameter [i] on the scale it is fitted on. */
     fun scaled(i: Int): Double = if (model.parameters[i].logarithmic) ln(numbers[i]) else numbers[i]
 }
+
+/** Rows, within a time constant, that show what fades; and deviations of the noise by which a row is far off in doubt. */
+private const val FADING = 3.0
+private const val FAR_OFF = 20.0
 
 /** Finds the numbers under which a log is likeliest: Levenberg-Marquardt on whitened residuals, the noise in turn. */
 internal object Fitting {

@@ -110,6 +110,49 @@ class SteppedTruthTest {
     }
 
     @Test
+    fun aTruthThatIsMissingHereAndThereIsNoCause() {
+        val truth = DoubleArray(n).also { for (i in 1 until n) it[i] = 0.7 * it[i - 1] + 0.3 * smooth[i] }
+        val values = noisy(stepped(truth, 8.0, 0.0), 0.003)
+        val times = DoubleArray(n) { it.toDouble() }
+        for (i in 30 until n step 31) truth[i] = Double.NaN
+        for (i in 17 until n step 23) values[i] = Double.NaN
+        val still = DoubleArray(n)
+        val series = MeasuredSeries.ofMissing(times, still, still, values, truth, emptyMap())
+        assertEquals(n, series.size)
+        val result = Diagnosis(series).run()
+        assertEquals(Verdict.Consistent, result.verdict)
+        assertEquals((0 until n).count { values[it].isFinite() && truth[it].isFinite() }, result.baseline.predicted.size)
+        // Over a longer gap nobody knows how the truth went.
+        for (i in 300 until 310) truth[i] = Double.NaN
+        assertTrue(n > MeasuredSeries.ofMissing(times, still, still, values, truth, emptyMap()).size)
+    }
+
+    @Test
+    fun aWildReadingBesideATruthInDoubtIsNoJump() {
+        val truth = rough()
+        val fine = 20
+        var state = truth[0]
+        val shown = DoubleArray(n) { i ->
+            if (i > 0) {
+                repeat(fine) { k ->
+                    val water = truth[i - 1] + (k + 0.5) / fine * (truth[i] - truth[i - 1])
+                    state += (1 - exp(-1.0 / fine / 12)) * (water - state)
+                }
+            }
+            state
+        }
+        val values = noisy(shown, 0.002)
+        val times = DoubleArray(n) { it.toDouble() }
+        val unknown = UnknownTruth.of(MeasuredSeries(times, times, DoubleArray(n), values, truth))
+        val doubtful = (20 until n - 20).filter(unknown::isInDoubt)
+        val wild = listOf(doubtful.first(), doubtful[doubtful.size / 2], doubtful.last())
+        for (row in wild) values[row] += 0.15
+        val result = diagnosed(values, truth)
+        assertEquals(wild, result.spikes)
+        assertTrue(result.effects.none { it.cause == Cause.OFFSET_STEPS }, "${result.verdict}")
+    }
+
+    @Test
     fun aRoughTruthIsNotTakenForTheNoiseOfItsReference() {
         val truth = DoubleArray(n).also { for (i in 1 until n) it[i] = it[i - 1] + random.nextGaussian() }
         val shown = stepped(truth, 4.0, 0.0)

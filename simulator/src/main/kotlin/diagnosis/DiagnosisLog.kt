@@ -69,21 +69,19 @@ class DiagnosisLog private constructor(
         ): DiagnosisLog {
             val names = conditions.keys + compare.map { compared(it) }
             val columns = LogColumns(names)
-            // With the rows whose readings are missing: what the sensor has seen there shows later.
+            // With the rows whose readings or references are missing: what the sensor has seen there shows later.
             val all = LogColumns(names)
             val steps = ReferenceSteps()
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
+                if (columns.size < MOST_ROWS) all.add(time.seconds, x, y, value, others)
                 when {
-                    value.isNaN() -> if (columns.size < MOST_ROWS && !others[REFERENCE].isNaN()) {
-                        all.add(time.seconds, x, y, value, others)
-                    }
+                    value.isNaN() -> Unit
                     columns.size >= MOST_ROWS -> cut++
                     reference != null && others[REFERENCE].isNaN() -> steps.add(time.seconds, isKnown = false)
                     else -> {
                         if (reference != null) steps.add(time.seconds, isKnown = true)
                         columns.add(time.seconds, x, y, value, others)
-                        all.add(time.seconds, x, y, value, others)
                     }
                 }
             }
@@ -98,10 +96,11 @@ class DiagnosisLog private constructor(
                 log.format,
                 log.quantity,
                 reference,
-                if (all.size == columns.size || compare.isNotEmpty()) {
+                // Where most references are missing how the truth went is not to be guessed.
+                if (all.size == columns.size || steps.isSparse || compare.isNotEmpty()) {
                     columns.series(reference != null, steps.isSparse, conditions.keys)
                 } else {
-                    all.unread(steps.isSparse, conditions.keys)
+                    all.missing(conditions.keys)
                 },
                 columns,
                 pass,

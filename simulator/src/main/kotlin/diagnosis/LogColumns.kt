@@ -64,19 +64,14 @@ class LogColumns(private val conditions: Collection<String>) {
         isSparse,
     )
 
-    /**
-     * The same of these columns where readings that are not known are NaN: their rows say what the sensor has seen, and
-     * any number stands in for theirs.
-     */
-    fun unread(isSparse: Boolean, conditions: Collection<String>) = MeasuredSeries(
+    /** The same of these columns where readings and references that are not known are NaN. */
+    fun missing(conditions: Collection<String>) = MeasuredSeries.ofMissing(
         times,
         x,
         y,
-        DoubleArray(size) { if (values[it].isNaN()) 0.0 else values[it] },
+        values,
         reference,
         conditions.associateWith { checkNotNull(condition(it)) },
-        isSparse,
-        BooleanArray(size) { !values[it].isNaN() },
     )
 
     private companion object {
