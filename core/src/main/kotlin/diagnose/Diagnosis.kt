@@ -35,7 +35,7 @@ public class Diagnosis private constructor(
     ) : this(series, settings, loops, 0.0, progress)
 
     private val unknown = UnknownTruth.of(series)
-    private val used = BooleanArray(series.size) { true }
+    private val used = series.readRows()
     private val longest = CauseSearch.longest(series, settings)
     private var trials = 0
 
@@ -53,9 +53,18 @@ public class Diagnosis private constructor(
     public fun run(): DiagnosisResult {
         val reference = series.reference
             ?: return BlindDiagnosis(series, settings, loops, progress).run().also { progress(1.0) }
+        val sane = series.withoutWild()
+        val truth = sane.reference ?: reference
+        val wrong = reference.indices.count { truth[it] != reference[it] }
+        val answer = if (sane === series) answer(reference) else Diagnosis(sane, settings, loops, progress).answer(truth)
+        return answer.ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
+            .also { progress(1.0) }
+    }
+
+    private fun answer(reference: DoubleArray): DiagnosisResult {
         val quieter = quieter(reference)
         val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
-        return weighed.result().also { progress(1.0) }
+        return weighed.result()
     }
 
     /**
@@ -78,7 +87,7 @@ public class Diagnosis private constructor(
         if (series.size < FEWEST || series.isSparse) return null
         val noise = ReferenceNoise(series.times, reference, unknown.isBroken)
         val shown = noise.spread * abs(rough.numbers[ResponseModel.GAIN])
-        if (!(shown > NOISY * Spikes.spread(rough.whitened))) return null
+        if (!(shown > NOISY * Spikes.spread(series.shown(rough.whitened)))) return null
         // How much of its noise is taken off is asked of the readings: what is left would make a response that smooths
         // it (the truth held, and a lag more that undoes the lead) look likelier than the right one. Nothing is to go
         // that is more than the noise.
@@ -107,6 +116,9 @@ public class Diagnosis private constructor(
         // A place ahead by just what a held truth is ahead by is rather that.
         val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
         val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
+        // Sharp steps that are held until the next row are a row late, which a dead time may do as well.
+        val isLate = weighed.last.model.steps == Steps.UNTIL_NEXT && weighed.chosen.any { it.term.cause == Cause.DEAD_TIME }
+        if (isLate) return better(weighed, HELD, Steps.HELD)
         return led(weighed) ?: untilNext(weighed) ?: weighed
     }
 
@@ -211,9 +223,9 @@ public class Diagnosis private constructor(
         series.withQuieter(ReferenceLead.course(series, rows * series.period, unknown.isBroken))
 
     /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
-    private fun better(first: Weighing, margin: Double): Weighing {
+    private fun better(first: Weighing, margin: Double, steps: Steps = first.last.model.steps.other): Weighing {
         val rows = used.copyOf()
-        val second = weighing(first.last.model.steps.other)
+        val second = weighing(steps)
         if (second.explained > first.explained - margin) return second
         rows.copyInto(used)
         return first
@@ -228,20 +240,27 @@ public class Diagnosis private constructor(
     }
 
     private fun weighing(steps: Steps?): Weighing {
-        used.fill(true)
+        series.readRows().copyInto(used)
         val settled = settled(steps)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
-        val spikes = Spikes.of(settled.whitened).filter {
-            abs(settled.residuals[it]) > settled.model.scales.resolution && !shaken.isInDoubt(it) &&
-                !settled.model.scales.isInDoubt(it) && Spikes.isSingle(settled.residuals, it)
+        val spikes = lone(settled).filter {
+            val isDoubtful = shaken.isInDoubt(it) || settled.model.scales.isInDoubt(it)
+            abs(settled.residuals[it]) > settled.model.scales.resolution && Spikes.isSingle(settled.residuals, it) &&
+                (!isDoubtful || settled.isBeyondDoubt(it))
         }
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)
     }
 
+    /** The rows of [fit] that stick out of those beside them. */
+    private fun lone(fit: ModelFit): List<Int> {
+        val rows = used.indices.filter { used[it] }
+        return Spikes.of(DoubleArray(rows.size) { fit.whitened[rows[it]] }).map { rows[it] }
+    }
+
     /** The weighing with [steps] where [spikes] are known. */
     private fun weighing(steps: Steps, spikes: List<Int>): Weighing {
-        used.fill(true)
+        series.readRows().copyInto(used)
         val settled = settled(steps)
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)
@@ -277,7 +296,7 @@ public class Diagnosis private constructor(
     private fun scales(fit: ModelFit?, steps: Steps): Scales {
         if (fit == null) return Scales(series, unknown)
         val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
-        val spread = Spikes.spread(fit.whitened)
+        val spread = Spikes.spread(series.shown(fit.whitened))
         return Scales(series, shaken, shaken.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, steps.isHeld))
     }
 
@@ -312,10 +331,12 @@ public class Diagnosis private constructor(
      * The base model with [steps], as the log says where that is null. Lag and noise are as [rough].
      */
     private fun base(steps: Steps?, rough: ModelFit?): ModelFit {
-        val fits = (steps?.let { listOf(it) } ?: listOf(Steps.EVEN, Steps.HELD)).map { base(it, scales(rough, it)) }
+        val ways = listOf(Steps.EVEN, Steps.HELD) + listOfNotNull(Steps.UNTIL_NEXT.takeIf { unknown.isSharp })
+        val fits = (steps?.let { listOf(it) } ?: ways).map { base(it, scales(rough, it)) }
         // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given
         // sensor's numbers may be wrong, so that this is told with them free.
-        val best = if (fits.last().score > fits[0].score + HELD) fits.last() else fits[0]
+        val likeliest = fits.maxBy { it.score }
+        val best = if (likeliest.score > fits[0].score + HELD) likeliest else fits[0]
         if (settings.base == null) return best
         val free = BooleanArray(best.free.size) { it == ResponseModel.FIRST }
         val numbers = GivenSensor(settings.base, best.model.scales).numbers(best.model)

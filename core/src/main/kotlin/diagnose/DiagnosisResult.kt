@@ -74,7 +74,19 @@ public class ModelAssessment internal constructor(
     public val noiseShare: Double,
     public val noiseTime: Double,
     public val whitened: DoubleArray,
-)
+) {
+    internal fun of(rows: IntArray) = ModelAssessment(
+        parameters,
+        trainRmse,
+        heldOutRmse,
+        heldOutLogLikelihood,
+        predicted.at(rows),
+        noiseSpread,
+        noiseShare,
+        noiseTime,
+        whitened.at(rows),
+    )
+}
 
 /**
  * A cause and how the log speaks for it.
@@ -96,7 +108,21 @@ public class Candidate internal constructor(
     public val pValue: Double,
     public val adjustedPValue: Double,
     public val predicted: DoubleArray,
-)
+) {
+    internal fun of(rows: IntArray) = Candidate(
+        cause,
+        condition,
+        parameters,
+        trainRmse,
+        heldOutRmse,
+        heldOutLogLikelihood,
+        pValue,
+        adjustedPValue,
+        predicted.at(rows),
+    )
+}
+
+private fun DoubleArray.at(rows: IntArray) = DoubleArray(rows.size) { this[rows[it]] }
 
 /**
  * What the reference says where the track crosses itself.
@@ -143,4 +169,26 @@ public class DiagnosisResult internal constructor(
     public val effects: List<NamedEffect> = emptyList(),
     public val revisits: Revisits? = null,
     internal val lag: ChannelLag? = null,
-)
+) {
+    /** The same of the rows that [isRead] alone, of all where that is null, with [more] warnings. */
+    internal fun ofRead(isRead: BooleanArray?, more: List<String>): DiagnosisResult {
+        if (isRead == null && more.isEmpty()) return this
+        val rows = baseline.predicted.indices.filter { isRead == null || isRead[it] }.toIntArray()
+        val base = baseline.of(rows)
+        return DiagnosisResult(
+            verdict,
+            candidates.map { it.of(rows) },
+            base,
+            if (extended === baseline) base else extended?.of(rows),
+            baseSensor,
+            extendedSensor,
+            separatingManoeuvre,
+            dependences,
+            spikes.map { rows.binarySearch(it) },
+            warnings + more,
+            effects,
+            revisits,
+            lag,
+        )
+    }
+}

@@ -6,8 +6,15 @@ import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
 
-/** Fits as the answer shows them: numbers with intervals, residuals. [used] are the rows that were fitted. */
-internal class FitReport(private val series: MeasuredSeries, private val used: BooleanArray) {
+/**
+ * Fits as the answer shows them: numbers with intervals, residuals. [used] are the rows that were fitted; [isOpen] whether
+ * how the truth goes on between them was not told by the log for certain.
+ */
+internal class FitReport(
+    private val series: MeasuredSeries,
+    private val used: BooleanArray,
+    private val isOpen: Boolean = true,
+) {
     private val bounded = LinkedHashSet<String>()
 
     /** Numbers that ended where the search may not go on, one sentence each. */
@@ -21,7 +28,7 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
     }
 
     /** What the model of [fit] shows along the log, sensor units. */
-    fun predicted(fit: ModelFit) = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
+    fun predicted(fit: ModelFit): DoubleArray = fit.predicted
 
     /** [fit] as the answer shows it. */
     fun assessment(fit: ModelFit, heldOut: HeldOutScore) = ModelAssessment(
@@ -73,7 +80,7 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
         val reach = NORMAL_95 * error
         if (!reach.isFinite() || reach == 0.0) return null
         if (!parameter.logarithmic) {
-            val open = open(fit, parameter)
+            val open = open(fit, i, parameter)
             return Interval(parameter.possible(value - reach - open.first), value + reach + open.second)
         }
         // Which of two lags is how long does not show where they are alike, nor what is shorter than rows.
@@ -81,13 +88,31 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
     }
 
     /**
-     * What sharp steps of the truth leave open of [parameter], downward and upward: where it is held, each may have come
-     * a row later, else half a row sooner or later.
+     * What the way the log is sampled leaves open of [parameter], number [i], downward and upward. Sharp steps of the
+     * truth may each have come a row later where it is held, a row sooner where it is held until the next, else half a row
+     * either way; of others the ways that are about as likely count.
      */
-    private fun open(fit: ModelFit, parameter: Parameter): Pair<Double, Double> = when {
-        parameter.name != "dead_time_s" || fit.model.scales.unknown?.isSharp != true -> 0.0 to 0.0
-        fit.model.steps.isHeld -> series.period to 0.0
+    private fun open(fit: ModelFit, i: Int, parameter: Parameter): Pair<Double, Double> = when {
+        parameter.name != "dead_time_s" -> 0.0 to 0.0
+        fit.model.scales.unknown?.isSharp != true -> otherWays(fit, i)
+        fit.model.steps == Steps.HELD -> series.period to 0.0
+        fit.model.steps == Steps.UNTIL_NEXT -> 0.0 to series.period
         else -> series.period / 2 to series.period / 2
+    }
+
+    /** How far number [i] of [fit], a delay, is less and more with the truth held otherwise, where that is as likely. */
+    private fun otherWays(fit: ModelFit, i: Int): Pair<Double, Double> {
+        if (!isOpen) return 0.0 to 0.0
+        val value = fit.numbers[i]
+        val others = Steps.entries.filter { it != fit.model.steps }.mapNotNull { steps ->
+            val start = fit.numbers.copyOf().also { numbers ->
+                numbers[i] = maxOf(value + (steps.lead - fit.model.steps.lead) * series.period, 0.0)
+            }
+            val model = ResponseModel(fit.model.series, fit.model.terms, steps, fit.model.scales)
+            val other = Fitting.fit(model, start, fit.free, used, fit.noise.time, noise = fit.noise)
+            other.numbers[i].takeIf { other.score > fit.score - AS_LIKELY }
+        }
+        return maxOf(value - (others.minOrNull() ?: value), 0.0) to maxOf((others.maxOrNull() ?: value) - value, 0.0)
     }
 
     /**
@@ -135,6 +160,9 @@ internal class FitReport(private val series: MeasuredSeries, private val used: B
 
     private companion object {
         const val NORMAL_95 = 1.96
+
+        /** Twice a log-likelihood ratio by which another way is less likely and still may be. */
+        const val AS_LIKELY = 6.0
 
         /** Chi-square with one degree of freedom at 90 %: 95 % to one side. */
         const val ONE_SIDED_95 = 2.71

@@ -1,8 +1,5 @@
 package stillwater.diagnose
 
-import java.util.Locale
-import kotlin.math.exp
-
 /**
  * What no cause of the list explains, in words that a reader can look for in the field: [base] is the model without
  * causes, and [chosen] are not enough.
@@ -12,24 +9,23 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
 
     /** What is left, where it depends on [most]. */
     fun words(most: Dependence): String = "the residuals depend on ${most.description}" +
-        (if (most.description == Structure.SLOW) settling() else "") + beside()
+        (if (most.description in setOf(Structure.SLOW, Structure.SETTLES)) settling() else "") + beside()
 
     /** An offset that settles: most drifts of a probe that warms up, or is overgrown, level off. */
     private fun settling(): String {
         val all = leftBy(emptyList())
-        val best = TIMES.map { it * series.duration }.map(::settled).minBy { it.left }
+        val best = Settling.TIMES.map { it * series.duration }.map(::settled).minBy { it.left }
         val slow = all - leftBy(Structure.slow(series))
         val line = listOf(DoubleArray(series.size) { series.times[it] - series.times[0] })
         // As one curve it explains nearly all that six do, and more than a straight line.
         if (all - best.left < MOST_OF * slow || best.left >= leftBy(line)) return ""
-        return ": an offset that moves by %.2g and settles within some %.2g s"
-            .format(Locale.ROOT, best.size, SETTLED * best.time) + ", as of a probe that warms up or is overgrown"
+        return ": " + Settling.words(best.size, best.time)
     }
 
     private class Settled(val time: Double, val size: Double, val left: Double)
 
     private fun settled(time: Double): Settled {
-        val curve = DoubleArray(series.size) { 1 - exp(-(series.times[it] - series.times[0]) / time) }
+        val curve = Settling.column(series, time)
         val mean = curve.average()
         val squares = curve.sumOf { (it - mean) * (it - mean) }
         val size = if (squares > 0) curve.indices.sumOf { (curve[it] - mean) * base.residuals[it] } / squares else 0.0
@@ -52,12 +48,8 @@ internal class LeftOver(private val base: ModelFit, private val chosen: List<Tri
     }
 
     private companion object {
-        /** Over the log's duration, within which it is to settle. */
-        val TIMES = listOf(0.02, 0.03, 0.05, 0.08, 0.12, 0.18, 0.25, 0.33)
         const val MOST_OF = 0.9
 
-        /** Time constants after which 95 % is done. */
-        const val SETTLED = 3.0
         const val LEAST_SHARE = 0.1
 
         /** A shift along the track is all that a log tells of the probe's place. */

@@ -35,11 +35,17 @@ internal object LocalSpread {
         val alone = rows.filterNot { it - 1 in rows && it - 2 !in rows && it + 1 !in rows }
         return columns(fit).filter(::isVaried).any { column ->
             val sorted = column.sortedArray()
-            val ranks = alone.map { row -> rank(sorted, column[row]) }
-            val lone = sqrt(12.0 * ranks.size)
-            abs(ranks.average() - 0.5) * lone > GATHERED ||
-                abs(ranks.map { 2 * abs(it - 0.5) }.average() - 0.5) * lone > GATHERED
+            val all = DoubleArray(column.size) { rank(sorted, column[it]) }
+            val away = DoubleArray(column.size) { 2 * abs(all[it] - 0.5) }
+            isOff(alone, all) || isOff(alone, away)
         }
+    }
+
+    /** Whether the mean of [ranks] in [rows] is off that of all, of which many may be equal. */
+    private fun isOff(rows: List<Int>, ranks: DoubleArray): Boolean {
+        val mean = ranks.average()
+        val spread = sqrt(ranks.sumOf { (it - mean) * (it - mean) } / ranks.size)
+        return abs(rows.map { ranks[it] }.average() - mean) * sqrt(rows.size.toDouble()) > GATHERED * spread
     }
 
     /** Whether [column] has different values by more than the rounding of what was reckoned, as a speed from fixes is. */
@@ -65,7 +71,7 @@ internal object LocalSpread {
 
     private fun columns(fit: ModelFit): List<DoubleArray> {
         val series = fit.model.series
-        val shown = DoubleArray(series.size) { series.values[it] - fit.residuals[it] }
+        val shown = fit.predicted
         val rates = DoubleArray(series.size) { abs(shown[it] - shown[maxOf(it - 1, 0)]) }
         // A lag shows a front late and flat: noise that is larger in the front itself goes with the truth's own rate.
         val truth = series.reference?.let { u ->

@@ -6,7 +6,7 @@ import kotlin.math.sqrt
 /** Single readings that the model of [fit] leaves far off, among all rows. */
 internal class LooseReadings(private val fit: ModelFit) {
     private val series = fit.model.series
-    private val z = whitened(BooleanArray(series.size) { true })
+    private val z = whitened(series.readRows())
     private val spread = sqrt(fit.variance)
 
     /** Half of this is what rounding alone may move a reading by. */
@@ -31,7 +31,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         val sudden = z.indices.filter { abs(z[it]) > FARTHEST * usual }
         // What is foretold of the rows after a single wild reading is to come from those before it.
         val single = sudden.filter { isSingle(it) && isFar(it) }
-        val others = BooleanArray(series.size) { true }
+        val others = series.readRows()
         single.forEach { others[it] = false }
         val beside = whitened(others)
         lasting = sudden.filterNot { isSingle(it) || (it > 0 && abs(z[it - 1]) > FARTHEST * usual && isSingle(it - 1)) }
@@ -47,7 +47,8 @@ internal class LooseReadings(private val fit: ModelFit) {
         beyond = if (isTailed) maxOf(BEYOND, tails.beyond(Spikes.farthest(told))) else BEYOND
     }
 
-    private fun isInDoubt(i: Int) = fit.model.scales.isInDoubt(i)
+    private fun isInDoubt(i: Int) =
+        (fit.model.scales.isInDoubt(i) && !fit.isBeyondDoubt(i)) || series.isRead?.get(i) == false
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->
@@ -65,7 +66,7 @@ internal class LooseReadings(private val fit: ModelFit) {
         get() = if (LocalSpread.isConcentrated(fit, lasting)) 1.0 else tail(lasting.size, BEYOND)
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
-    val pValue: Double = tail(spikes.size, beyond).let { lone ->
+    val pValue: Double = tail(spikes.size + series.wild.size, beyond).let { lone ->
         val far = mixture.size > FARTHEST * spread && resolution < spread && !isTailed
         val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
         val usual = usual()
@@ -75,9 +76,11 @@ internal class LooseReadings(private val fit: ModelFit) {
     /** Of so many rows being far off by chance where a [share] of all is. */
     private fun tail(count: Int, share: Double) = Evidence.poissonTail(count, series.size * share)
 
+    private fun off() = DoubleArray(series.size) { fit.residuals[it] + (series.wild[it] ?: 0.0) }
+
     /** How often and how far. */
     fun size(): SpikeSize =
-        SpikeSize.of(spikes, fit.residuals, spread) ?: SpikeSize(mixture.share, mixture.size)
+        SpikeSize.of((spikes + series.wild.keys).sorted(), off(), spread) ?: SpikeSize(mixture.share, mixture.size)
 
     private companion object {
         const val BEYOND = 4e-5

@@ -17,6 +17,11 @@ import kotlin.math.hypot
  *   positions.
  * @property isSparse whether rows were left out because their reference is not known, so that the truth between the
  *   rows must be guessed.
+ * @property isRead whether the sensor's reading in each row is known, length n; null where all are. The truth in the other
+ *   rows is what the sensor has seen; their values count for nothing.
+ * @property wild by how much the readings that are far beyond all others are off those beside them, sensor units, by row;
+ *   they count as not read.
+ * @property isGuessed whether the truth in each row was guessed from those beside it, length n; null where none was.
  * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
  */
 public class MeasuredSeries(
@@ -27,6 +32,9 @@ public class MeasuredSeries(
     internal val reference: DoubleArray?,
     internal val conditions: Map<String, DoubleArray> = emptyMap(),
     internal val isSparse: Boolean = false,
+    internal val isRead: BooleanArray? = null,
+    internal val wild: Map<Int, Double> = emptyMap(),
+    internal val isGuessed: BooleanArray? = null,
 ) {
     init {
         val columns =
@@ -42,6 +50,7 @@ public class MeasuredSeries(
                 "$name (${column.size} rows) must be as long as times (${times.size})"
             }
         }
+        require(isRead == null || isRead.size == times.size) { "isRead must be as long as times (${times.size})" }
         require(times.all { it.isFinite() }) { "times must be finite" }
         for (i in 1 until times.size) {
             require(times[i] > times[i - 1]) { "times[$i] (${times[i]} s) must be after ${times[i - 1]} s" }
@@ -106,16 +115,49 @@ public class MeasuredSeries(
         return (column[after] - column[before]) / (times[after] - times[before])
     }
 
+    /** The rows whose readings are known, as those to be used. */
+    internal fun readRows(): BooleanArray = isRead?.copyOf() ?: BooleanArray(size) { true }
+
+    /** [column] in the rows whose readings are known alone; itself where that is all. */
+    public fun shown(column: DoubleArray): DoubleArray {
+        val known = isRead ?: return column
+        return column.filterIndexed { i, _ -> known[i] }.toDoubleArray()
+    }
+
+    /** This log without single numbers that are far beyond all others; itself where there are none. */
+    internal fun withoutWild(): MeasuredSeries {
+        val truth = reference ?: return this
+        val unread = readRows()
+        val rows = unread.indices.filter { unread[it] }
+        val off = WildNumbers.of(shown(values)).map { rows[it] }
+        val wrong = WildNumbers.of(truth)
+        if (off.isEmpty() && wrong.isEmpty()) return this
+        val bridged = WildNumbers.bridged(values, off)
+        off.forEach { unread[it] = false }
+        return MeasuredSeries(
+            times,
+            x,
+            y,
+            bridged,
+            WildNumbers.bridged(truth, wrong),
+            conditions,
+            isSparse,
+            if (off.isEmpty()) isRead else unread,
+            off.associateWith { values[it] - bridged[it] },
+            isGuessed,
+        )
+    }
+
     /** This log with the same [reference] but for its noise. */
     internal fun withQuieter(reference: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed)
 
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
 
     /** The same log with other readings. */
     internal fun withReadings(values: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed)
 
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {
@@ -124,11 +166,37 @@ public class MeasuredSeries(
         return MeasuredSeries(of(times), of(x), of(y), of(column), null)
     }
 
-    private companion object {
-        const val GAP_STEPS = 20
-        const val GAP_SECONDS = 60.0
-        const val SPEED_SECONDS = 2.5
-        const val HEADING_ROWS = 2
+    public companion object {
+        /**
+         * A log in which numbers of [values] and [reference] are missing here and there, NaN: what the sensor has seen
+         * where its reading is missing is kept, and what the truth was between two rows that are near is guessed.
+         */
+        public fun ofMissing(
+            times: DoubleArray,
+            x: DoubleArray,
+            y: DoubleArray,
+            values: DoubleArray,
+            reference: DoubleArray,
+            conditions: Map<String, DoubleArray>,
+        ): MeasuredSeries {
+            val missing = MissingNumbers(times, values, reference)
+            fun of(column: DoubleArray) = DoubleArray(missing.rows.size) { column[missing.rows[it]] }
+            return MeasuredSeries(
+                of(times),
+                of(x),
+                of(y),
+                of(values).also { column -> for (i in column.indices) if (!missing.isRead[i]) column[i] = 0.0 },
+                missing.guessed,
+                conditions.mapValues { (_, column) -> of(column) },
+                isRead = missing.isRead,
+                isGuessed = missing.isGuessed,
+            )
+        }
+
+        private const val GAP_STEPS = 20
+        private const val GAP_SECONDS = 60.0
+        private const val SPEED_SECONDS = 2.5
+        private const val HEADING_ROWS = 2
     }
 }
 

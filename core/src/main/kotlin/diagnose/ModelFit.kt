@@ -9,7 +9,8 @@ import kotlin.math.sqrt
  * A model with the numbers that fit a log best under correlated noise.
  *
  * @property model what was fitted. @property numbers its parameters. @property free which of them were fitted.
- * @property noise the noise at the optimum. @property residuals reading less prediction, length n.
+ * @property noise the noise at the optimum. @property residuals reading less prediction, length n; where no reading is
+ * known the mean of those beside it.
  * @property whitened the same, whitened; 0 in rows not in use. @property score twice the log-likelihood, less a
  * constant.
  */
@@ -28,9 +29,32 @@ internal class ModelFit(
     /** Whitened derivatives by each free parameter, on the scale it is fitted on. */
     val jacobian: Array<DoubleArray> by lazy { Fitting.jacobian(this) }
 
+    /** What the model shows, sensor units, length n. */
+    val predicted: DoubleArray by lazy {
+        val values = model.series.values
+        if (model.series.isRead == null) {
+            DoubleArray(values.size) { values[it] - residuals[it] }
+        } else {
+            DoubleArray(values.size).also { model.predict(numbers, it) }
+        }
+    }
+
+    private val usual by lazy { Spikes.spread(model.series.shown(whitened)) }
+
+    /**
+     * Whether row [i] is off alone by more than what is not known of the truth may make it: that fades with the lag, over
+     * the rows after it.
+     */
+    fun isBeyondDoubt(i: Int): Boolean = numbers[ResponseModel.TIME_CONSTANT] > FADING * model.series.period &&
+        abs(residuals[i]) > FAR_OFF * usual && Spikes.isSingle(residuals, i)
+
     /** Parameter [i] on the scale it is fitted on. */
     fun scaled(i: Int): Double = if (model.parameters[i].logarithmic) ln(numbers[i]) else numbers[i]
 }
+
+/** Rows, within a time constant, that show what fades; and deviations of the noise by which a row is far off in doubt. */
+private const val FADING = 3.0
+private const val FAR_OFF = 20.0
 
 /** Finds the numbers under which a log is likeliest: Levenberg-Marquardt on whitened residuals, the noise in turn. */
 internal object Fitting {
@@ -69,6 +93,7 @@ internal object Fitting {
         val residuals = DoubleArray(n)
         model.predict(numbers, residuals)
         for (i in 0 until n) residuals[i] = model.series.values[i] - residuals[i]
+        model.series.isRead?.let { bridge(residuals, it) }
         val whitened = DoubleArray(n)
         noise.whiten(residuals, whitened)
         return ModelFit(
@@ -80,6 +105,23 @@ internal object Fitting {
             whitened,
             noise.twiceLogLikelihood(squares(whitened)),
         )
+    }
+
+    /** Puts the mean of the residuals beside it where none [isRead]. */
+    private fun bridge(residuals: DoubleArray, isRead: BooleanArray) {
+        var before = Double.NaN
+        var i = 0
+        while (i < residuals.size) {
+            if (isRead[i]) {
+                before = residuals[i++]
+                continue
+            }
+            var next = i
+            while (next < residuals.size && !isRead[next]) next++
+            val after = residuals.getOrElse(next) { before }
+            residuals.fill(if (before.isNaN()) after else (before + after) / 2, i, next)
+            i = next
+        }
     }
 
     private fun descend(
@@ -131,7 +173,7 @@ internal object Fitting {
 
     /** Derivatives of the prediction by each free parameter of [fit]. */
     fun derivatives(fit: ModelFit): List<DoubleArray> {
-        val values = fit.model.series.values
+        val shown = fit.predicted
         return fit.free.indices.filter { fit.free[it] }.map { i ->
             val parameter = fit.model.parameters[i]
             val numbers = fit.numbers.copyOf()
@@ -139,10 +181,9 @@ internal object Fitting {
             val forward = if (parameter.logarithmic) numbers[i] * exp(size) else numbers[i] + size
             val sign = if (forward > parameter.upper) -1 else 1
             numbers[i] = if (parameter.logarithmic) numbers[i] * exp(sign * size) else numbers[i] + sign * size
-            val shifted = DoubleArray(values.size)
+            val shifted = DoubleArray(shown.size)
             fit.model.predict(numbers, shifted)
-            // Prediction = reading − residual.
-            for (r in shifted.indices) shifted[r] = (shifted[r] - (values[r] - fit.residuals[r])) / (sign * size)
+            for (r in shifted.indices) shifted[r] = (shifted[r] - shown[r]) / (sign * size)
             shifted
         }
     }

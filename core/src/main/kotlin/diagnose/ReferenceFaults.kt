@@ -72,7 +72,7 @@ internal class ReferenceFaults(
         val unknown = UnknownTruth.of(lead)
         val tau = base.numbers[ResponseModel.TIME_CONSTANT] +
             if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0
-        val spread = Spikes.spread(base.whitened)
+        val spread = Spikes.spread(series.shown(base.whitened))
         val scales =
             Scales(lead, unknown, unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, between.isHeld))
         val start = base.numbers.copyOf().also { it[ResponseModel.TIME_CONSTANT] = tau }

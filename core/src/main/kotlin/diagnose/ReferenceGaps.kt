@@ -48,11 +48,16 @@ internal object ReferenceGaps {
             from[1] = i - apart
             from[2] = i + apart
             from[3] = i + 2 * apart
-            var foretold = 0.0
-            for (k in from) foretold += truth[k] * weight(times, from, k, times[i])
-            errors[i] = abs(truth[i] - foretold)
+            errors[i] = abs(truth[i] - through(times, truth, from, times[i]))
         }
         return errors
+    }
+
+    /** The polynomial through rows [rows] of [truth] at [time], s. */
+    fun through(times: DoubleArray, truth: DoubleArray, rows: IntArray, time: Double): Double {
+        var sum = 0.0
+        for (k in rows) sum += truth[k] * weight(times, rows, k, time)
+        return sum
     }
 
     /** Lagrange's weight of row [k] among [from] at [time]. */

@@ -358,10 +358,10 @@ internal class Scales(
     }
 
     /** Finest step between different values, sensor units; 0 where there is none. */
-    val resolution: Double = resolution(series.values)
+    val resolution: Double = resolution(series.shown(series.values))
 
     /** From the lowest to the highest reading, sensor units. */
-    val range: Double = (series.values.maxOrNull() ?: 0.0) - (series.values.minOrNull() ?: 0.0)
+    val range: Double = series.shown(series.values).let { (it.maxOrNull() ?: 0.0) - (it.minOrNull() ?: 0.0) }
 
     companion object {
         private const val SLOWEST = 0.01

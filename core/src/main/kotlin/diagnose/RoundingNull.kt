@@ -89,7 +89,7 @@ internal class RoundingNull(private val fit: ModelFit, private val longest: Doub
             state = keep * state + sqrt(1 - keep * keep) * gaussian()
             val noise = sqrt(share) * state + sqrt(1 - share) * gaussian()
             // Prediction = reading − residual.
-            val shown = series.values[i] - fit.residuals[i]
+            val shown = fit.predicted[i]
             residuals[i] = step * round((clean[i] + spread * noise) / step) - shown
         }
         return residuals

@@ -61,7 +61,8 @@ internal class SmallShifts(private val last: ModelFit) {
         val shifted = shown(rest + Term(Cause.DEAD_TIME))
         val change = DoubleArray(all.size) { all[it] - without[it] }
         val moved = DoubleArray(all.size) { shifted[it] - without[it] }
-        return squares(change) < squares(moved)
+        // A slow path or a dead band shows on plateaus, too, where no shift of a step does.
+        return squares(change) < squares(moved) && StepShifts(last).beyond(term, change) < CERTAIN
     }
 
     /** What the model shows with [terms] alone, their numbers as in [last]; a dead time is one row's. */
@@ -112,6 +113,9 @@ internal class SmallShifts(private val last: ModelFit) {
 
         /** Rows by which a shift may differ from that of held steps and still be asked whether it is one. */
         const val NEARLY = 0.25
+
+        /** Twice a log-likelihood that is more than chance: 1 % over eighteen causes tried. */
+        const val CERTAIN = 11.9
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

@@ -63,7 +63,7 @@ internal class Starts(
         Cause.HYSTERESIS -> listOf(0.5, 1.5, 4.0).map { with(it * spread) } + with(0.03 * scales.range)
         Cause.QUANTISATION -> listOf(0.15, 0.3, 0.45).map { with(it * scales.resolution) }
         Cause.SATURATION -> {
-            val sorted = series.values.sortedArray()
+            val sorted = series.shown(series.values).sortedArray()
             val low = sorted[(0.01 * sorted.size).toInt()]
             val high = sorted[(0.99 * (sorted.size - 1)).toInt()]
             listOf(with(low, 1e12), with(-1e12, high), with(low, high))
@@ -80,7 +80,7 @@ internal class Starts(
 
     private fun rates(shares: List<Double> = listOf(0.5, 0.75, 0.9, 0.97)): List<Double> {
         val shown = DoubleArray(series.size - 1) { i ->
-            abs(series.values[i + 1] - fit.residuals[i + 1] - series.values[i] + fit.residuals[i]) /
+            abs(fit.predicted[i + 1] - fit.predicted[i]) /
                 (series.times[i + 1] - series.times[i])
         }.sortedArray()
         return shares.map { maxOf(shown[(it * (shown.size - 1)).toInt()], 1e-9 * scales.range) }

@@ -13,14 +13,15 @@ import kotlin.math.sqrt
  * nor where a reading is written many times throughout.
  */
 internal class StillReadings(private val fit: ModelFit) {
-    private val values = fit.model.series.values
+    private val values = fit.model.series.shown(fit.model.series.values)
+    private val residuals = fit.model.series.shown(fit.residuals)
 
     /** Numbers of rows of the stretches, in the order of the log. */
     private val lengths: List<Int> = if (fit.model.terms.any { it.cause == Cause.HYSTERESIS }) emptyList() else found()
 
     /** What is to be said; null where no stretch is more than chance at [level]. */
     fun words(level: Double): String? {
-        val spread = Spikes.spread(fit.whitened)
+        val spread = Spikes.spread(fit.model.series.shown(fit.whitened))
         val staying = Erf.erf(fit.model.scales.resolution / (sqrt(8.0) * spread))
         val sure = lengths.filter { values.size * staying.pow(it - 1) < level }
         if (sure.isEmpty() || sure.sum() > MOST * values.size) return null
@@ -41,7 +42,7 @@ internal class StillReadings(private val fit: ModelFit) {
 
     /** Whether rows [from] to before [to] show the highest or the lowest reading where that is about what is foretold. */
     private fun isAtEnd(from: Int, to: Int): Boolean {
-        val off = (from until to).sumOf { fit.residuals[it] } / (to - from)
+        val off = (from until to).sumOf { residuals[it] } / (to - from)
         val isHighest = values.all { it <= values[from] }
         val isLowest = values.all { it >= values[from] }
         val near = NEAR * sqrt(fit.variance)

@@ -28,15 +28,14 @@ internal class Structure(private val fit: ModelFit) {
     private val series = fit.model.series
     private val scales = fit.model.scales
     private val n = series.size
-    private val basis by lazy { Evidence.orthonormal(fit.jacobian.toList() + stepShifts()) }
+    private val basis by lazy { Evidence.orthonormal(fit.jacobian.toList() + StepShifts(fit).columns) }
     private val square = squares(fit.whitened)
-    private val isSharp = scales.unknown?.isSharp == true
-    private val prediction = DoubleArray(n) { series.values[it] - fit.residuals[it] }
+    private val prediction = fit.predicted
     private val rate = DoubleArray(n) { series.rise(prediction, it, it) }
 
     /** All looks, the most striking first. */
     fun dependences(): List<Dependence> {
-        val tests = groups().map { (name, columns) -> test(name, columns) } + periodic()
+        val tests = groups().map { (name, columns) -> test(name, columns) } + periodic() + settling()
         val adjusted = Evidence.holm(tests.map { it.pValue })
         return tests.mapIndexed { i, test -> test.copy(adjusted = adjusted[i]) }.sortedBy { it.pValue }
     }
@@ -127,23 +126,6 @@ internal class Structure(private val fit: ModelFit) {
         }
     }
 
-    /**
-     * What each step of a sharp truth, a little later, would add, whitened: when within its row it came is not known.
-     * Of many steps the largest, which add most: the work grows with the square of their number.
-     */
-    private fun stepShifts(): List<DoubleArray> {
-        val isBroken = scales.unknown?.takeIf { isSharp }?.isBroken ?: return emptyList()
-        val starts = (1 until n).filter { isBroken[it] }
-        val truth = requireNotNull(series.reference) { "structure needs a reference" }
-        val kept = starts.indices.sortedByDescending { abs(truth[starts[it]] - truth[starts[it] - 1]) }.take(MOST_STEPS)
-        return kept.map { k ->
-            val from = starts[k]
-            val to = starts.getOrElse(k + 1) { n }
-            val column = DoubleArray(n) { if (it in from until to) rate[it] else 0.0 }
-            column.also { fit.noise.whiten(it, it) }
-        }
-    }
-
     private fun moves(): Boolean = median(series.speed) > 0.02
 
     /** The truth earlier by several shares of the response's time: any linear response is near a sum of these. */
@@ -157,6 +139,14 @@ internal class Structure(private val fit: ModelFit) {
                 truth[from]
             }
         }
+    }
+
+    /** The likeliest of offsets that settle; neighbours among them are much the same. */
+    private fun settling(): Dependence {
+        val best = Settling.TIMES.map { test(SETTLES, listOf(Settling.column(series, it * series.duration))) }
+            .minBy { it.pValue }
+        val p = minOf(1.0, best.pValue * Settling.TIMES.size / ALIKE)
+        return best.copy(pValue = p, adjusted = p)
     }
 
     /** The strongest of all frequencies that the log can tell apart. */
@@ -208,6 +198,9 @@ internal class Structure(private val fit: ModelFit) {
         /** The description of what wanders slowly with time. */
         const val SLOW = "time (a slow wandering)"
 
+        /** The description of an offset that moves and comes to rest. */
+        const val SETTLES = "time (an offset that settles)"
+
         /** Six slow cosines over [series]. */
         fun slow(series: MeasuredSeries): List<DoubleArray> = (1..6).map { k ->
             DoubleArray(series.size) {
@@ -215,8 +208,9 @@ internal class Structure(private val fit: ModelFit) {
             }
         }
 
+        /** Of times within which an offset settles, so many count as one. */
+        private const val ALIKE = 2
         private const val MOST_FREQUENCIES = 2500
-        private const val MOST_STEPS = 200
 
         /** Frequencies that are looked at more closely, in which places beside them, and as how many they count. */
         private const val REFINED = 4

@@ -115,7 +115,9 @@ internal class UnknownTruth private constructor(
             // Where a row is missing the truth there is as far off as where one was left out to foretell it.
             val guesses = DoubleArray(n) { i ->
                 val isLong = i > 0 && !isGap[i] && times[i] - times[i - 1] > LONG * series.period
-                if (isLong) most(near, i, 1).takeIf { it > ROUNDING * spread } ?: 0.0 else 0.0
+                val isGuess = series.isGuessed?.get(i) == true
+                val guess = if (isLong || isGuess) most(near, i, if (isGuess) 2 else 1) else 0.0
+                if (guess > ROUNDING * spread) guess else 0.0
             }
             val sudden = DoubleArray(n) { if (isBroken[it]) steps[it] else 0.0 }
             return UnknownTruth(isGap, isBroken, squares(sudden) > MOSTLY * squares(steps), doubts, guesses, times)

@@ -25,7 +25,7 @@ internal class Weighing(
 ) {
     private val series = base.model.series
     private val scales = base.model.scales
-    private val report = FitReport(series, used)
+    private val report = FitReport(series, used, isOpen = before == 0.0)
     private val baseHeldOut = HeldOut.score(base, used)
     private val terms = terms()
     private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings) { told(terms.size) }
@@ -87,7 +87,7 @@ internal class Weighing(
                 Manoeuvres.of(open.sets.filter { it.size > 1 }.flatten().toSet())
             },
             left,
-            spikes,
+            (spikes + series.wild.keys).sorted(),
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
                 listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
@@ -123,7 +123,7 @@ internal class Weighing(
             )
         }
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
-        val off = spikes.size
+        val off = spikes.size + series.wild.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }
 
@@ -146,7 +146,7 @@ internal class Weighing(
         }
         add(Term(Cause.DRIFT))
         // A handful of rows has no place for a jump.
-        if (series.size >= FEWEST_ROWS) add(Term(Cause.OFFSET_STEPS))
+        if (series.readRows().count { it } >= FEWEST_ROWS) add(Term(Cause.OFFSET_STEPS))
         add(Term(Cause.HYSTERESIS))
         if (scales.resolution > COARSE * sqrt(base.variance)) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
@@ -188,6 +188,7 @@ internal class Weighing(
     private fun unlisted(loose: LooseReadings): Verdict? {
         val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
+        Settling(last, chosen).words()?.let { return Verdict.Unexplained(it) }
         val lasting = loose.lasting.size
         return when {
             lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->
@@ -197,8 +198,9 @@ internal class Weighing(
     }
 
     private fun insufficient(): Verdict? {
-        if (series.size < FEWEST_ROWS) return Verdict.InsufficientData("there are ${series.size} rows only")
-        if (isFlat(series.values) && isFlat(truth)) {
+        val rows = series.readRows().count { it }
+        if (rows < FEWEST_ROWS) return Verdict.InsufficientData("there are $rows rows only")
+        if (isFlat(series.shown(series.values)) && isFlat(truth)) {
             return Verdict.InsufficientData("neither the readings nor the truth ever change")
         }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&

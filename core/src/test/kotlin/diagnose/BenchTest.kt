@@ -60,6 +60,40 @@ class BenchTest {
         assertTrue(loose.pValue < 1e-6, "${loose.pValue}")
     }
 
+    /** A probe moved between samples at any instant within a row: what a lag of 6 s shows, a share of it [slow] s. */
+    private fun moved(slow: Double, share: Double): MeasuredSeries {
+        val moves = List(24) { 20 * it + 5 + random.nextDouble() }
+        val levels = List(moves.size + 1) { 3 * random.nextDouble() }
+        fun level(time: Double) = levels[moves.count { it <= time }]
+        var fast = level(0.0)
+        var late = fast
+        val per = 50
+        val shown = DoubleArray(n) { row ->
+            if (row > 0) {
+                for (k in 0 until per) {
+                    val water = level(row - 1 + (k + 0.5) / per)
+                    fast += (1 - exp(-1.0 / per / 6)) * (water - fast)
+                    late += (1 - exp(-1.0 / per / slow)) * (water - late)
+                }
+            }
+            (1 - share) * fast + share * late
+        }
+        return log(noisy(shown, 0.01), DoubleArray(n) { level(it.toDouble()) })
+    }
+
+    @Test
+    fun whatShowsOnPlateausIsNamedWheneverEachStepCame() {
+        assertEquals(Verdict.Named(listOf(Cause.TWO_PATH_RESPONSE)), Diagnosis(moved(60.0, 0.04)).run().verdict)
+        assertEquals(Verdict.Consistent, Diagnosis(moved(60.0, 0.0)).run().verdict)
+    }
+
+    @Test
+    fun wildReadingsOnPlateausAreNotGatheredWhereTheTruthStandsStill() {
+        val log = moved(60.0, 0.0)
+        for (row in listOf(37, 90, 171, 239, 311, 402, 460)) log.values[row] += 0.2
+        assertEquals(Verdict.Named(listOf(Cause.OUTLIERS)), Diagnosis(log).run().verdict)
+    }
+
     @Test
     fun aTruthThatNeverMovesShowsNoLag() {
         val result = Diagnosis(log(noisy(DoubleArray(FEW) { 8.2 }, 0.015), DoubleArray(FEW) { 8.2 })).run()

@@ -82,6 +82,18 @@ class SmallEffectsTest {
         assertContains(assertIs<Verdict.Unexplained>(verdict).what, "and settles within some")
     }
 
+    /** Ten standard errors; a drift or a jump explains most of it. */
+    @Test
+    fun aSmallOffsetThatSettlesIsNoDriftAndNoJump() {
+        val clean = shown(SensorStage.Lag(8.0))
+        for (time in listOf(90.0, 200.0)) {
+            val verdict = diagnosed(DoubleArray(n) { clean[it] + 0.012 * exp(-it / time) })
+            assertContains(assertIs<Verdict.Unexplained>(verdict).what, "settles", message = "$time")
+        }
+        val drifting = diagnosed(DoubleArray(n) { clean[it] + 6e-6 * it })
+        assertEquals(listOf(Cause.DRIFT), assertIs<Verdict.Named>(drifting).causes)
+    }
+
     /** Nine standard errors for who knows the noise; the base model takes them for noise that wanders. */
     @Test
     fun twoSmallJumpsThatUndoEachOtherAreNamed() {

@@ -58,6 +58,24 @@ class SteppedTruthTest {
         val shown = stepped(smooth, 8.0, 1.0)
         val result = diagnosed(noisy(DoubleArray(n) { shown[maxOf(it - 3, 0)] }, 0.01), smooth)
         assertEquals(Verdict.Named(listOf(Cause.DEAD_TIME)), result.verdict)
+        // In water as smooth as this the way of stepping does not show, and half a row is open.
+        val late = result.effects.single().parameters.first { it.name == "dead_time_s" }
+        assertTrue(3.0 in late.interval!!.lower..late.interval!!.upper, "$late")
+        assertTrue(late.interval!!.upper - late.interval!!.lower < 1.2, "$late")
+    }
+
+    @Test
+    fun cellsOfEvenWaterSteppedByTheRowBeforeHaveNoDeadTimeAtUnevenTimes() {
+        val times = DoubleArray(n) { it + 0.6 * random.nextDouble() }
+        val cells = DoubleArray(n / 6) { random.nextDouble() }
+        val truth = DoubleArray(n) { cells[(times[it] / 6.3).toInt()] }
+        var state = truth[0]
+        val values = DoubleArray(n) { i ->
+            if (i > 0) state += (times[i] - times[i - 1]) / 9 * (truth[i - 1] - state)
+            state + 0.001 * random.nextGaussian()
+        }
+        val still = DoubleArray(n)
+        assertEquals(Verdict.Consistent, Diagnosis(MeasuredSeries(times, still, still, values, truth)).run().verdict)
     }
 
     @Test
@@ -73,6 +91,65 @@ class SteppedTruthTest {
             val truth = DoubleArray(3000) { 5 + sin(it / 14.0) + 0.7 * sin(it / 37.0 + 1) }
             assertEquals(Verdict.Consistent, diagnosed(noisy(stepped(truth, 60.0, share), 0.002), truth, base).verdict)
         }
+    }
+
+    @Test
+    fun whatASensorHasSeenWhereItsReadingIsMissingIsNoCause() {
+        val isRead = BooleanArray(n) { it % 5 != 2 }
+        for (share in listOf(0.0, 1.0)) {
+            val truth = rough()
+            val values = noisy(stepped(truth, 8.0, share), 0.01)
+            for (i in values.indices) if (!isRead[i]) values[i] = 1e3
+            val times = DoubleArray(n) { it.toDouble() }
+            val still = DoubleArray(n)
+            val result = Diagnosis(MeasuredSeries(times, still, still, values, truth, isRead = isRead)).run()
+            assertEquals(Verdict.Consistent, result.verdict, "$share")
+            assertEquals(n * 4 / 5, result.baseline.predicted.size)
+            assertEquals(8.0, result.baseline.parameters.first { it.name == "time_constant_s" }.value, 0.1)
+        }
+    }
+
+    @Test
+    fun aTruthThatIsMissingHereAndThereIsNoCause() {
+        val truth = DoubleArray(n).also { for (i in 1 until n) it[i] = 0.7 * it[i - 1] + 0.3 * smooth[i] }
+        val values = noisy(stepped(truth, 8.0, 0.0), 0.003)
+        val times = DoubleArray(n) { it.toDouble() }
+        for (i in 30 until n step 31) truth[i] = Double.NaN
+        for (i in 17 until n step 23) values[i] = Double.NaN
+        val still = DoubleArray(n)
+        val series = MeasuredSeries.ofMissing(times, still, still, values, truth, emptyMap())
+        assertEquals(n, series.size)
+        val result = Diagnosis(series).run()
+        assertEquals(Verdict.Consistent, result.verdict)
+        assertEquals((0 until n).count { values[it].isFinite() && truth[it].isFinite() }, result.baseline.predicted.size)
+        // Over a longer gap nobody knows how the truth went.
+        for (i in 300 until 310) truth[i] = Double.NaN
+        assertTrue(n > MeasuredSeries.ofMissing(times, still, still, values, truth, emptyMap()).size)
+    }
+
+    @Test
+    fun aWildReadingBesideATruthInDoubtIsNoJump() {
+        val truth = rough()
+        val fine = 20
+        var state = truth[0]
+        val shown = DoubleArray(n) { i ->
+            if (i > 0) {
+                repeat(fine) { k ->
+                    val water = truth[i - 1] + (k + 0.5) / fine * (truth[i] - truth[i - 1])
+                    state += (1 - exp(-1.0 / fine / 12)) * (water - state)
+                }
+            }
+            state
+        }
+        val values = noisy(shown, 0.002)
+        val times = DoubleArray(n) { it.toDouble() }
+        val unknown = UnknownTruth.of(MeasuredSeries(times, times, DoubleArray(n), values, truth))
+        val doubtful = (20 until n - 20).filter(unknown::isInDoubt)
+        val wild = listOf(doubtful.first(), doubtful[doubtful.size / 2], doubtful.last())
+        for (row in wild) values[row] += 0.15
+        val result = diagnosed(values, truth)
+        assertEquals(wild, result.spikes)
+        assertTrue(result.effects.none { it.cause == Cause.OFFSET_STEPS }, "${result.verdict}")
     }
 
     @Test

@@ -77,8 +77,9 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         val given = sensor?.let { SensorFile.read(it) }
         val wanted = conditions.toMap() + listOfNotNull(reference?.let { DiagnosisLog.REFERENCE to it }) +
             compare.map { DiagnosisLog.compared(it) to it }
+        // What the sensor has seen where its reading is missing a reference knows.
         // Beside a reference the probe need not have been anywhere: on a bench it is put from one sample into another.
-        val choice = logOptions.choice().copy(conditions = wanted, needsPlace = reference == null)
+        val choice = logOptions.choice().copy(conditions = wanted, needsPlace = reference == null, keepsUnread = reference != null)
         val opened = SurveyLog.open(Path.of(log), choice)
         compare.firstOrNull { it == opened.quantity }?.let {
             throw BadFlag("--compare", "another column than the readings'", "'$it'")
@@ -88,8 +89,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         }
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
-            if (read.series.size < FEWEST_ROWS) {
-                throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.series.size}")
+            if (read.columns.size < FEWEST_ROWS) {
+                throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.columns.size}")
             }
             val shown = !quiet && !json
             val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->

@@ -46,9 +46,9 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
         if (moves) {
             // As they were tested.
             val series = diagnosed.log.series
-            add { against("speed", "Speed (m/s)", series.speed) }
+            add { against("speed", "Speed (m/s)", series.shown(series.speed)) }
             val custom = if (diagnosed.log.heading == null) "counter-clockwise from east" else "as logged"
-            add { against("heading", "Heading (degrees $custom)", degrees(series.heading)) }
+            add { against("heading", "Heading (degrees $custom)", degrees(series.shown(series.heading))) }
             add { position() }
         }
         columns.condition(Conditions.TEMPERATURE)?.let { add { against("temperature", "Temperature (°C)", it) } }

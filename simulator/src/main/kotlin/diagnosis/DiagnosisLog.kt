@@ -69,10 +69,14 @@ class DiagnosisLog private constructor(
         ): DiagnosisLog {
             val names = conditions.keys + compare.map { compared(it) }
             val columns = LogColumns(names)
+            // With the rows whose readings or references are missing: what the sensor has seen there shows later.
+            val all = LogColumns(names)
             val steps = ReferenceSteps()
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
+                if (columns.size < MOST_ROWS) all.add(time.seconds, x, y, value, others)
                 when {
+                    value.isNaN() -> Unit
                     columns.size >= MOST_ROWS -> cut++
                     reference != null && others[REFERENCE].isNaN() -> steps.add(time.seconds, isKnown = false)
                     else -> {
@@ -84,7 +88,7 @@ class DiagnosisLog private constructor(
             val heading = conditions[Conditions.HEADING]?.let { column ->
                 HeadingUnit(column, checkNotNull(columns.condition(Conditions.HEADING)))
             }
-            if (heading?.inDegrees == true) columns.toRadians(Conditions.HEADING)
+            if (heading?.inDegrees == true) listOf(columns, all).forEach { it.toRadians(Conditions.HEADING) }
             val others = names.mapNotNull { columns.condition(it) }.toTypedArray()
             SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
@@ -92,7 +96,12 @@ class DiagnosisLog private constructor(
                 log.format,
                 log.quantity,
                 reference,
-                columns.series(reference != null, steps.isSparse, conditions.keys),
+                // Where most references are missing how the truth went is not to be guessed.
+                if (all.size == columns.size || steps.isSparse || compare.isNotEmpty()) {
+                    columns.series(reference != null, steps.isSparse, conditions.keys)
+                } else {
+                    all.missing(conditions.keys)
+                },
                 columns,
                 pass,
                 steps,

@@ -33,7 +33,7 @@ internal class DiagnosisReport(
         page.answer(diagnosed.answer)
         page.summary("Verdict", result.verdict.label)
         page.summary("Causes", diagnosed.causes.joinToString(", ").ifEmpty { "–" })
-        page.summary("Rows", "${diagnosed.log.series.size}")
+        page.summary("Rows", "${diagnosed.log.columns.size}")
         val isHeldOut = !result.baseline.heldOutRmse.isNaN()
         val residuals = if (isHeldOut) "Residuals on held-out blocks" else "Residuals, nothing held out"
         fun shown(model: ModelAssessment) =

@@ -64,6 +64,16 @@ class LogColumns(private val conditions: Collection<String>) {
         isSparse,
     )
 
+    /** The same of these columns where readings and references that are not known are NaN. */
+    fun missing(conditions: Collection<String>) = MeasuredSeries.ofMissing(
+        times,
+        x,
+        y,
+        values,
+        reference,
+        conditions.associateWith { checkNotNull(condition(it)) },
+    )
+
     private companion object {
         const val FIXED = 4
     }

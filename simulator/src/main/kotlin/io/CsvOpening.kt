@@ -59,7 +59,7 @@ internal object CsvOpening {
         val columns = CsvColumns.of(CsvColumns.distinct(header), layout, choice, ::problem)
         CsvUnits(content, layout, columns.names).check(columns, choice.x != null)
         val times = CsvTimes.of(content, layout, columns, choice)
-        return CsvSurvey(content, layout, columns, times, choice.skipBadRows)
+        return CsvSurvey(content, layout, columns, times, choice.skipBadRows, choice.keepsUnread)
     }
 
     private fun fields(line: String, separator: Char): List<String>? = try {

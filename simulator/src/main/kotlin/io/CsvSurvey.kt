@@ -25,6 +25,7 @@ internal class CsvSurvey internal constructor(
     internal val columns: CsvColumns,
     private val times: CsvTimes,
     private val skipBadRows: Boolean,
+    private val keepsUnread: Boolean = false,
 ) : SurveyLog {
     override val file: Path get() = content.file
     override val format = kind()
@@ -118,6 +119,7 @@ internal class CsvSurvey internal constructor(
         private var headerSeen = false
         private val far = FarFixes(::hand)
         private val order = TimeOrder(::use) { row, other, fault -> refuse(timeProblem(row, other, fault)) }
+        private val unread = UnreadRows(order::take)
         private val local = DoubleArray(2)
         private val inDegrees = columns.latitude != CsvColumns.NONE
         private val northColumn = if (inDegrees) columns.latitude else columns.y
@@ -144,11 +146,18 @@ internal class CsvSurvey internal constructor(
                 val reason = withoutReading(row)
                 val problem = if (reason == null) problemOf(row) else null
                 when {
-                    reason != null -> skips.count(reason)
-                    problem == null -> order.take(placed(row))
+                    reason != null -> passOver(row, reason)
+                    problem == null -> unread.read(placed(row))
                     else -> refuse(problem)
                 }
             }
+        }
+
+        private fun passOver(row: CsvRow, reason: String) {
+            skips.count(reason)
+            if (!keepsUnread || reason !in UnreadRows.REASONS) return
+            row.numbers[VALUE] = 0.0
+            if (problemOf(row) == null) unread.add(placed(row))
         }
 
         /** Why [row] is right and yet holds no reading; null where it holds one, or is wrong. */
@@ -168,14 +177,14 @@ internal class CsvSurvey internal constructor(
             !row.numbers[TIME].isFinite() -> null
             isMissing(row, northColumn, NORTH) || isMissing(row, eastColumn, EAST) -> NO_PLACE
             !isGiven(northColumn, row.numbers[NORTH]) || !isGiven(eastColumn, row.numbers[EAST]) -> null
-            isMissing(row, columns.value, VALUE) -> "missing readings"
+            isMissing(row, columns.value, VALUE) -> UnreadRows.MISSING
             else -> code(row)
         }
 
         /** What a number in [row] that stands for nothing leaves it without. */
         private fun code(row: CsvRow): String? = when {
             CellText.isCode(row.numbers[NORTH]) || CellText.isCode(row.numbers[EAST]) -> NO_PLACE
-            CellText.isCode(row.numbers[VALUE]) -> "codes for a missing reading"
+            CellText.isCode(row.numbers[VALUE]) -> UnreadRows.CODES
             else -> null
         }
 
@@ -345,7 +354,7 @@ internal class CsvSurvey internal constructor(
 
         private fun hand(row: TimedRow) {
             sink.take(BoatTime(row.seconds), row.x, row.y, row.value, row.conditions)
-            readings++
+            if (!row.value.isNaN()) readings++
         }
 
         private fun conditions(row: CsvRow): Conditions {

@@ -22,6 +22,8 @@ package stillwater.io
  * @property needsPlace whether a log without places is an error; else all its readings are at 0, 0.
  * @property maxPoseAge longest time between a reading and a pose it is placed by, s, above 0; null for [USUAL_POSE_AGE].
  *   Platypus logs only: in a table each reading has its place.
+ * @property keepsUnread whether rows that lack the reading alone are handed on, with NaN, before the next that has one;
+ *   they are counted as left out all the same. Tables only.
  * @throws IllegalArgumentException if [maxPoseAge] or [overnight] is out of its range.
  */
 data class LogChoice(
@@ -39,6 +41,7 @@ data class LogChoice(
     val dateOrder: DateOrder? = null,
     val timeUnit: TimeUnit? = null,
     val overnight: Double? = null,
+    val keepsUnread: Boolean = false,
 ) {
     init {
         require(maxPoseAge == null || (maxPoseAge > 0 && maxPoseAge.isFinite())) {

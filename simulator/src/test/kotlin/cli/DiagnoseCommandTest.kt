@@ -41,6 +41,23 @@ class DiagnoseCommandTest {
         return file.toString()
     }
 
+    /** A walk of the truth that a sensor follows by what the row before had, of which every fifth reading is missing. */
+    private fun unread(): String {
+        val random = Random(5)
+        var truth = 0.0
+        var state = 0.0
+        val lines = List(600) { i ->
+            state += (truth - state) / 6
+            truth = 0.97 * truth + random.nextDouble(-1.0, 1.0)
+            val reading = if (i % 5 == 2) (if (i % 2 == 0) "" else "-9999") else "${state + random.nextDouble(-0.01, 0.01)}"
+            "$i,$reading,$truth"
+        }
+        // A row without a reading need not have its time in order.
+        val file = directory.resolve("unread.csv")
+        Files.write(file, listOf("time_s,probe,sample") + lines + "3,,1.0" + "700,${state},$truth")
+        return file.toString()
+    }
+
     private fun huge(): String {
         val file = directory.resolve("huge.csv")
         Files.write(file, listOf("time_s,x_m,y_m,probe") + List(99) { "$it,$it,0,${if (it == 7) 1e90 else 1.0}" })
@@ -63,6 +80,16 @@ class DiagnoseCommandTest {
         val blind = diagnose("$bare", "--value", "probe", "--out", "${directory.resolve("blind")}")
         assertEquals(2, blind.statusCode)
         assertContains(blind.output, "expected columns lat_deg and lon_deg, or x_m and y_m")
+    }
+
+    @Test
+    fun whatTheSensorSawWhereItsReadingIsMissingIsNotLost() {
+        val out = directory.resolve("out")
+        val result = diagnose(unread(), "--value", "probe", "--reference", "sample", "--numbers-only", "--out", "$out")
+        assertContains(result.output, "verdict: consistent")
+        assertContains(result.output, "61 rows left out: missing readings")
+        assertContains(result.output, "60 rows left out: codes for a missing reading")
+        assertEquals(1 + 481, Files.readAllLines(out.resolve("residuals.csv")).size)
     }
 
     @Test
