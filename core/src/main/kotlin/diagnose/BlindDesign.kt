@@ -70,8 +70,24 @@ internal class BlindDesign(
         }
     }
 
-    /** Row [i] of R, length [size]; new. */
-    fun row(i: Int): DoubleArray = ofColumns { all -> DoubleArray(size) { all[it][i] } }
+    /** The rows [from] until [to] of R, column by column; new. */
+    fun rows(from: Int, to: Int): Array<DoubleArray> =
+        ofColumns { all -> Array(size) { all[it].copyOfRange(from, to) } }
+
+    /** Rᵀ of jumps of one unit at each of [rows], which stay, whitened; rows ascend. */
+    fun jumps(rows: List<Int>): List<DoubleArray> {
+        val out = rows.map { DoubleArray(size) }
+        ofColumns { columns ->
+            loops.each(HALVES) { half ->
+                val all = DoubleArray(n)
+                for (k in half * size / HALVES until (half + 1) * size / HALVES) {
+                    noise.jumps(columns[k], all)
+                    for (j in rows.indices) out[j][k] = all[rows[j]]
+                }
+            }
+        }
+        return out
+    }
 
     private class Product(val right: DoubleArray, val transposed: DoubleArray)
 

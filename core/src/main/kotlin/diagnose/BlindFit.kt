@@ -28,6 +28,16 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
         }
     }
 
+    /** Writes what [whitened] is with whitened jumps into [out]: jumps of one unit at each row, which stay. */
+    fun jumps(whitened: DoubleArray, out: DoubleArray) {
+        noise.turned(whitened, out)
+        var sum = 0.0
+        for (i in out.indices.reversed()) {
+            sum += out[i] / spread[i]
+            out[i] = sum
+        }
+    }
+
     /** Whether [other] whitens in the same way. */
     fun isSame(other: BlindNoise): Boolean =
         this === other || (noise.isSame(other.noise) && spread.contentEquals(other.spread))
@@ -109,8 +119,18 @@ internal class BlindFit private constructor(
         return white
     }
 
-    /** L⁻¹ of row [i] of the derivatives, L Lᵀ the posterior's precision. */
-    fun halfRow(i: Int): DoubleArray = factor.half(design.row(i))
+    /**
+     * L⁻¹ of the rows [from] until [to] of the derivatives, L Lᵀ the posterior's precision: element (k, i) is the k-th of
+     * row from + i.
+     */
+    fun halfRows(from: Int, to: Int): Array<DoubleArray> = design.rows(from, to).also(factor::halves)
+
+    /** H⁻¹ [pulled], H the posterior's precision. */
+    fun solved(pulled: DoubleArray): DoubleArray = factor.back(factor.half(pulled))
+
+    /** Jumps at each of [rows], which ascend. */
+    fun jumps(rows: List<Int>): List<BlindJump> =
+        design.jumps(rows).mapIndexed { k, pulled -> BlindJump(this, rows[k], pulled) }
 
     /** Heights of which the posterior's covariance is that over the noise's variance, for [signs] of unit covariance. */
     fun drawn(signs: DoubleArray): DoubleArray = factor.back(signs)

@@ -24,7 +24,14 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
      * the even places, by which a drift is less often taken for the best of many jumps.
      */
     private val count: Double by lazy {
-        val scan = JumpScan.of(n, edge, LOOKED, ::column)
+        val scan = JumpScan.of(n, edge, LOOKED) { rows ->
+            val looked = known((rows + rows.map { it + 1 }).distinct().sorted())
+            rows.map { row ->
+                val one = looked.getValue(row)
+                val next = looked.getValue(row + 1)
+                JumpScan.angle(one.length, next.length, one.product(next))
+            }
+        }
         maxOf(scan.single(CLEAR) / Evidence.pValue(CLEAR, 1), minOf(PLACES, n / 10).toDouble())
     }
 
@@ -36,19 +43,37 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
      * not near those [taken]. Null where there is no room.
      */
     fun best(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
-        fun gain(row: Int): Double = column(row).let { c -> dot(c, rest).let { it * it } / maxOf(squares(c), LEAST) }
+        val explained = BlindJump.Rest(state.fit, rest)
+
+        fun best(rows: List<Int>): Int? {
+            val jumps = known(rows.sorted())
+            return rows.maxByOrNull { row ->
+                val jump = jumps.getValue(row)
+                jump.product(explained).let { it * it } / maxOf(jump.length, LEAST)
+            }
+        }
 
         fun isFree(row: Int) = taken.all { abs(it - (times[row] - times[0])) > duration / PLACES }
         val rows = ((edge until n - edge step stride) + striking).distinct().filter(::isFree)
-        var row = rows.maxByOrNull(::gain) ?: return null
+        var row = best(rows) ?: return null
         var reach = stride
         while (reach > 0) {
             val step = maxOf(reach / FINER, 1)
             val near = (maxOf(row - reach, edge)..minOf(row + reach, n - edge - 1)) step step
-            row = near.filter(::isFree).plus(row).maxBy(::gain)
+            row = checkNotNull(best((near.filter(::isFree) + row).distinct()))
             reach = if (step > 1) step else 0
         }
         return (times[row] + times[row - 1]) / 2 - times[0] to column(row)
+    }
+
+    private val found = HashMap<Int, BlindJump>()
+
+    /** Jumps at [rows], which ascend; each is found once. */
+    @Synchronized
+    private fun known(rows: List<Int>): Map<Int, BlindJump> {
+        val new = rows.filter { it !in found }
+        if (new.isNotEmpty()) state.fit.jumps(new).forEachIndexed { k, jump -> found[new[k]] = jump }
+        return rows.associateWith(found::getValue)
     }
 
     private fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })

@@ -65,6 +65,19 @@ internal class Cholesky(private val lower: Array<DoubleArray>) {
         return out
     }
 
+    /** Replaces [rows], those of a matrix, by L⁻¹ of it; whole rows are taken off each other. */
+    fun halves(rows: Array<DoubleArray>) {
+        val all = rows.asList()
+        val heights = DoubleArray(n)
+        for (a in 0 until n) {
+            val own = rows[a]
+            val row = lower[a]
+            for (k in 0 until a) heights[k] = -row[k]
+            Combination.add(all, heights, own, a)
+            for (i in own.indices) own[i] /= row[a]
+        }
+    }
+
     /** Takes what is known of [out], the elements before [i], off the next four: each sum waits for its own alone. */
     private fun dots(i: Int, out: DoubleArray) {
         val a = lower[i]

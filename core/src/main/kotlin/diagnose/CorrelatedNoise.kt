@@ -122,6 +122,20 @@ internal class CorrelatedNoise(
         }
     }
 
+    /**
+     * Writes Wᵀ [whitened] into [out], which may be the same, where whitening is W: what [whitened] is with a whitened
+     * column is what [out] is with the column. Of noise without shocks alone.
+     */
+    fun turned(whitened: DoubleArray, out: DoubleArray) {
+        check(shocks == null) { "shocks are not turned" }
+        var state = 0.0
+        for (i in whitened.indices.reversed()) {
+            val innovation = if (used[i]) gain[i] * state + scale[i] * whitened[i] else 0.0
+            out[i] = innovation
+            state = keep[i] * (state - innovation)
+        }
+    }
+
     private fun whiten(column: DoubleArray, out: DoubleArray, fade: DoubleArray) {
         var state = 0.0
         var shaken = 0.0

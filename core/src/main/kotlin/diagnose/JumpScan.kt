@@ -64,27 +64,31 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
         /** The scan of the rows from [edge] to as far from the end, on top of [fit], under its noise. */
         fun of(fit: ModelFit, edge: Int): JumpScan {
             val basis = Evidence.orthonormal(fit.jacobian.toList())
-            return of(fit.model.series.size, edge, MOST_STEPS) { JumpPlaces.column(fit, it, basis) }
+            return of(fit.model.series.size, edge, MOST_STEPS) { rows ->
+                rows.map { row ->
+                    val one = JumpPlaces.column(fit, row, basis)
+                    val next = JumpPlaces.column(fit, row + 1, basis)
+                    angle(squares(one), squares(next), dot(one, next))
+                }
+            }
         }
 
         /**
-         * The scan of the rows from [edge] to as far from the end of [rows], where [column] is what a jump at a row
-         * adds; [most] of the steps between them are looked at.
+         * The scan of the rows from [edge] to as far from the end of [rows]; [most] of the steps between them are looked
+         * at, of which [angles] tells θ, radians, of those from each row given to the next.
          */
-        fun of(rows: Int, edge: Int, most: Int, column: (Int) -> DoubleArray): JumpScan {
+        fun of(rows: Int, edge: Int, most: Int, angles: (List<Int>) -> List<Double>): JumpScan {
             val all = rows - 2 * edge - 1
             if (all < 1) return JumpScan(doubleArrayOf(), 0.0)
             val looked = minOf(all, most)
-            val steps = DoubleArray(looked) { k ->
-                val row = edge + ((k + 0.5) * all / looked).toInt()
-                angle(column(row), column(row + 1))
-            }
-            return JumpScan(steps, all / looked.toDouble())
+            val places = List(looked) { k -> edge + ((k + 0.5) * all / looked).toInt() }
+            return JumpScan(angles(places).toDoubleArray(), all / looked.toDouble())
         }
 
-        private fun angle(a: DoubleArray, b: DoubleArray): Double {
-            val lengths = sqrt(squares(a) * squares(b))
-            return if (lengths > 0) sqrt(maxOf(0.0, 2 * (1 - dot(a, b) / lengths))) else 0.0
+        /** θ between two columns of the square sums [one] and [other], whose products' sum is [product], radians. */
+        fun angle(one: Double, other: Double, product: Double): Double {
+            val lengths = sqrt(one * other)
+            return if (lengths > 0) sqrt(maxOf(0.0, 2 * (1 - product / lengths))) else 0.0
         }
 
         /** ν of [x]: 1 for small steps, 2/x² where neighbours say nothing of each other. */

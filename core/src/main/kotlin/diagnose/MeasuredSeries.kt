@@ -22,39 +22,61 @@ import kotlin.math.hypot
  * @property wild by how much the readings that are far beyond all others are off those beside them, sensor units, by row;
  *   they count as not read.
  * @property isGuessed whether the truth in each row was guessed from those beside it, length n; null where none was.
+ * @param like the same log with another reference or other readings, whose times, places and conditions need no second
+ *   look; null for none.
  * @throws IllegalArgumentException if lengths differ, times do not ascend or a number is not finite.
  */
-public class MeasuredSeries(
+public class MeasuredSeries private constructor(
     internal val times: DoubleArray,
     internal val x: DoubleArray,
     internal val y: DoubleArray,
     internal val values: DoubleArray,
     internal val reference: DoubleArray?,
-    internal val conditions: Map<String, DoubleArray> = emptyMap(),
-    internal val isSparse: Boolean = false,
-    internal val isRead: BooleanArray? = null,
-    internal val wild: Map<Int, Double> = emptyMap(),
-    internal val isGuessed: BooleanArray? = null,
+    internal val conditions: Map<String, DoubleArray>,
+    internal val isSparse: Boolean,
+    internal val isRead: BooleanArray?,
+    internal val wild: Map<Int, Double>,
+    internal val isGuessed: BooleanArray?,
+    like: MeasuredSeries?,
 ) {
+    public constructor(
+        times: DoubleArray,
+        x: DoubleArray,
+        y: DoubleArray,
+        values: DoubleArray,
+        reference: DoubleArray?,
+        conditions: Map<String, DoubleArray> = emptyMap(),
+        isSparse: Boolean = false,
+        isRead: BooleanArray? = null,
+        wild: Map<Int, Double> = emptyMap(),
+        isGuessed: BooleanArray? = null,
+    ) : this(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed, null)
+
     init {
-        val columns =
-            listOf("x" to x, "y" to y, "values" to values) + listOfNotNull(reference?.let { "reference" to it })
-        for ((name, column) in columns) {
-            require(column.size == times.size) {
-                "$name (${column.size} rows) must be as long as times (${times.size})"
-            }
-            require(column.all { it.isFinite() }) { "$name must be finite" }
-        }
-        for ((name, column) in conditions) {
-            require(column.size == times.size) {
-                "$name (${column.size} rows) must be as long as times (${times.size})"
-            }
+        if (like == null) checkRows()
+        for ((name, column) in listOfNotNull("values" to values, reference?.let { "reference" to it })) {
+            checkColumn(name, column)
         }
         require(isRead == null || isRead.size == times.size) { "isRead must be as long as times (${times.size})" }
+    }
+
+    private fun checkRows() {
+        checkColumn("x", x)
+        checkColumn("y", y)
+        for ((name, column) in conditions) checkLength(name, column)
         require(times.all { it.isFinite() }) { "times must be finite" }
         for (i in 1 until times.size) {
             require(times[i] > times[i - 1]) { "times[$i] (${times[i]} s) must be after ${times[i - 1]} s" }
         }
+    }
+
+    private fun checkColumn(name: String, column: DoubleArray) {
+        checkLength(name, column)
+        require(column.all { it.isFinite() }) { "$name must be finite" }
+    }
+
+    private fun checkLength(name: String, column: DoubleArray) = require(column.size == times.size) {
+        "$name (${column.size} rows) must be as long as times (${times.size})"
     }
 
     /** Number of rows. */
@@ -69,22 +91,24 @@ public class MeasuredSeries(
 
     /** Median time between rows, s; 1 where there are fewer than two. */
     internal val period: Double =
-        if (times.size < 2) 1.0 else median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
+        like?.period ?: if (times.size < 2) 1.0 else median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
 
     /** A longer step than this is a gap, over which the sensor is taken to have settled, s. */
     internal val gap: Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
 
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
-    public val speed: DoubleArray = conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
+    public val speed: DoubleArray = like?.speed ?: conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
 
     /** Temperature of each row, °C, or null where there is no such condition. */
-    internal val temperature: DoubleArray? = conditions[Conditions.TEMPERATURE]?.let(::filled)
+    internal val temperature: DoubleArray? =
+        if (like != null) like.temperature else conditions[Conditions.TEMPERATURE]?.let(::filled)
 
     /**
      * Heading of each row, rad: the condition of that name, by its own custom, or the way the positions go over some
      * rows, counter-clockwise from east.
      */
-    public val heading: DoubleArray by lazy {
+    public val heading: DoubleArray get() = headings.value
+    private val headings: Lazy<DoubleArray> = like?.headings ?: lazy {
         conditions[Conditions.HEADING]?.let(::filled) ?: DoubleArray(times.size) { i ->
             val from = maxOf(i - HEADING_ROWS, 0)
             val to = minOf(i + HEADING_ROWS, times.size - 1)
@@ -150,14 +174,15 @@ public class MeasuredSeries(
 
     /** This log with the same [reference] but for its noise. */
     internal fun withQuieter(reference: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed, this)
 
     /** This log with [reference] as what is known of the truth. */
-    internal fun withReference(reference: DoubleArray) = MeasuredSeries(times, x, y, values, reference, conditions)
+    internal fun withReference(reference: DoubleArray) =
+        MeasuredSeries(times, x, y, values, reference, conditions, false, null, emptyMap(), null, this)
 
     /** The same log with other readings. */
     internal fun withReadings(values: DoubleArray) =
-        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed)
+        MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed, this)
 
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {

@@ -51,11 +51,12 @@ class BlindColumnsTest {
     private fun assertSameAnswers(expected: BlindDesign, found: BlindDesign, which: String) {
         val random = Random(SEED)
         val heights = DoubleArray(expected.size) { random.nextDouble(-1.0, 1.0) }
-        val rows = DoubleArray(n) { random.nextDouble(-1.0, 1.0) }
+        val white = DoubleArray(n) { random.nextDouble(-1.0, 1.0) }
         for (a in expected.gram.indices) assertContentEquals(expected.gram[a], found.gram[a], which)
-        assertContentEquals(expected.transposed(rows), found.transposed(rows), which)
+        assertContentEquals(expected.transposed(white), found.transposed(white), which)
         assertContentEquals(expected.times(heights), found.times(heights), which)
-        for (i in listOf(0, 50, n - 1)) assertContentEquals(expected.row(i), found.row(i), which)
+        val rows = expected.rows(50, 60) zip found.rows(50, 60)
+        for ((own, other) in rows) assertContentEquals(own, other, which)
     }
 
     @Test
