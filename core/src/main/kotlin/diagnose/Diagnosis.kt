@@ -56,7 +56,13 @@ public class Diagnosis private constructor(
         val sane = series.withoutWild()
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
-        val answer = if (sane === series) answer(reference) else Diagnosis(sane, settings, loops, progress).answer(truth)
+        val answer = if (sane ===
+            series
+        ) {
+            answer(reference)
+        } else {
+            Diagnosis(sane, settings, loops, progress).answer(truth)
+        }
         return answer.ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
             .also { progress(1.0) }
     }
@@ -117,7 +123,8 @@ public class Diagnosis private constructor(
         val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
         val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
         // Sharp steps that are held until the next row are a row late, which a dead time may do as well.
-        val isLate = weighed.last.model.steps == Steps.UNTIL_NEXT && weighed.chosen.any { it.term.cause == Cause.DEAD_TIME }
+        val isLate =
+            weighed.last.model.steps == Steps.UNTIL_NEXT && weighed.chosen.any { it.term.cause == Cause.DEAD_TIME }
         if (isLate) return better(weighed, HELD, Steps.HELD)
         return led(weighed) ?: untilNext(weighed) ?: weighed
     }

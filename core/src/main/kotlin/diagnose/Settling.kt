@@ -16,7 +16,10 @@ internal class Settling(private val last: ModelFit, private val chosen: List<Tri
         val slow = chosen.filter { it.term.cause in LIKE }
         if (slow.isEmpty()) return null
         val columns = last.free.indices.filter { last.free[it] }.zip(last.jacobian.toList())
-        val own = slow.flatMap { trial -> last.model.slotOrNull(trial.term)?.let { it until it + width(trial) } ?: IntRange.EMPTY }
+        val own = slow.flatMap { trial ->
+            last.model.slotOrNull(trial.term)?.let { it until it + width(trial) }
+                ?: IntRange.EMPTY
+        }
         val basis = Evidence.orthonormal(columns.filter { (i, _) -> i !in own }.map { it.second })
         // Both act on the readings as they are, so that what they add is their column times their number.
         val before = last.whitened.copyOf()

@@ -121,7 +121,12 @@ class SteppedTruthTest {
         assertEquals(n, series.size)
         val result = Diagnosis(series).run()
         assertEquals(Verdict.Consistent, result.verdict)
-        assertEquals((0 until n).count { values[it].isFinite() && truth[it].isFinite() }, result.baseline.predicted.size)
+        assertEquals(
+            (0 until n).count {
+                values[it].isFinite() && truth[it].isFinite()
+            },
+            result.baseline.predicted.size,
+        )
         // Over a longer gap nobody knows how the truth went.
         for (i in 300 until 310) truth[i] = Double.NaN
         assertTrue(n > MeasuredSeries.ofMissing(times, still, still, values, truth, emptyMap()).size)

@@ -79,7 +79,12 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             compare.map { DiagnosisLog.compared(it) to it }
         // What the sensor has seen where its reading is missing a reference knows.
         // Beside a reference the probe need not have been anywhere: on a bench it is put from one sample into another.
-        val choice = logOptions.choice().copy(conditions = wanted, needsPlace = reference == null, keepsUnread = reference != null)
+        val choice = logOptions.choice().copy(
+            conditions = wanted,
+            needsPlace = reference == null,
+            keepsUnread =
+            reference != null,
+        )
         val opened = SurveyLog.open(Path.of(log), choice)
         compare.firstOrNull { it == opened.quantity }?.let {
             throw BadFlag("--compare", "another column than the readings'", "'$it'")

@@ -1,5 +1,6 @@
 package stillwater.io
 
+import stillwater.report.counted
 import java.util.TreeMap
 
 /** Which sensors a Platypus log holds, and how many lines of each. */
@@ -34,7 +35,7 @@ internal class SensorCatalogue {
             val channel = if (channels(source.type).size > 1) "#${source.channel}" else ""
             val fields =
                 names?.joinToString("|", prefix = ".") ?: if (count.fields > 1) ".0-${count.fields - 1}" else ""
-            "${source.type}$channel$fields (${count.lines} lines)"
+            "${source.type}$channel$fields (${counted(count.lines, "line")})"
         }
     }
 }

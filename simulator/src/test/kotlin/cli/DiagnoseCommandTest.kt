@@ -49,12 +49,18 @@ class DiagnoseCommandTest {
         val lines = List(600) { i ->
             state += (truth - state) / 6
             truth = 0.97 * truth + random.nextDouble(-1.0, 1.0)
-            val reading = if (i % 5 == 2) (if (i % 2 == 0) "" else "-9999") else "${state + random.nextDouble(-0.01, 0.01)}"
+            val reading = if (i % 5 ==
+                2
+            ) {
+                (if (i % 2 == 0) "" else "-9999")
+            } else {
+                "${state + random.nextDouble(-0.01, 0.01)}"
+            }
             "$i,$reading,$truth"
         }
         // A row without a reading need not have its time in order.
         val file = directory.resolve("unread.csv")
-        Files.write(file, listOf("time_s,probe,sample") + lines + "3,,1.0" + "700,${state},$truth")
+        Files.write(file, listOf("time_s,probe,sample") + lines + "3,,1.0" + "700,$state,$truth")
         return file.toString()
     }
 

@@ -46,6 +46,8 @@ class PlatypusLogTest {
         assertEquals(2481.1, temperature.readings[0].time.seconds)
         assertEquals(listOf(249.0, 251.0), read(text, LogChoice(value = "es2.EC")).readings.map { it.value })
         assertEquals(listOf(7.78), read(text, LogChoice(value = "ATLAS_DO")).readings.map { it.value })
+        val unknown = assertFailsWith<LogProblem> { read(text, LogChoice(value = "ATLAS_PH")) }.message.orEmpty()
+        assertTrue("found ATLAS_DO (1 line), ES2.ec|temp (2 lines)" in unknown, unknown)
     }
 
     @Test
