@@ -84,8 +84,13 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
         return if (known < 0) null else kept.removeAt(known).also { kept += it }.design
     }
 
+    /** How many designs were made, each about a tenth of a second's work for 5000 rows. */
+    var made: Int = 0
+        private set
+
     @Synchronized
     private fun keep(newest: Kept) {
+        made++
         kept += newest
         if (kept.size > KEPT) kept.removeAt(0)
     }

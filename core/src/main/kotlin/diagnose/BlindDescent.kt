@@ -20,22 +20,24 @@ internal class BlindDescent(search: BlindSearch, private val state: BlindState) 
 
     /** What [model] at [numbers] leaves. */
     private fun at(model: ResponseModel, numbers: DoubleArray): Tried {
-        val r = DoubleArray(n)
-        model.predict(numbers, r)
-        for (i in 0 until n) r[i] = values[i] - r[i]
+        val shown = DoubleArray(n)
+        model.predict(numbers, shown)
+        val r = DoubleArray(n) { values[it] - shown[it] }
         val white = state.fit.whitened(r)
         val taken = state.fit.taken(white)
         val bound = determinant.at(model, numbers)
         val left = state.fit.left(white, taken)
-        return Tried(BlindPoint(numbers, r, left * exp(bound / state.fit.rows)), white, taken, left, bound)
+        return Tried(BlindPoint(numbers, r, left * exp(bound / state.fit.rows)), shown, white, taken, left, bound)
     }
 
     /**
-     * A point, its residuals [white] whitened, what the water has [taken] of them and [left], and how much more tightly
-     * it is [bound].
+     * A point, what the model has [shown] there, to the last bit (what does not change with a number has a derivative of
+     * 0 and nothing else), its residuals [white] whitened, what the water has [taken] of them and [left], and how much
+     * more tightly it is [bound].
      */
     private class Tried(
         val point: BlindPoint,
+        val shown: DoubleArray,
         val white: DoubleArray,
         val taken: DoubleArray,
         val left: Double,
@@ -49,8 +51,8 @@ internal class BlindDescent(search: BlindSearch, private val state: BlindState) 
         val indices = free.indices.filter { free[it] }
         repeat(steps) {
             // With H = L Lᵀ what is unlike the water of a and b is Wa·Wb − L⁻¹RᵀWa · L⁻¹RᵀWb.
-            val white = indices.map { state.fit.whitened(derivative(model, best.point.numbers, it)) }
-            val halves = white.map { state.fit.imitated(it) }
+            val white = indices.map { state.fit.whitened(derivative(model, best.point.numbers, it, best.shown)) }
+            val halves = state.fit.imitated(white)
             val matrix = Array(white.size) { i ->
                 DoubleArray(white.size) { j -> dot(white[i], white[j]) - dot(halves[i], halves[j]) }
             }
@@ -108,12 +110,16 @@ internal class BlindDescent(search: BlindSearch, private val state: BlindState) 
 
         /** How what [model] shows changes with parameter [i] on the scale it is fitted on, length n. */
         fun derivative(model: ResponseModel, numbers: DoubleArray, i: Int): DoubleArray {
-            val step = step(model, numbers, i)
-            val moved = stepped(model, numbers, i, step)
-            val after = DoubleArray(model.series.size)
             val before = DoubleArray(model.series.size)
-            model.predict(moved, after)
             model.predict(numbers, before)
+            return derivative(model, numbers, i, before)
+        }
+
+        /** The same where [model] is known to show [before] at [numbers]. */
+        private fun derivative(model: ResponseModel, numbers: DoubleArray, i: Int, before: DoubleArray): DoubleArray {
+            val step = step(model, numbers, i)
+            val after = DoubleArray(model.series.size)
+            model.predict(stepped(model, numbers, i, step), after)
             for (r in after.indices) after[r] = (after[r] - before[r]) / step
             return after
         }

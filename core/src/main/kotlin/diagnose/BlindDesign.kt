@@ -100,6 +100,76 @@ internal class BlindDesign(
         return known.transposed.copyOf()
     }
 
+    /** Rᵀ of each of [all], new: two of them together, so that the columns are gone through half as often. */
+    fun transposed(all: List<DoubleArray>): List<DoubleArray> {
+        val out = all.map { DoubleArray(size) }
+        val pairs = all.size / 2
+        ofColumns { columns ->
+            loops.each(HALVES) { half ->
+                for (pair in 0 until pairs) {
+                    val one = 2 * pair
+                    for (k in half * size / HALVES until (half + 1) * size / HALVES step PAIRED) {
+                        val end = minOf(k + PAIRED, (half + 1) * size / HALVES)
+                        dots(columns, k, end, all[one], all[one + 1], out[one], out[one + 1])
+                    }
+                }
+            }
+        }
+        if (all.size % 2 == 1) products(all.last()).copyInto(out.last())
+        return out
+    }
+
+    /** What [y] and [z] are with four columns from [k] on, or with those before [end] where they are fewer. */
+    private fun dots(
+        columns: List<DoubleArray>,
+        k: Int,
+        end: Int,
+        y: DoubleArray,
+        z: DoubleArray,
+        ofY: DoubleArray,
+        ofZ: DoubleArray,
+    ) {
+        if (k + PAIRED > end) {
+            for (j in k until end) {
+                ofY[j] = dot(columns[j], y)
+                ofZ[j] = dot(columns[j], z)
+            }
+            return
+        }
+        val a = columns[k]
+        val b = columns[k + 1]
+        val c = columns[k + 2]
+        val d = columns[k + 3]
+        var p = 0.0
+        var q = 0.0
+        var r = 0.0
+        var s = 0.0
+        var t = 0.0
+        var u = 0.0
+        var v = 0.0
+        var w = 0.0
+        for (i in 0 until n) {
+            val one = y[i]
+            val two = z[i]
+            p += a[i] * one
+            q += b[i] * one
+            r += c[i] * one
+            s += d[i] * one
+            t += a[i] * two
+            u += b[i] * two
+            v += c[i] * two
+            w += d[i] * two
+        }
+        ofY[k] = p
+        ofY[k + 1] = q
+        ofY[k + 2] = r
+        ofY[k + 3] = s
+        ofZ[k] = t
+        ofZ[k + 1] = u
+        ofZ[k + 2] = v
+        ofZ[k + 3] = w
+    }
+
     private fun products(z: DoubleArray): DoubleArray {
         val out = DoubleArray(size)
         val groups = (size + TOGETHER - 1) / TOGETHER
@@ -168,5 +238,6 @@ internal class BlindDesign(
         /** Parts of the work that may be done at the same time. */
         const val HALVES = 2
         const val TOGETHER = 8
+        const val PAIRED = 4
     }
 }

@@ -16,7 +16,8 @@ internal class BlindDiagnosis(
     private val loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
-    private val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
+    /** What finds the models, and counts their designs. */
+    val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
     private var rounds = 0
 
     /** The share [done] of a round is behind: each takes half of what is left. */

@@ -99,6 +99,9 @@ internal class BlindFit private constructor(
     /** What a whitened column [white] moves the water, as [taken] measures it. */
     fun imitated(white: DoubleArray): DoubleArray = factor.half(design.transposed(white))
 
+    /** The same of each of [white]. */
+    fun imitated(white: List<DoubleArray>): List<DoubleArray> = design.transposed(white).map(factor::half)
+
     /** By how much the water changes to take what it can of [r]. */
     fun change(r: DoubleArray): DoubleArray = moved(whitened(r))
 

@@ -25,7 +25,8 @@ internal class BlindRound(
     /** Water that does not change, from noise that suits it, from such as hardly wanders, and from what suits changes. */
     private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })
         .maxBy { it.score }
-        .let { if (open.score - it.score > CHANGING_TOO) likelier(it, search.still(open)) else it }
+        // Where the water of the model changes anyway, what suits it when it does not is known.
+        .let { if (open !== model && open.score - it.score > CHANGING_TOO) likelier(it, search.still(open)) else it }
 
     /** The model, with water that changes in time or does not. */
     val state = if (open.score > still.score) open else still

@@ -25,7 +25,7 @@ internal class BlindSearch private constructor(
 
     /** Quantities of the log. */
     val scales: Scales get() = ground.scales
-    private val designs get() = ground.designs
+    val designs get() = ground.designs
     private val rough get() = ground.rough
 
     /** Rows that are fitted. */

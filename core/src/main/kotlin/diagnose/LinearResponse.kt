@@ -19,10 +19,10 @@ internal class LinearResponse(
 ) {
     /** Working space of one thread. */
     private inner class Work {
-        val bends = Array(AT_ONCE) { DoubleArray(spline.size) }
-        val late = Array(AT_ONCE) { DoubleArray(spline.size) }
-        val other = Array(AT_ONCE) { DoubleArray(spline.size) }
-        val spare = DoubleArray(spline.size)
+        val bends by lazy(LazyThreadSafetyMode.NONE) { Array(AT_ONCE) { DoubleArray(spline.size) } }
+        val late by lazy(LazyThreadSafetyMode.NONE) { Array(AT_ONCE) { DoubleArray(spline.size) } }
+        val other by lazy(LazyThreadSafetyMode.NONE) { Array(AT_ONCE) { DoubleArray(spline.size) } }
+        val spare by lazy(LazyThreadSafetyMode.NONE) { DoubleArray(spline.size) }
     }
 
     /** The bends of truths that are shown again and again, kept by those that found them; for any number of threads. */
@@ -56,7 +56,7 @@ internal class LinearResponse(
         then: (Int, Int) -> Unit = { _, _ -> },
     ) {
         val groups = (truths.size + AT_ONCE - 1) / AT_ONCE
-        loops.each(PARTS) { part ->
+        loops.each(minOf(PARTS, groups)) { part ->
             val work = Work()
             for (group in part until groups step PARTS) {
                 val from = group * AT_ONCE

@@ -66,6 +66,20 @@ class BlindDiagnosisTest {
         assertEquals(inTurn.baseline.heldOutRmse, atOnce.baseline.heldOutRmse)
     }
 
+    /** What the time goes with: designs, and loops over their rows and columns. */
+    @Test
+    fun noMoreIsAskedThanItTakes() {
+        var loops = 0
+        val counted = Loops { count, task ->
+            loops++
+            repeat(count, task)
+        }
+        val diagnosis = BlindDiagnosis(log(SensorStage.Lag(5.0)), DiagnosisSettings(), counted)
+        diagnosis.run()
+        assertTrue(diagnosis.search.designs.made <= MOST_DESIGNS, "${diagnosis.search.designs.made} designs")
+        assertTrue(loops <= MOST_LOOPS, "$loops loops")
+    }
+
     @Test
     fun noiseThatWasFarBehindIsNotAskedAgainNearBy() {
         var loops = 0
@@ -310,6 +324,10 @@ class BlindDiagnosisTest {
     private companion object {
         const val CASTS = 10
         val LAG = listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
+        /** A few more than there are: sums in another order may make a step more or less. */
+        const val MOST_DESIGNS = 75
+        const val MOST_LOOPS = 4000
+
         val AT_ONCE = Loops { count, task -> IntStream.range(0, count).parallel().forEach(task) }
     }
 }
