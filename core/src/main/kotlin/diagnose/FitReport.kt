@@ -102,7 +102,9 @@ internal class FitReport(
 
     /** How far number [i] of [fit], a delay, is less and more with the truth held otherwise, where that is as likely. */
     private fun otherWays(fit: ModelFit, i: Int): Pair<Double, Double> {
-        if (!isOpen) return 0.0 to 0.0
+        // Of a sensor that shows the truth within a row, what is held until the next is a delay of a row like any other.
+        val isAtOnce = fit.numbers[ResponseModel.TIME_CONSTANT] < series.period / 2
+        if (!isOpen || isAtOnce) return 0.0 to 0.0
         val value = fit.numbers[i]
         val others = Steps.entries.filter { it != fit.model.steps }.mapNotNull { steps ->
             val start = fit.numbers.copyOf().also { numbers ->

@@ -12,6 +12,9 @@ internal class LooseReadings(private val fit: ModelFit) {
     /** Half of this is what rounding alone may move a reading by. */
     private val resolution = fit.model.scales.resolution
 
+    /** What sums lose in a log without noise. */
+    private val least = ROUNDING * fit.model.scales.range
+
     /** Readings that are as far off as outliers, but are followed by others that are: sudden changes that last. */
     val lasting: List<Int>
     private val spikes: List<Int>
@@ -26,7 +29,7 @@ internal class LooseReadings(private val fit: ModelFit) {
     init {
         // Noise may be larger at some values, speeds or times than at others: that is no outlier yet.
         LocalSpread.of(fit, z).forEachIndexed { i, factor -> z[i] /= factor }
-        fun isFar(i: Int) = abs(fit.residuals[i]) > FARTHEST * spread + resolution / 2
+        fun isFar(i: Int) = abs(fit.residuals[i]) > FARTHEST * spread + resolution / 2 + least
         val usual = usual()
         val sudden = z.indices.filter { abs(z[it]) > FARTHEST * usual }
         // What is foretold of the rows after a single wild reading is to come from those before it.
@@ -67,7 +70,7 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     /** Of there being outliers, by their number or by the tails of all residuals, which coarse rounding shapes too. */
     val pValue: Double = tail(spikes.size + series.wild.size, beyond).let { lone ->
-        val far = mixture.size > FARTHEST * spread && resolution < spread && !isTailed
+        val far = mixture.size > maxOf(FARTHEST * spread, least) && resolution < spread && !isTailed
         val found = if (far) minOf(lone, Evidence.pValue(mixture.ratio, 3)) else lone
         val usual = usual()
         if (LocalSpread.isConcentrated(fit, z.indices.filter { abs(z[it]) > TAIL * usual })) 1.0 else found
@@ -84,6 +87,7 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     private companion object {
         const val BEYOND = 4e-5
+        const val ROUNDING = 1e-9
         const val FARTHEST = 4.5
 
         /** Twice a log-likelihood ratio that is no evidence: half of that of two looks without a reference. */

@@ -42,8 +42,8 @@ internal object WildNumbers {
     fun words(count: Int): String = if (count == 1) {
         "1 number of the reference is far beyond all others: the mean of those beside it was taken in its place."
     } else {
-        "$count single numbers of the reference are far beyond all others: the means of those beside them were taken in " +
-            "their place."
+        "$count single numbers of the reference are far beyond all others: the means of those beside them were " +
+            "taken in their place."
     }
 
     /** [column] with the mean of those beside it in each of [rows], none of which is next to another. */
