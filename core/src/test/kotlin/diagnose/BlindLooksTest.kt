@@ -69,7 +69,10 @@ class BlindLooksTest {
         val white = state.fit.whitened(shown)
         val taken = dot(white, state.whitened).let { it * it / state.variance } / dot(white, state.fit.unlike(shown))
         assertTrue(taken > 30, "the water is small by $taken")
-        assertTrue(tries.looked(BlindLook("", listOf(like))).gain < 8, "${tries.looked(BlindLook("", listOf(like))).gain}")
+        assertTrue(
+            tries.looked(BlindLook("", listOf(like))).gain < 8,
+            "${tries.looked(BlindLook("", listOf(like))).gain}",
+        )
     }
 
     @Test

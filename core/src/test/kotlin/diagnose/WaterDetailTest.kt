@@ -37,7 +37,12 @@ class WaterDetailTest {
 
     @Test
     fun wavesBeyondAGapAreFound() {
-        val (coarse, fine) = found(series { x, y -> long(x, y) + 0.5 * sin(1.2 * x + y / 2) + 0.5 * sin(y - x / 2) }, FEW)
+        val (coarse, fine) = found(
+            series { x, y ->
+                long(x, y) + 0.5 * sin(1.2 * x + y / 2) + 0.5 * sin(y - x / 2)
+            },
+            FEW,
+        )
         assertTrue(coarse.modes.finest > 6.3, "${coarse.modes.lengths}")
         assertTrue(fine.modes.finest < 4.9, "${fine.modes.lengths}")
         assertTrue(fine.modes.size > FEW && fine.score > coarse.score + 100, "${fine.modes.size} ${fine.score}")
