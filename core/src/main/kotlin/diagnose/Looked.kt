@@ -53,8 +53,7 @@ internal class Looked(private val fit: BlindFit, private val n: Int) {
         fun beside(fit: BlindFit, prediction: DoubleArray, own: List<DoubleArray>, look: BlindLook): List<Direction> {
             val looked = Looked(fit, prediction.size)
             own.forEach { looked.add(it, isNew = false) }
-            // Of what else the sensor may show of the water residuals are held against what is unlike any water.
-            if (!look.ofWater) looked.add(prediction, isNew = true)
+            looked.add(prediction, isNew = true)
             val known = looked.directions.size
             look.columns.forEach { looked.add(it, isNew = true) }
             return looked.directions.drop(known)

@@ -28,8 +28,12 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
         return filled(now)
     }
 
-    /** [state] with rings that are finer still, as long as that makes it likelier. */
+    /**
+     * [state] with rings that are finer still, as long as that makes it likelier. Where its finest waves are strong it may
+     * be the response that is wrong, which finer ones would hide.
+     */
     private fun filled(state: BlindState): BlindState {
+        if (!state.isResolved) return state
         var now = state
         repeat(FILLED) {
             val offered = missing(now)
