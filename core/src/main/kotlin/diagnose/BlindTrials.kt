@@ -17,7 +17,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private val ownColumns = search.free(state.model).indices.filter { search.free(state.model)[it] }
         .map { BlindDescent.derivative(state.model, base.numbers, it) }
     private val ownBasis = Evidence.orthonormal(ownColumns.map { state.fit.unlike(it) })
-    private val prediction = DoubleArray(n) { series.values[it] - base.residuals[it] }
     private val places = BlindJumps(state, z)
     private val asFit = ModelFit(
         state.model,
@@ -257,11 +256,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
      * What [look] gains, all else as it is.
      *
      * The water found is smaller than the true water where noise hides it, so that columns which show more of it serve
-     * even where there is nothing. So what is as what the model shows counts for nothing ([Looked.beside]), and of such
-     * columns residuals are held against what is unlike any water alone.
+     * even where there is nothing. Residuals are therefore held against what of such is unlike any water alone.
      */
     fun looked(look: BlindLook): BlindTrial {
-        val found = Looked.beside(state.fit, prediction, ownColumns, look)
+        val found = independent(look, state.fit, ownColumns)
         if (found.isEmpty()) return BlindTrial(null, look.name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
         val heights = found.map { dot(if (look.ofWater) it.unlike else it.white, z) }
         val after = DoubleArray(n) { i -> z[i] - found.indices.sumOf { heights[it] * found[it].unlike[i] } }
@@ -288,12 +286,11 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             val begun = less.settled(was.model.terms, was.numbers, was.fit.design.noise, was.variances, before = was)
             val next = less.climbed(less.requieted(less.climbed(begun)))
             val own = less.free(next.model).let { free -> free.indices.filter { free[it] } }.map(next::derivative)
+            val directions = independent(look, next.fit, own)
             val whole = DoubleArray(n) { next.residuals[it] + found.change[it] }
-            val shown = DoubleArray(n) { series.values[it] - whole[it] }
-            val directions = Looked.beside(next.fit, shown, own, look)
             val z = next.fit.residual(whole)
             val heights = directions.map { dot(if (look.ofWater) it.unlike else it.white, z) }
-            val basis = Evidence.orthonormal((own + shown).map { next.fit.unlike(it) })
+            val basis = Evidence.orthonormal(own.map { next.fit.unlike(it) })
             found = RefittedLook(next, sum(directions, heights), directions.map { it.unlike }, basis)
         }
         return found
@@ -311,6 +308,15 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val p = pValue(null, ratio, degrees, between(unlike, without), unlike, found.change)
         val settled = BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p)
         return settled.lessSure(look.doubt)
+    }
+
+    /** What is new in the columns of [look] beside the model's [own]. */
+    private fun independent(look: BlindLook, fit: BlindFit, own: List<DoubleArray>): List<Looked.Direction> {
+        val looked = Looked(fit, n)
+        own.forEach { looked.add(it, isNew = false) }
+        val known = looked.directions.size
+        look.columns.forEach { looked.add(it, isNew = true) }
+        return looked.directions.drop(known)
     }
 
     private fun sum(found: List<Looked.Direction>, heights: List<Double>) =

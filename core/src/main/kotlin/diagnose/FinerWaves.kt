@@ -9,8 +9,8 @@ import kotlin.math.sqrt
  * Whether the water has waves finer than those that a model of it was given: a score test for the variance of waves of
  * all directions just shorter than its shortest, seen through the sensor.
  *
- * Of what is left of whitened residuals, z, a wave w, whitened, has (w·z)², which is σ² times the square of what the
- * water's own cannot show of w on average where nothing is missing, and more by what such waves hold.
+ * Of whitened residuals z with a part c of such a wave that the water's own cannot show, (c·z)² is σ²|c|² on average
+ * where nothing is missing, and more by what such waves hold.
  */
 internal object FinerWaves {
     private const val WAVES = 32
@@ -28,25 +28,41 @@ internal object FinerWaves {
     fun isNone(state: BlindState, search: BlindSearch): Boolean = excess(state, search) < 1 + NOISE
 
     /** Power of what is left of [state] along such waves, over the noise's: 1 where none is missing. */
-    fun excess(state: BlindState, search: BlindSearch): Double =
-        excess(state, search, state.modes.shortest, state.modes.shortest / SHORTER)
-
-    /** The same along waves from [longest] down to [shortest], m. */
-    fun excess(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): Double {
-        val waves = (0 until WAVES).flatMap { k ->
-            val length = longest - (longest - shortest) * (k + 0.5) / WAVES
-            val phase = phases(search.track, 2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
-            listOf(DoubleArray(phase.size) { cos(phase[it]) }, DoubleArray(phase.size) { sin(phase[it]) })
+    fun excess(state: BlindState, search: BlindSearch): Double {
+        val longest = state.modes.shortest
+        var found = 0.0
+        var expected = 0.0
+        for (wave in waves(state, search, longest, longest / SHORTER)) {
+            val column = state.fit.unlike(wave)
+            val score = dot(column, state.whitened)
+            found += score * score
+            expected += state.variance * squares(column)
         }
-        val seen = search.seen(state.model.terms, state.numbers, waves.toTypedArray()).asList()
+        return found / expected
+    }
+
+    /**
+     * The same along waves from [longest] down to [shortest], m, without what the fit takes: with w a wave, whitened, and
+     * P what takes off it what the water's own can show, z has the covariance σ²P, and (w·z)² is σ² w·Pw on average.
+     */
+    fun excess(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): Double {
         val left = state.whitened
-        // With P = 1 − R H⁻¹ Rᵀ what is left has the covariance σ² P, where H is the posterior's precision.
-        val found = search.loops.all(seen) { wave ->
+        val found = search.loops.all(waves(state, search, longest, shortest)) { wave ->
             val white = state.fit.whitened(wave)
             val score = dot(white, left)
             score * score to state.variance * (squares(white) - squares(state.fit.imitated(white)))
         }
         return found.sumOf { it.first } / found.sumOf { it.second }
+    }
+
+    /** Waves of all directions from [longest] down to [shortest], m, as the sensor shows them. */
+    private fun waves(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): List<DoubleArray> {
+        val waves = (0 until WAVES).flatMap { k ->
+            val length = longest - (longest - shortest) * (k + 0.5) / WAVES
+            val phase = phases(search.track, 2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
+            listOf(DoubleArray(phase.size) { cos(phase[it]) }, DoubleArray(phase.size) { sin(phase[it]) })
+        }
+        return search.seen(state.model.terms, state.numbers, waves.toTypedArray()).asList()
     }
 
     /** The phase along [track] of a wave with [east] and [north] radians per metre. */

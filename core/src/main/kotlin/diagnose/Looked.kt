@@ -43,20 +43,7 @@ internal class Looked(private val fit: BlindFit, private val n: Int) {
         directions += Direction(new, white, unlike)
     }
 
-    companion object {
-        private const val NEW = 1e-4
-
-        /**
-         * What the columns of [look] have beside the model's [own] and beside what it shows, [prediction], all of length
-         * n: that costs the water's waves what they are small for, and is worth that much as a column, whatever the truth.
-         */
-        fun beside(fit: BlindFit, prediction: DoubleArray, own: List<DoubleArray>, look: BlindLook): List<Direction> {
-            val looked = Looked(fit, prediction.size)
-            own.forEach { looked.add(it, isNew = false) }
-            looked.add(prediction, isNew = true)
-            val known = looked.directions.size
-            look.columns.forEach { looked.add(it, isNew = true) }
-            return looked.directions.drop(known)
-        }
+    private companion object {
+        const val NEW = 1e-4
     }
 }

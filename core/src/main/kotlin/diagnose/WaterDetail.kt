@@ -30,7 +30,7 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
 
     /**
      * [state] with rings that are finer still, as long as that makes it likelier. Where its finest waves are strong it may
-     * be the response that is wrong, which finer ones would hide.
+     * be the response that is wrong, which finer ones would hide (218077).
      */
     private fun filled(state: BlindState): BlindState {
         if (!state.isResolved) return state

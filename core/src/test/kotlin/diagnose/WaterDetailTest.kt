@@ -2,7 +2,6 @@ package stillwater.diagnose
 
 import stillwater.model.Conditions
 import stillwater.sensor.GaussianNoise
-import kotlin.math.floor
 import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
@@ -21,63 +20,60 @@ class WaterDetailTest {
         return MeasuredSeries(track.times, track.x, track.y, values, null)
     }
 
-    /** What [series] has been found to be with [most] waves, and with as fine ones as it shows. */
-    private fun found(series: MeasuredSeries, most: Int): Pair<BlindState, BlindState> {
-        val search = BlindSearch(series)
+    /** What [series] has been found to be with [most] waves. */
+    private fun found(series: MeasuredSeries, search: BlindSearch, most: Int): BlindState {
         val white = CorrelatedNoise(series.times, 0.0, 10.0, BooleanArray(n) { true })
         val few = WaterModes.flat(series, SmoothTrack.of(series), most)
         val noise = BlindNoise(white, DoubleArray(n) { 1.0 })
-        val coarse = search.improved(
+        return search.improved(
             search.settled(emptyList(), doubleArrayOf(3.0, 1.0, 0.0, 0.0), noise, DoubleArray(0), ROUNDS, few),
         )
-        return coarse to WaterDetail(search, most).of(coarse)
     }
 
     private fun long(x: Double, y: Double) = sin(x / 4) + sin(y / 5 + 1)
 
     @Test
-    fun wavesBeyondAGapAreFound() {
-        val (coarse, fine) = found(
-            series { x, y ->
-                long(x, y) + 0.5 * sin(1.2 * x + y / 2) + 0.5 * sin(y - x / 2)
-            },
-            FEW,
-        )
-        assertTrue(coarse.modes.finest > 6.3, "${coarse.modes.lengths}")
-        assertTrue(fine.modes.finest < 4.9, "${fine.modes.lengths}")
-        assertTrue(fine.modes.size > FEW && fine.score > coarse.score + 100, "${fine.modes.size} ${fine.score}")
-        assertEquals(LAG, fine.timeConstant, 0.03 * LAG)
-        assertTrue(fine.variance < coarse.variance / 4, "${coarse.variance} ${fine.variance}")
+    fun ringsThatAreOfferedAreAddedBeyondAGap() {
+        val series = series(::long)
+        val state = found(series, BlindSearch(series), FEW)
+        val ring = state.modes.finer[2]
+        val waves = state.modes.refined(state.variances, n, setOf(ring))
+        assertEquals(ring, waves.finest)
+        assertTrue(waves.size > state.modes.size && !waves.isCut, "${waves.size} of ${state.modes.size}")
+        assertTrue(state.modes.refined(state.variances, n).finest > ring, "$ring")
+    }
+
+    @Test
+    fun wavesBeyondAGapShow() {
+        fun excess(series: MeasuredSeries): Double {
+            val search = BlindSearch(series)
+            // Of 4.8 and 5.6 m.
+            return FinerWaves.excess(found(series, search, FEW), search, 6.0, 4.6)
+        }
+        val more = excess(series { x, y -> long(x, y) + FAINT * (sin(1.2 * x + y / 2) + sin(y - x / 2)) })
+        val none = excess(series(::long))
+        assertTrue(more > 2 * none, "$more and $none")
     }
 
     @Test
     fun wavesThatAreNotThereAreNotOffered() {
-        val (coarse, fine) = found(series(::long), ENOUGH)
+        val series = series(::long)
+        val search = BlindSearch(series)
+        val coarse = found(series, search, ENOUGH)
+        val fine = WaterDetail(search, ENOUGH).of(coarse)
         assertTrue(fine.modes.finest >= coarse.modes.finest && fine.modes.size <= ENOUGH, "${fine.modes.lengths}")
-    }
-
-    @Test
-    fun waterOfEvenSquaresHasNothingWrongWithItsSensor() {
-        val heights = Random(SEED).let { random -> List(SQUARES * SQUARES) { random.nextDouble(-1.0, 1.0) } }
-        fun square(at: Double) = (floor(at / SIDE).toInt() + SQUARES / 2).coerceIn(0, SQUARES - 1)
-        val result = Diagnosis(series { x, y -> heights[square(x) * SQUARES + square(y)] }).run()
-        assertTrue(result.verdict !is Verdict.Named && result.verdict !is Verdict.Unexplained, "${result.verdict}")
-        if (result.verdict is Verdict.Ambiguous) {
-            assertEquals(setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME), result.verdict.ambiguity.flatten().toSet())
-        }
     }
 
     private companion object {
         const val LAG = 4.0
         const val SEED = 7
 
+        /** Five deviations of the noise, of which a lag shows one. */
+        const val FAINT = 0.1
+
         /** Columns for waves of some 10 m, and of some 6 m. */
-        const val FEW = 60
+        const val FEW = 100
         const val ENOUGH = 150
         const val ROUNDS = 12
-
-        /** Squares along either side, and how long they are, m. */
-        const val SQUARES = 8
-        const val SIDE = 5.0
     }
 }

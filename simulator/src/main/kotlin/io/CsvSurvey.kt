@@ -301,17 +301,15 @@ internal class CsvSurvey internal constructor(
         private fun timeSizeProblem(row: CsvRow): LogProblem? {
             val time = row.numbers[TIME]
             if (abs(time) <= LARGEST_SECONDS) return null
-            val reason = "rows with a number out of all bounds"
-            // What a date may have come to: nobody has meant it as milliseconds.
-            if (abs(time) < YEAR_10000) return problem(row.line, columns.time, LAST_YEAR, "$time s", reason)
-            val found = "$time" + if (abs(time) < LARGEST_SECONDS * MILLIS) ": milliseconds? --time-unit ms" else ""
-            return problem(row.line, columns.time, "seconds", found, reason)
+            if (abs(time) < CsvTimes.DATES) return problem(row.line, columns.time, CsvTimes.LAST, "$time s", BOUNDS)
+            val found = "$time" + if (abs(time) < LARGEST_MILLIS) ": milliseconds? --time-unit ms" else ""
+            return problem(row.line, columns.time, "seconds", found, BOUNDS)
         }
 
         private fun sizeProblem(row: CsvRow, slot: Int, column: Int, largest: Double): LogProblem? {
             if (column == CsvColumns.NONE || abs(row.numbers[slot]) <= largest) return null
             val expected = "a number within -$largest..$largest"
-            return problem(row.line, column, expected, "${row.numbers[slot]}", "rows with a number out of all bounds")
+            return problem(row.line, column, expected, "${row.numbers[slot]}", BOUNDS)
         }
 
         private fun reachProblem(row: CsvRow): LogProblem? {
@@ -362,10 +360,9 @@ internal class CsvSurvey internal constructor(
             val measured = LinkedHashMap<String, Double>()
             conditionNames.forEachIndexed { i, name ->
                 val number = row.numbers[conditionSlots[i]]
-                if (CellText.isCode(number)) {
-                    codes.count(i)
-                } else if (number.isFinite()) {
-                    measured[name] = number
+                when {
+                    CellText.isCode(number) -> codes.count(i)
+                    number.isFinite() -> measured[name] = number
                 }
             }
             return Conditions(measured)
@@ -382,14 +379,13 @@ internal class CsvSurvey internal constructor(
 
     companion object {
         private const val SUMMARY = "lines that sum up"
+        private const val BOUNDS = "rows with a number out of all bounds"
         private const val NO_PLACE = "rows without a position"
         private const val LARGEST_METRES = 1e9
 
         /** The year 5138, or 1973 in milliseconds. */
         private const val LARGEST_SECONDS = 1e11
-        private const val LAST_YEAR = "a time before the year 5138"
-        private const val YEAR_10000 = 253_402_300_800.0
-        private const val MILLIS = 1000
+        private const val LARGEST_MILLIS = 1e14
         private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
 
         // Where a row's numbers are kept; conditions follow.
