@@ -1,8 +1,5 @@
 package stillwater.diagnose
 
-import kotlin.math.exp
-import kotlin.random.Random
-
 /**
  * By how much more the log would tell of the water of [state] if the sensor showed it otherwise: ln det of the
  * posterior's precision H less that of [state].
@@ -17,40 +14,21 @@ import kotlin.random.Random
  * Source: Hutchinson 1989, A stochastic estimator of the trace of the influence matrix for Laplacian smoothing splines,
  * doi:10.1080/03610918908812806.
  */
-internal class BlindDeterminant(private val search: BlindSearch, private val state: BlindState) {
-    private val times = state.model.series.times
+internal class BlindDeterminant(search: BlindSearch, private val state: BlindState) {
     private val own = linear(state.model, state.numbers)
-    private val heights: Array<DoubleArray>
-    private val waters: Array<DoubleArray>
-    private val shown: Array<DoubleArray>
-    private val squares: Double
-
-    init {
-        val random = Random(SEED)
-        heights = Array(DRAWS) {
-            state.fit.drawn(DoubleArray(state.fit.design.size) { if (random.nextBoolean()) 1.0 else -1.0 })
-        }
-        waters = search.along(state.modes, heights)
-        shown = state.fit.design.times(heights)
-        squares = product(state.model, state.numbers)
-    }
+    private val waters = BlindWaters(search, state, DRAWS)
+    private val squares = product(state.model, state.numbers)
 
     /** For [model] with [numbers]. */
     fun at(model: ResponseModel, numbers: DoubleArray): Double =
         if (linear(model, numbers) == own) 0.0 else 2 * (product(model, numbers) - squares) / DRAWS
 
     private fun product(model: ResponseModel, numbers: DoubleArray): Double {
-        val seen = search.seen(model.terms, numbers, waters)
-        val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
-        // What was before the log, the same of all waters but for its height.
-        val fading = DoubleArray(times.size) { exp(-(times[it] - times[0]) / timeConstant) }
+        val seen = waters.seen(model, numbers)
         var sum = 0.0
         for (k in seen.indices) {
-            val before = heights[k].last()
-            val column = seen[k]
-            for (i in column.indices) column[i] += before * fading[i]
-            state.fit.design.noise.whiten(column, column)
-            sum += dot(shown[k], column)
+            state.fit.design.noise.whiten(seen[k], seen[k])
+            sum += dot(waters.shown[k], seen[k])
         }
         return sum
     }
@@ -63,8 +41,6 @@ internal class BlindDeterminant(private val search: BlindSearch, private val sta
         } + ("" to listOf(numbers[ResponseModel.TIME_CONSTANT]))
 
     private companion object {
-        /** Waters drawn: with a hundred waves that the log binds, the sum is off by some 5 %. */
         const val DRAWS = 8
-        const val SEED = 20261122
     }
 }

@@ -3,7 +3,8 @@ package stillwater.diagnose
 /**
  * Something that readings may depend on though no cause of the list would make them.
  *
- * @property name in words. @property columns of readings that it would add, each as long as the log. @property searched
+ * @property name in words. @property columns of readings that it would add, each as long as the log. @property follow
+ *   how they change where what the model shows changes by so much; null where they are not made of it. @property searched
  *   what looking around for it has gained by chance. @property floor what its ratio is divided by at least, where
  *   these whitened residuals are left. @property ofWater whether [columns] are what else the sensor might show of the
  *   water. @property isLoose whether a sum of [columns] may show the water smoother than it is, which suits any log.
@@ -21,10 +22,11 @@ internal class BlindLook(
     val ofBoat: Boolean = false,
     val ofTime: Boolean = false,
     val doubt: Double = DOUBT,
+    val follow: ((DoubleArray) -> List<DoubleArray>)? = null,
 ) {
     companion object {
         /** How many times too small a look's p-value may be, where fixes jitter in steep water. */
-        private const val DOUBT = 10.0
+        const val DOUBT = 10.0
 
         /**
          * The same of what the readings show more of at some times than at others, as if the water had changed: of 248

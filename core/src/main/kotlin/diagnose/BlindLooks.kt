@@ -2,7 +2,6 @@ package stillwater.diagnose
 
 import java.util.Locale
 import kotlin.math.PI
-import kotlin.math.abs
 import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.expm1
@@ -26,8 +25,10 @@ internal class BlindLooks(
     private val n = series.size
     private val tau = maxOf(state.timeConstant, series.period)
     private val prediction = DoubleArray(n) { series.values[it] - state.residuals[it] }
-    private val value = standard(prediction)
-    private val rate = standard(DoubleArray(n) { series.rise(prediction, it, it) })
+    private val values = Standard(prediction)
+    private val rates = Standard(rise(prediction))
+    private val value = values.of(prediction)
+    private val rate = rates.of(rise(prediction))
 
     /** All looks; of the same kinds in the same order whatever the model of a log is. */
     val list: List<BlindLook> by lazy { shapes() + BlindPeriods(state, tries).look() }
@@ -38,22 +39,36 @@ internal class BlindLooks(
     /** The [index]-th of [list] with water and noise of its own. */
     fun refitted(index: Int): RefittedLook = tries.refitted(list[index], trials[index])
 
-    /** The look at [what], of which [column] has more at some times than at others. */
-    private fun changing(what: String, column: DoubleArray) =
-        BlindLook("$what, more at some times than at others", listOf(column), doubt = BlindLook.DOUBT_OF_CHANGE)
+    /** The look called [name] at what [of] makes of the value and its rate of change, both standard. */
+    private fun shown(name: String, doubt: Double = BlindLook.DOUBT, of: (DoubleArray, DoubleArray) -> List<DoubleArray>) =
+        BlindLook(name, of(value, rate), doubt = doubt, follow = { change ->
+            fun moved(by: Double): List<DoubleArray> {
+                val other = DoubleArray(n) { prediction[it] + by * change[it] }
+                return of(values.of(other), rates.of(rise(other)))
+            }
+            moved(1.0).zip(moved(-1.0)) { up, down -> DoubleArray(n) { (up[it] - down[it]) / 2 } }
+        })
+
+    /** The look at [what], of which [of] makes a column that has more at some times than at others. */
+    private fun changing(what: String, of: (DoubleArray, DoubleArray) -> DoubleArray) =
+        shown("$what, more at some times than at others", BlindLook.DOUBT_OF_CHANGE) { value, rate ->
+            listOf(of(value, rate))
+        }
 
     private fun shapes(): List<BlindLook> = buildList {
         val age = standard(series.times)
         add(
-            BlindLook(
-                "the value itself (a curved calibration, or water that was not the same on all passes)",
-                listOf(product(value, value), cube(value)),
-            ),
+            shown("the value itself (a curved calibration, or water that was not the same on all passes)") { value, _ ->
+                listOf(product(value, value), cube(value))
+            },
         )
-        add(changing("the rate of change", followed(product(rate, age))))
-        val uneven = listOf(followed(product(rate, value)))
-        add(BlindLook("the rate of change, more at some values than at others", uneven))
-        add(changing("the value", product(value, age)))
+        add(changing("the rate of change") { _, rate -> followed(product(rate, age)) })
+        add(
+            shown("the rate of change, more at some values than at others") { value, rate ->
+                listOf(followed(product(rate, value)))
+            },
+        )
+        add(changing("the value") { value, _ -> product(value, age) })
         if (canShowShape) {
             add(
                 BlindLook(
@@ -147,10 +162,17 @@ internal class BlindLooks(
 
     private fun cube(a: DoubleArray) = DoubleArray(n) { a[it] * a[it] * a[it] }
 
-    private fun standard(column: DoubleArray): DoubleArray {
-        val mean = column.average()
-        val spread = sqrt(column.sumOf { (it - mean) * (it - mean) } / n)
-        return DoubleArray(n) { if (abs(spread) > 0) (column[it] - mean) / spread else 0.0 }
+    private fun rise(column: DoubleArray) = DoubleArray(n) { series.rise(column, it, it) }
+
+    private fun standard(column: DoubleArray) = Standard(column).of(column)
+
+    /** What makes [column] of mean 0 and spread 1. */
+    private inner class Standard(column: DoubleArray) {
+        private val mean = column.average()
+        private val spread = sqrt(column.sumOf { (it - mean) * (it - mean) } / n)
+
+        /** Another column by the same mean and spread. */
+        fun of(other: DoubleArray) = DoubleArray(n) { if (spread > 0) (other[it] - mean) / spread else 0.0 }
     }
 
     private companion object {

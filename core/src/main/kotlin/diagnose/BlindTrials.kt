@@ -17,6 +17,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private val ownColumns = search.free(state.model).indices.filter { search.free(state.model)[it] }
         .map { BlindDescent.derivative(state.model, base.numbers, it) }
     private val ownBasis = Evidence.orthonormal(ownColumns.map { state.fit.unlike(it) })
+    private val waters by lazy { BlindWaters(search, state, DRAWS) }
     private val places = BlindJumps(state, z)
     private val asFit = ModelFit(
         state.model,
@@ -259,9 +260,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
      * even where there is nothing. Residuals are therefore held against what of such is unlike any water alone.
      */
     fun looked(look: BlindLook): BlindTrial {
-        val found = independent(look, state.fit, ownColumns)
+        val found = independent(look, state, ownColumns)
         if (found.isEmpty()) return BlindTrial(null, look.name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
-        val heights = found.map { dot(if (look.ofWater) it.unlike else it.white, z) }
+        val heights = heights(look, found, z)
         val after = DoubleArray(n) { i -> z[i] - found.indices.sumOf { heights[it] * found[it].unlike[i] } }
         val left = base.left - heights.sumOf { it * it }
         val what = Weighed(null, look.name, null, null)
@@ -279,19 +280,20 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     /** [look] with the water, the noise and the numbers that suit it, begun from what it gains by [trial]. */
     fun refitted(look: BlindLook, trial: BlindTrial): RefittedLook {
-        var found = RefittedLook(state, trial.change, emptyList(), emptyList())
+        var found = RefittedLook(state, trial.change, 0.0, emptyList(), emptyList())
         repeat(REFITS) {
             val less = search.less(found.change)
             val was = found.state
             val begun = less.settled(was.model.terms, was.numbers, was.fit.design.noise, was.variances, before = was)
             val next = less.climbed(less.requieted(less.climbed(begun)))
             val own = less.free(next.model).let { free -> free.indices.filter { free[it] } }.map(next::derivative)
-            val directions = independent(look, next.fit, own)
+            val directions = independent(look, next, own)
             val whole = DoubleArray(n) { next.residuals[it] + found.change[it] }
             val z = next.fit.residual(whole)
-            val heights = directions.map { dot(if (look.ofWater) it.unlike else it.white, z) }
+            val heights = heights(look, directions, z)
+            val chance = 2 * directions.indices.sumOf { heights[it] * directions[it].chance } / next.variance
             val basis = Evidence.orthonormal(own.map { next.fit.unlike(it) })
-            found = RefittedLook(next, sum(directions, heights), directions.map { it.unlike }, basis)
+            found = RefittedLook(next, sum(directions, heights), chance, directions.map { it.unlike }, basis)
         }
         return found
     }
@@ -301,7 +303,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val z = found.state.whitened
         val extra = Evidence.orthonormal(found.columns, found.basis)
         val inflation = maxOf(BlindEvidence.inflation(extra, z), look.floor(z))
-        val ratio = maxOf((found.state.score - score) / inflation - look.searched, 0.0)
+        val ratio = maxOf((found.state.score - found.chance - score) / inflation - look.searched, 0.0)
         val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
@@ -311,13 +313,21 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     }
 
     /** What is new in the columns of [look] beside the model's [own]. */
-    private fun independent(look: BlindLook, fit: BlindFit, own: List<DoubleArray>): List<Looked.Direction> {
-        val looked = Looked(fit, n)
-        own.forEach { looked.add(it, isNew = false) }
+    private fun independent(look: BlindLook, state: BlindState, own: List<DoubleArray>): List<Looked.Direction> {
+        val looked = Looked(state.fit, n)
+        // The model's own numbers are those with which nothing is left to them.
+        own.forEach { column -> looked.add(column, isNew = false) { dot(it, state.whitened) } }
         val known = looked.directions.size
-        look.columns.forEach { looked.add(it, isNew = true) }
+        val chances = look.follow?.let { waters(state).chance(it) }
+        look.columns.forEachIndexed { i, column -> looked.add(column, isNew = true) { chances?.get(i) ?: 0.0 } }
         return looked.directions.drop(known)
     }
+
+    private fun waters(state: BlindState) = if (state === this.state) waters else BlindWaters(search, state, DRAWS)
+
+    /** The heights of [directions] in the residuals [z], whitened. */
+    private fun heights(look: BlindLook, directions: List<Looked.Direction>, z: DoubleArray) =
+        directions.map { if (look.ofWater) dot(it.unlike, z) else dot(it.white, z) - it.chance }
 
     private fun sum(found: List<Looked.Direction>, heights: List<Double>) =
         DoubleArray(n) { i -> found.indices.sumOf { heights[it] * found[it].new[i] } }
@@ -379,6 +389,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val TINY = 1e-290
         const val BASE_STEPS = 4
         const val LOOKS = 2
+
+        /** Waters drawn that tell what a look gains by chance. */
+        const val DRAWS = 24
         const val REFITS = 2
         const val STEPS = 6
         const val STRETCHES = BlindEvidence.STRETCHES

@@ -20,20 +20,17 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
     /** [state] with waves as strong as they have been found to be, of which so many are enough as show above the noise. */
     fun of(state: BlindState): BlindState {
         var now = state
-        repeat(REDONE) {
+        for (again in 1..REDONE) {
             val next = refined(now, most, emptySet())
-            if (next == null || next.score < now.score - BlindSearch.ENOUGH) return filled(now)
+            if (next == null || next.score < now.score - BlindSearch.ENOUGH) break
             now = next
         }
-        return filled(now)
+        // Where the finest waves are strong it may be the response that is wrong, which finer ones would hide.
+        return if (now.isResolved) filled(now) else now
     }
 
-    /**
-     * [state] with rings that are finer still, as long as that makes it likelier. Where its finest waves are strong it may
-     * be the response that is wrong, which finer ones would hide (218077).
-     */
-    private fun filled(state: BlindState): BlindState {
-        if (!state.isResolved) return state
+    /** [state] with rings that are finer still, as long as that makes it likelier. */
+    fun filled(state: BlindState): BlindState {
         var now = state
         repeat(FILLED) {
             val offered = missing(now)
