@@ -125,7 +125,6 @@ internal class BlindSearch private constructor(
         val filled = WaterDetail(this, most).filled(state)
         if (filled === state) return null
         val next = improved(requieted(evened(filled)))
-        System.err.println("filled ${state.score} -> ${next.score} least $least waves ${state.modes.size} -> ${next.modes.size} tau ${state.timeConstant} -> ${next.timeConstant}")
         return next.takeIf { it.score > least }?.also { fine = it.modes }
     }
 

@@ -17,7 +17,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private val ownColumns = search.free(state.model).indices.filter { search.free(state.model)[it] }
         .map { BlindDescent.derivative(state.model, base.numbers, it) }
     private val ownBasis = Evidence.orthonormal(ownColumns.map { state.fit.unlike(it) })
-    private val waters by lazy { BlindWaters(search, state, DRAWS) }
+    private val waters = BlindWaters(search, state, DRAWS)
     private val places = BlindJumps(state, z)
     private val asFit = ModelFit(
         state.model,
@@ -253,25 +253,20 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     /** What the best of many places gains by chance, for [count] jumps. */
     fun searched(count: Int): Double = places.searched(count)
 
-    /**
-     * What [look] gains, all else as it is.
-     *
-     * The water found is smaller than the true water where noise hides it, so that columns which show more of it serve
-     * even where there is nothing. Residuals are therefore held against what of such is unlike any water alone.
-     */
+    /** What [look] gains, all else as it is. */
     fun looked(look: BlindLook): BlindTrial {
-        val found = independent(look, state, ownColumns)
-        if (found.isEmpty()) return BlindTrial(null, look.name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
-        val heights = heights(look, found, z)
-        val after = DoubleArray(n) { i -> z[i] - found.indices.sumOf { heights[it] * found[it].unlike[i] } }
+        val found = LookedAt(look, state, ownColumns, waters)
+        if (found.directions.isEmpty()) return BlindTrial(null, look.name, null, null, DoubleArray(n), 0.0, 1.0, 1, 1.0)
+        val heights = found.heights(z)
+        val columns = found.columns
+        val after = DoubleArray(n) { i -> z[i] - columns.indices.sumOf { heights[it] * columns[it][i] } }
         val left = base.left - heights.sumOf { it * it }
         val what = Weighed(null, look.name, null, null)
-        val columns = found.map { it.unlike }
         return weighed(
             what,
             columns,
             left,
-            sum(found, heights),
+            found.sum(heights),
             look.searched,
             look.floor(after),
             after,
@@ -287,13 +282,12 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             val begun = less.settled(was.model.terms, was.numbers, was.fit.design.noise, was.variances, before = was)
             val next = less.climbed(less.requieted(less.climbed(begun)))
             val own = less.free(next.model).let { free -> free.indices.filter { free[it] } }.map(next::derivative)
-            val directions = independent(look, next, own)
+            val at = LookedAt(look, next, own, BlindWaters(search, next, DRAWS))
             val whole = DoubleArray(n) { next.residuals[it] + found.change[it] }
             val z = next.fit.residual(whole)
-            val heights = heights(look, directions, z)
-            val chance = 2 * directions.indices.sumOf { heights[it] * directions[it].chance } / next.variance
+            val heights = at.heights(z)
             val basis = Evidence.orthonormal(own.map { next.fit.unlike(it) })
-            found = RefittedLook(next, sum(directions, heights), chance, directions.map { it.unlike }, basis)
+            found = RefittedLook(next, at.sum(heights), at.gained(heights), at.columns, basis)
         }
         return found
     }
@@ -311,26 +305,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val settled = BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p)
         return settled.lessSure(look.doubt)
     }
-
-    /** What is new in the columns of [look] beside the model's [own]. */
-    private fun independent(look: BlindLook, state: BlindState, own: List<DoubleArray>): List<Looked.Direction> {
-        val looked = Looked(state.fit, n)
-        // The model's own numbers are those with which nothing is left to them.
-        own.forEach { column -> looked.add(column, isNew = false) { dot(it, state.whitened) } }
-        val known = looked.directions.size
-        val chances = look.follow?.let { waters(state).chance(it) }
-        look.columns.forEachIndexed { i, column -> looked.add(column, isNew = true) { chances?.get(i) ?: 0.0 } }
-        return looked.directions.drop(known)
-    }
-
-    private fun waters(state: BlindState) = if (state === this.state) waters else BlindWaters(search, state, DRAWS)
-
-    /** The heights of [directions] in the residuals [z], whitened. */
-    private fun heights(look: BlindLook, directions: List<Looked.Direction>, z: DoubleArray) =
-        directions.map { if (look.ofWater) dot(it.unlike, z) else dot(it.white, z) - it.chance }
-
-    private fun sum(found: List<Looked.Direction>, heights: List<Double>) =
-        DoubleArray(n) { i -> found.indices.sumOf { heights[it] * found[it].new[i] } }
 
     /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], by [t], the larger. */
     private fun pValue(

@@ -10,20 +10,16 @@ import kotlin.random.Random
  */
 internal class BlindWaters(private val search: BlindSearch, private val state: BlindState, private val draws: Int) {
     private val times = state.model.series.times
-    private val heights: Array<DoubleArray>
-    private val waters: Array<DoubleArray>
-
-    /** What the sensor of [state] shows of each, whitened, over the noise's spread. */
-    val shown: Array<DoubleArray>
-
-    init {
+    private val heights: Array<DoubleArray> by lazy {
         val random = Random(SEED)
-        heights = Array(draws) {
+        Array(draws) {
             state.fit.drawn(DoubleArray(state.fit.design.size) { if (random.nextBoolean()) 1.0 else -1.0 })
         }
-        waters = search.along(state.modes, heights)
-        shown = state.fit.design.times(heights)
     }
+    private val waters: Array<DoubleArray> by lazy { search.along(state.modes, heights) }
+
+    /** What the sensor of [state] shows of each, whitened, over the noise's spread. */
+    val shown: Array<DoubleArray> by lazy { state.fit.design.times(heights) }
 
     /** What the sensor with [numbers] of [model] shows of each, sensor units over the noise's spread; new. */
     fun seen(model: ResponseModel, numbers: DoubleArray): Array<DoubleArray> {
