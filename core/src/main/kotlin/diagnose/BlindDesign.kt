@@ -60,14 +60,20 @@ internal class BlindDesign(
             for (i in 0 until count) rows[i][k] = column[from + i]
         }
         for (i in count until STRETCH) rows[i].fill(0.0)
-        for (i in 0 until count step AT_ONCE) {
-            val first = rows[i]
-            val second = rows[i + 1]
-            val third = rows[i + 2]
-            val fourth = rows[i + 3]
-            val four = FourColumns(first, second, third, fourth)
-            for (a in 0 until size) four.add(sums[a], 0, a + 1, first[a], second[a], third[a], fourth[a])
+        // So many sums stay in the processor's cache while all rows are added to them.
+        for (some in 0 until size step SUMS) {
+            for (i in 0 until count step AT_ONCE) add(rows, i, sums, some, minOf(some + SUMS, size))
         }
+    }
+
+    /** Adds the products of the four [rows] from [i] on to the [sums] from [start] until [end]. */
+    private fun add(rows: Array<DoubleArray>, i: Int, sums: Array<DoubleArray>, start: Int, end: Int) {
+        val first = rows[i]
+        val second = rows[i + 1]
+        val third = rows[i + 2]
+        val fourth = rows[i + 3]
+        val four = FourColumns(first, second, third, fourth)
+        for (a in start until end) four.add(sums[a], 0, a + 1, first[a], second[a], third[a], fourth[a])
     }
 
     /** The rows [from] until [to] of R, column by column; new. */
@@ -234,6 +240,7 @@ internal class BlindDesign(
     private companion object {
         const val STRETCH = 64
         const val AT_ONCE = 4
+        const val SUMS = 12
 
         /** Parts of the work that may be done at the same time. */
         const val HALVES = 2

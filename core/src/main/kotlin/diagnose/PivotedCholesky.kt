@@ -48,33 +48,53 @@ internal class PivotedCholesky private constructor(
             val pivots = ArrayList<Int>()
             val rest = DoubleArray(count) { variance }
             while (columns.size < most) {
-                var pivot = 0
-                for (i in 1 until count) if (rest[i] > rest[pivot]) pivot = i
+                val pivot = greatest(rest)
                 if (rest[pivot] < left) break
-                val scale = 1 / sqrt(rest[pivot])
-                val column = DoubleArray(count) { covariance.of(it, pivot) }
-                val heights = DoubleArray(columns.size) { -columns[it][pivot] }
-                // Few columns are done before another thread has begun.
-                val parts = if (columns.size * count > LEAST_PART) 2 else 1
-                loops.each(parts) { part ->
-                    Combination.add(
-                        columns,
-                        heights,
-                        column,
-                        columns.size,
-                        part * count / parts,
-                        (part + 1) * count / parts,
-                    )
-                }
-                for (i in 0 until count) {
-                    column[i] *= scale
-                    rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)
-                }
+                val column = between(count, pivot, covariance)
+                subtract(columns, pivot, column, loops)
+                take(column, 1 / sqrt(rest[pivot]), rest)
                 rest[pivot] = 0.0
                 columns += column
                 pivots += pivot
             }
             return PivotedCholesky(columns, pivots, rest.max())
+        }
+
+        // Java compiles a loop within a long method together with all of it, and once more for each such loop.
+
+        private fun greatest(rest: DoubleArray): Int {
+            var pivot = 0
+            for (i in 1 until rest.size) if (rest[i] > rest[pivot]) pivot = i
+            return pivot
+        }
+
+        private fun between(count: Int, pivot: Int, covariance: Covariance) =
+            DoubleArray(count) { covariance.of(it, pivot) }
+
+        /** Takes what [columns] have of the row [pivot] off [column]. */
+        private fun subtract(columns: List<DoubleArray>, pivot: Int, column: DoubleArray, loops: Loops) {
+            val count = column.size
+            val heights = DoubleArray(columns.size) { -columns[it][pivot] }
+            // Few columns are done before another thread has begun.
+            val parts = if (columns.size * count > LEAST_PART) 2 else 1
+            loops.each(parts) { part ->
+                Combination.add(
+                    columns,
+                    heights,
+                    column,
+                    columns.size,
+                    part * count / parts,
+                    (part + 1) * count / parts,
+                )
+            }
+        }
+
+        /** Makes [column], times [scale], one of unit variance, and takes what it has of each row off [rest]. */
+        private fun take(column: DoubleArray, scale: Double, rest: DoubleArray) {
+            for (i in column.indices) {
+                column[i] *= scale
+                rest[i] = maxOf(rest[i] - column[i] * column[i], 0.0)
+            }
         }
     }
 }

@@ -25,8 +25,9 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
             if (next == null || next.score < now.score - BlindSearch.ENOUGH) break
             now = next
         }
-        // Where the finest waves are strong it may be the response that is wrong, which finer ones would hide.
-        return if (now.isResolved) filled(now) else now
+        // Beyond a gap alone: where the finest waves hold more than the noise, columns were too few for finer ones, or it is
+        // the response that is wrong, which finer ones would hide.
+        return if (now.isResolved && now.power(now.modes.bands - 1) <= now.variance) filled(now) else now
     }
 
     /** [state] with rings that are finer still, as long as that makes it likelier. */

@@ -69,26 +69,45 @@ internal class WaterRings(
      */
     fun columns(spectrum: DoubleArray, left: Double, most: Int): Columns {
         val factor = factor(spectrum, left, most, 1)
-        val places = factor.pivots
-        val r = places.size
-        val lower = Array(r) { a -> DoubleArray(a + 1) { b -> factor.columns[b][places[a]] } }
-        // In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue.
-        val orders = DistanceCurve(step(spectrum)) { ordered(spectrum, it) }
-        val order = Array(r) { a -> DoubleArray(r) { b -> orders.at(distance(places[a], places[b])) } }
+        val turned = SymmetricEigen(order(factor, spectrum), loops)
+        val rings = List(factor.pivots.size) { turned.values[it].roundToInt().coerceIn(0, size - 1) }
+        return Columns(rings.zip(turned(factor, turned.vectors)).sortedBy { it.first }, factor.left)
+    }
+
+    /** In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue. */
+    private fun order(factor: PivotedCholesky, spectrum: DoubleArray): Array<DoubleArray> {
+        val lower = lower(factor)
+        val order = covariances(factor.pivots, DistanceCurve(step(spectrum)) { ordered(spectrum, it) })
         solve(lower, order)
-        for (a in 0 until r) for (b in 0 until a) order[a][b] = order[b][a].also { order[b][a] = order[a][b] }
+        transpose(order)
         solve(lower, order)
-        for (a in 0 until r) for (b in 0 until a) order[b][a] = order[a][b]
-        val turned = SymmetricEigen(order, loops)
-        val rings = List(r) { turned.values[it].roundToInt().coerceIn(0, size - 1) }
-        val heights = turned.vectors
+        for (a in order.indices) for (b in 0 until a) order[b][a] = order[a][b]
+        return order
+    }
+
+    /** L: the rows of [factor] that were its pivots. */
+    private fun lower(factor: PivotedCholesky) = Array(factor.pivots.size) { a ->
+        DoubleArray(a + 1) { b -> factor.columns[b][factor.pivots[a]] }
+    }
+
+    private fun covariances(places: List<Int>, curve: DistanceCurve) = Array(places.size) { a ->
+        DoubleArray(places.size) { b -> curve.at(distance(places[a], places[b])) }
+    }
+
+    private fun transpose(rows: Array<DoubleArray>) {
+        for (a in rows.indices) for (b in 0 until a) rows[a][b] = rows[b][a].also { rows[b][a] = rows[a][b] }
+    }
+
+    /** The columns of [factor] times each of [heights]. */
+    private fun turned(factor: PivotedCholesky, heights: Array<DoubleArray>): List<DoubleArray> {
+        val r = heights.size
         val out = List(r) { DoubleArray(n) }
         // So many rows of all columns stay in the processor's cache.
         loops.each((n + AT_ONCE - 1) / AT_ONCE) { part ->
             val from = part * AT_ONCE
             for (k in 0 until r) Combination.add(factor.columns, heights[k], out[k], r, from, minOf(from + AT_ONCE, n))
         }
-        return Columns(rings.zip(out).sortedBy { it.first }, factor.left)
+        return out
     }
 
     /** Replaces [rows] by L⁻¹ of them, with L = [lower]; whole rows are taken off each other. */
