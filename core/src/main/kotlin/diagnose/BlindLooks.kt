@@ -27,8 +27,6 @@ internal class BlindLooks(
     private val prediction = DoubleArray(n) { series.values[it] - state.residuals[it] }
     private val values = Standard(prediction)
     private val rates = Standard(rise(prediction))
-    private val value = values.of(prediction)
-    private val rate = rates.of(rise(prediction))
 
     /** All looks; of the same kinds in the same order whatever the model of a log is. */
     val list: List<BlindLook> by lazy { shapes() + BlindPeriods(state, tries).look() }
@@ -40,14 +38,19 @@ internal class BlindLooks(
     fun refitted(index: Int): RefittedLook = tries.refitted(list[index], trials[index])
 
     /** The look called [name] at what [of] makes of the value and its rate of change, both standard. */
-    private fun shown(name: String, doubt: Double = BlindLook.DOUBT, of: (DoubleArray, DoubleArray) -> List<DoubleArray>) =
-        BlindLook(name, of(value, rate), doubt = doubt, follow = { change ->
-            fun moved(by: Double): List<DoubleArray> {
-                val other = DoubleArray(n) { prediction[it] + by * change[it] }
-                return of(values.of(other), rates.of(rise(other)))
-            }
-            moved(1.0).zip(moved(-1.0)) { up, down -> DoubleArray(n) { (up[it] - down[it]) / 2 } }
-        })
+    private fun shown(
+        name: String,
+        doubt: Double = BlindLook.DOUBT,
+        of: (DoubleArray, DoubleArray) -> List<DoubleArray>,
+    ): BlindLook {
+        fun at(prediction: DoubleArray) = of(values.of(prediction), rates.of(rise(prediction)))
+        fun changes(change: DoubleArray): List<DoubleArray> {
+            val above = at(DoubleArray(n) { prediction[it] + change[it] })
+            val below = at(DoubleArray(n) { prediction[it] - change[it] })
+            return above.zip(below) { up, down -> DoubleArray(n) { (up[it] - down[it]) / 2 } }
+        }
+        return BlindLook(name, at(prediction), doubt = doubt, follow = ::changes)
+    }
 
     /** The look at [what], of which [of] makes a column that has more at some times than at others. */
     private fun changing(what: String, of: (DoubleArray, DoubleArray) -> DoubleArray) =

@@ -31,7 +31,7 @@ internal class BlindSearch private constructor(
     /** Rows that are fitted. */
     val used = BooleanArray(n) { true }
 
-    private val most = (n * 2 / 5).coerceIn(FEWEST_WAVES, MOST_WAVES)
+    private val most = most(n).coerceAtMost(MOST_WAVES)
 
     /** The water's waves; few until [best] has told which are needed. */
     val modes: WaterModes get() = fine ?: rough
@@ -337,6 +337,9 @@ internal class BlindSearch private constructor(
         /** Share of the search that one of its parts is. */
         const val ROUGH = 0.25
         const val FEWEST_WAVES = 30
+
+        /** Waves at most that so many [rows] are asked for. */
+        fun most(rows: Int): Int = maxOf(rows * 2 / 5, FEWEST_WAVES)
 
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5

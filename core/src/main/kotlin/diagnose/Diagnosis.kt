@@ -56,13 +56,8 @@ public class Diagnosis private constructor(
         val sane = series.withoutWild()
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
-        val answer = if (sane ===
-            series
-        ) {
-            answer(reference)
-        } else {
-            Diagnosis(sane, settings, loops, progress).answer(truth)
-        }
+        val diagnosis = if (sane === series) this else Diagnosis(sane, settings, loops, progress)
+        val answer = diagnosis.answer(truth)
         return answer.ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
             .also { progress(1.0) }
     }

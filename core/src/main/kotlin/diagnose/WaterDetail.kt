@@ -14,7 +14,7 @@ import kotlin.math.sqrt
 internal class WaterDetail(private val search: BlindSearch, private val most: Int) {
     /** Columns at most with rings that are offered: with few rows more columns take no longer. */
     private val mostOffered = search.track.x.size.let { rows ->
-        (rows * COLUMNS_A_ROW).coerceAtMost(BlindSearch.MOST_WAVES * sqrt(MANY_ROWS / rows)).toInt().coerceAtLeast(most)
+        minOf(BlindSearch.most(rows), (BlindSearch.MOST_WAVES * sqrt(MANY_ROWS / rows)).toInt()).coerceAtLeast(most)
     }
 
     /** [state] with waves as strong as they have been found to be, of which so many are enough as show above the noise. */
@@ -70,9 +70,6 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
 
         /** Power of what is left along waves over the noise's from which they are offered; whether they stay is then asked. */
         private const val MISSING = 1.25
-
-        /** Columns for a row, as [BlindSearch] has. */
-        private const val COLUMNS_A_ROW = 0.4
 
         /** Rows with which columns more than [BlindSearch.MOST_WAVES] would take longer than ten seconds. */
         private const val MANY_ROWS = 5000.0

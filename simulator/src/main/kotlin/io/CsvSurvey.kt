@@ -301,15 +301,15 @@ internal class CsvSurvey internal constructor(
         private fun timeSizeProblem(row: CsvRow): LogProblem? {
             val time = row.numbers[TIME]
             if (abs(time) <= LARGEST_SECONDS) return null
-            if (abs(time) < CsvTimes.DATES) return problem(row.line, columns.time, CsvTimes.LAST, "$time s", BOUNDS)
+            if (abs(time) < CsvTimes.LATEST) return problem(row.line, columns.time, CsvTimes.A_DATE, "$time s", WILD)
             val found = "$time" + if (abs(time) < LARGEST_MILLIS) ": milliseconds? --time-unit ms" else ""
-            return problem(row.line, columns.time, "seconds", found, BOUNDS)
+            return problem(row.line, columns.time, "seconds", found, WILD)
         }
 
         private fun sizeProblem(row: CsvRow, slot: Int, column: Int, largest: Double): LogProblem? {
             if (column == CsvColumns.NONE || abs(row.numbers[slot]) <= largest) return null
             val expected = "a number within -$largest..$largest"
-            return problem(row.line, column, expected, "${row.numbers[slot]}", BOUNDS)
+            return problem(row.line, column, expected, "${row.numbers[slot]}", WILD)
         }
 
         private fun reachProblem(row: CsvRow): LogProblem? {
@@ -379,7 +379,7 @@ internal class CsvSurvey internal constructor(
 
     companion object {
         private const val SUMMARY = "lines that sum up"
-        private const val BOUNDS = "rows with a number out of all bounds"
+        private const val WILD = "rows with a number out of all bounds"
         private const val NO_PLACE = "rows without a position"
         private const val LARGEST_METRES = 1e9
 

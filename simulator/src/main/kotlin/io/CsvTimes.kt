@@ -13,11 +13,11 @@ internal class CsvTimes(
     val expectedDate: String = "",
 ) {
     companion object {
-        /** Seconds since 1970 that a date may come to: nobody has meant them as milliseconds. */
-        const val DATES: Double = 253_402_300_800.0
+        /** Seconds from 1970 to the end of the year 9999, the last that ISO 8601 writes in four digits. */
+        const val LATEST: Double = 253_402_300_800.0
 
         /** What such a date must be. */
-        const val LAST = "a time before the year 5138"
+        const val A_DATE = "a time before the year 5138"
 
         /** What a time in seconds or ISO 8601 must be. */
         const val PLAIN = "seconds or a time as 2025-06-01T12:00:00Z"

@@ -1,8 +1,11 @@
 package stillwater.cli
 
+import com.github.ajalt.clikt.core.subcommands
+import com.github.ajalt.clikt.testing.test
 import kotlinx.serialization.json.Json
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.double
+import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import kotlinx.serialization.json.long
@@ -88,6 +91,22 @@ class RealLogsTest {
         assertEquals(0.054, legs.child("best_shift").number("mismatch"), 0.003)
         assertEquals(13.5, legs.child("best_shift").number("earlier_by_s"), 1.6)
         assertEquals("true", legs.child("best_shift").getValue("clear").jsonPrimitive.content)
+    }
+
+    @Test
+    fun findsTheLagOfTheOxygenSensorOfLacHertelWithoutAReference() {
+        val out = directory.out().toString()
+        val log = data().resolve("lac_hertel_asv/survey.csv").toString()
+        val flags = listOf("--value", "odo_percent_sat", "--numbers-only", "--json", "--out", out)
+        val result = Stillwater().subcommands(DiagnoseCommand()).test(listOf("diagnose", log) + flags)
+        assertEquals(0, result.statusCode, result.output)
+        val answer = Json.parseToJsonElement(result.stdout).jsonObject
+        assertEquals("ambiguous", answer.getValue("verdict").jsonPrimitive.content)
+        assertEquals("""[["time-constant","dead-time"]]""", answer.getValue("ambiguity").toString())
+        val lag = answer.child("baseline").getValue("parameters").jsonArray.single().jsonObject
+        // By shifting opposite legs others found 11 s (9 to 12).
+        assertTrue(lag.number("lower") < 11.0 && lag.number("upper") > 11.0, "$lag")
+        assertEquals(14.0, lag.number("value"), 3.0)
     }
 
     @Test
