@@ -29,9 +29,9 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
     }
 
     /**
-     * [state] with rings that are finer still, as long as that makes it likelier. Only beyond a gap, where its finest waves
-     * hold less than the noise: where they hold more columns were too few for finer ones, or it is the response that is
-     * wrong, which finer ones would hide (218077).
+     * [state] with rings that are finer still, as long as that makes it likelier. Only beyond a gap, where its finest
+     * waves hold less than the noise: where they hold more columns were too few for finer ones, or it is the response
+     * that is wrong, which finer ones would hide (218077).
      */
     private fun filled(state: BlindState): BlindState {
         if (!state.isResolved || state.power(state.modes.bands - 1) > state.variance) return state
