@@ -57,8 +57,7 @@ public class Diagnosis private constructor(
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
         val diagnosis = if (sane === series) this else Diagnosis(sane, settings, loops, progress)
-        val answer = diagnosis.answer(truth)
-        return answer.ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
+        return diagnosis.answer(truth).ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
             .also { progress(1.0) }
     }
 
@@ -116,7 +115,11 @@ public class Diagnosis private constructor(
             first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         // A place ahead by just what a held truth is ahead by is rather that.
         val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
-        val weighed = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0) else first
+        val own = first.last.model.steps
+        val turned = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0, own.other) else first
+        // What makes sharp steps look late may have hidden the third way.
+        val third = (Steps.entries - own - own.other).filter { doubtful && unknown.isSharp }
+        val weighed = third.fold(turned) { best, steps -> better(best, -HELD, steps) }
         // Sharp steps that are held until the next row are a row late, which a dead time may do as well.
         val isLate =
             weighed.last.model.steps == Steps.UNTIL_NEXT && weighed.chosen.any { it.term.cause == Cause.DEAD_TIME }
@@ -224,8 +227,8 @@ public class Diagnosis private constructor(
     private fun ahead(rows: Double) =
         series.withQuieter(ReferenceLead.course(series, rows * series.period, unknown.isBroken))
 
-    /** [first] where it explains the log better for its numbers, by [margin], than the weighing with steps the other way. */
-    private fun better(first: Weighing, margin: Double, steps: Steps = first.last.model.steps.other): Weighing {
+    /** [first] where it explains the log better for its numbers, by [margin], than the weighing with [steps]. */
+    private fun better(first: Weighing, margin: Double, steps: Steps): Weighing {
         val rows = used.copyOf()
         val second = weighing(steps)
         if (second.explained > first.explained - margin) return second

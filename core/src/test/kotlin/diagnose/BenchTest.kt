@@ -30,7 +30,7 @@ class BenchTest {
         }
     }
 
-    private fun noisy(column: DoubleArray, spread: Double) =
+    private fun noisy(column: DoubleArray, spread: Double, random: java.util.Random = this.random) =
         DoubleArray(column.size) { column[it] + spread * random.nextGaussian() }
 
     private fun log(values: DoubleArray, reference: DoubleArray): MeasuredSeries {
@@ -85,6 +85,35 @@ class BenchTest {
     fun whatShowsOnPlateausIsNamedWheneverEachStepCame() {
         assertEquals(Verdict.Named(listOf(Cause.TWO_PATH_RESPONSE)), Diagnosis(moved(60.0, 0.04)).run().verdict)
         assertEquals(Verdict.Consistent, Diagnosis(moved(60.0, 0.0)).run().verdict)
+    }
+
+    /** Two lags in a row of 8 and 3 s, stepped once a row by [share] of the row before and the rest of the row itself. */
+    private fun twice(share: Double, random: java.util.Random): MeasuredSeries {
+        val moves = List(n / 40) { 40 * it + 20 + random.nextInt(20) }
+        val levels = List(moves.size + 1) { 5 + 20 * random.nextDouble() }
+        val truth = DoubleArray(n) { row -> levels[moves.count { it <= row }] }
+        var first = truth[0]
+        var second = first
+        val shown = DoubleArray(n) { i ->
+            if (i > 0) {
+                first += (1 - exp(-1.0 / 8)) * (share * truth[i - 1] + (1 - share) * truth[i] - first)
+                second += (1 - exp(-1.0 / 3)) * (first - second)
+            }
+            second
+        }
+        return log(noisy(shown, 0.11, random), noisy(truth, 0.022, random))
+    }
+
+    @Test
+    fun aSecondLagBehindSharpStepsIsAsLongHoweverTheyAreHeld() {
+        for (share in listOf(0.0, 1.0)) {
+            val result = Diagnosis(twice(share, java.util.Random(1))).run()
+            assertEquals(Verdict.Named(listOf(Cause.SECOND_ORDER_RESPONSE)), result.verdict)
+            val numbers = result.effects.single().parameters
+            // A tenth, the bar; three standard errors of the first lag. Steps taken the wrong way are 24 % off.
+            assertEquals(8.0, numbers.first { it.name == "time_constant_s" }.value, 0.25)
+            assertEquals(3.0, numbers.first { it.name == "second_time_constant_s" }.value, 0.3)
+        }
     }
 
     @Test
