@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import kotlin.math.ln
+
 /**
  * All causes and looks on top of one model of a log without a reference.
  *
@@ -282,10 +284,10 @@ internal class BlindRound(
         val begun = tight.map { i ->
             listOfNotNull(here to 0.0, onStill?.let { it to state.score - still.score })
                 .map { (looks, lost) -> Begun(looks, i, lost) }.maxBy { it.worth }
-        }.filter { it.worth > LIKELY }.sortedByDescending { it.worth }.take(MOST_LOOKS)
+        }.filter { it.worth > LIKELY }.sortedByDescending { it.sureness }.take(MOST_LOOKS)
         val quieter = onQuiet?.let { looks -> tight.map { Begun(looks, it, MADE_UP * deficit) } }.orEmpty()
             .filter { it.worth > LIKELY && begun.none { other -> other.index == it.index } }
-            .maxByOrNull { it.worth }
+            .maxByOrNull { it.sureness }
         val looked = begun + listOfNotNull(quieter)
         loops.all(looked, ::refitted).forEachIndexed { i, next ->
             val index = looked[i].index
@@ -301,6 +303,9 @@ internal class BlindRound(
         val look = looks.list[index]
         val trial = looks.trials[index]
         val worth = trial.likelier - lost
+
+        /** The same less what the look has to explain beyond others, whose p-value may be too small by as much. */
+        val sureness = worth - 2 * ln(look.doubt)
     }
 
     private fun refitted(begun: Begun): BlindTrial {

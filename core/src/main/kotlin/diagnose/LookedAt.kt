@@ -19,9 +19,15 @@ internal class LookedAt(
     /** Sums of the columns, independent of each other. */
     val directions: List<Looked.Direction> = run {
         val looked = Looked(state.fit, n)
-        // The model's own numbers are those with which nothing is left to them.
-        own.forEach { column -> looked.add(column, isNew = false) { dot(it, state.whitened) } }
-        val chances = look.follow?.let { follow -> waters.chance { follow(it) + it } }
+        val follow = look.follow
+        if (follow == null) {
+            // What the boat or time makes knows nothing of the readings' errors.
+            own.forEach { looked.add(it, isNew = false) }
+        } else {
+            // The model's own numbers are those with which nothing is left to them.
+            own.forEach { column -> looked.add(column, isNew = false) { dot(it, state.whitened) } }
+        }
+        val chances = follow?.let { waters.chance { change -> it(change) + change } }
         if (chances != null) {
             val shown = DoubleArray(n) { state.model.series.values[it] - state.residuals[it] }
             looked.add(shown, isNew = true) { chances.last() }
