@@ -57,8 +57,8 @@ public class Diagnosis private constructor(
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
         val diagnosis = if (sane === series) this else Diagnosis(sane, settings, loops, progress)
-        return diagnosis.answer(truth).ofRead(series.isRead, listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 }))
-            .also { progress(1.0) }
+        val notes = listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 })
+        return diagnosis.answer(truth).ofRead(series.isRead, notes).also { progress(1.0) }
     }
 
     private fun answer(reference: DoubleArray): DiagnosisResult {
