@@ -67,7 +67,6 @@ internal class BlindDiagnosis(
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === likeliest) round(start, still) else round(start)
-        finer(likeliest, first)?.let { return answer(it, isTurned) }
         val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
         val found = forward(first)
@@ -84,19 +83,6 @@ internal class BlindDiagnosis(
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
             .of(first, chosen, sets, end)
     }
-
-    /**
-     * [likeliest] with finer waves, where its own leave it open whether there are some or the response is another, and they
-     * are likelier than all that [first] tried; null where they are not.
-     */
-    private fun finer(likeliest: BlindState, first: BlindRound): BlindState? {
-        if (likeliest.isResolved || isFiner) return null
-        isFiner = true
-        val tried = first.causes.mapNotNull { it.state } + first.state
-        return search.filled(likeliest, tried.maxOf { it.score })
-    }
-
-    private var isFiner = false
 
     /**
      * [base] with other steps, where what [first] found is a shift that these do for: a truth that is held over each step

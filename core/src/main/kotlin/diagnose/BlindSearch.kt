@@ -117,17 +117,6 @@ internal class BlindSearch private constructor(
 
     private fun redone(state: BlindState) = WaterDetail(this, most).of(state)
 
-    /**
-     * [state], of which the finest waves are strong, with those finer ones that make it likelier, and what suits them; null
-     * if below [least].
-     */
-    fun filled(state: BlindState, least: Double): BlindState? {
-        val filled = WaterDetail(this, most).filled(state)
-        if (filled === state) return null
-        val next = improved(requieted(evened(filled)))
-        return next.takeIf { it.score > least }?.also { fine = it.modes }
-    }
-
     /** The noise's variance that [best] found, sensor units². */
     var lastVariance: Double = 0.0
         private set

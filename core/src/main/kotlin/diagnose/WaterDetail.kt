@@ -31,7 +31,7 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
     }
 
     /** [state] with rings that are finer still, as long as that makes it likelier. */
-    fun filled(state: BlindState): BlindState {
+    private fun filled(state: BlindState): BlindState {
         var now = state
         repeat(FILLED) {
             val offered = missing(now)

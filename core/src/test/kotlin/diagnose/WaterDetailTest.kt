@@ -6,7 +6,6 @@ import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
-import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 class WaterDetailTest {
@@ -65,28 +64,12 @@ class WaterDetailTest {
         assertTrue(fine.modes.finest >= coarse.modes.finest && fine.modes.size <= ENOUGH, "${fine.modes.lengths}")
     }
 
-    /** Where the finest waves are strong finer ones are held against what other responses make likely. */
-    @Test
-    fun finerWavesTakeThePlaceOfWhatIsLessLikely() {
-        val series = series { x, y -> long(x, y) + STRONG * sin(1.2 * x + y / 2) }
-        val search = BlindSearch(series)
-        val state = found(series, search, FEW)
-        assertTrue(!state.isResolved)
-        val finer = checkNotNull(search.filled(state, state.score))
-        assertTrue(finer.score > state.score + 100, "${finer.score} for ${state.score}")
-        assertTrue(finer.modes.finest < state.modes.finest)
-        assertEquals(finer.modes, search.modes)
-        assertEquals(LAG, finer.timeConstant, 0.2)
-        assertNull(search.filled(state, finer.score))
-    }
-
     private companion object {
         const val LAG = 4.0
         const val SEED = 7
 
         /** Five deviations of the noise, of which a lag shows one. */
         const val FAINT = 0.1
-        const val STRONG = 1.0
 
         /** Columns for waves of some 10 m, and of some 6 m. */
         const val FEW = 100
