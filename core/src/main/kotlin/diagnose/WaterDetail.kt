@@ -19,15 +19,21 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
 
     /** [state] with waves as strong as they have been found to be, of which so many are enough as show above the noise. */
     fun of(state: BlindState): BlindState {
-        var now = state
-        for (again in 1..REDONE) {
-            val next = refined(now, most, emptySet())
-            if (next == null || next.score < now.score - BlindSearch.ENOUGH) break
-            now = next
-        }
+        val now = found(state)
         // Beyond a gap alone: where the finest waves hold more than the noise, columns were too few for finer ones, or it is
         // the response that is wrong, which finer ones would hide.
         return if (now.isResolved && now.power(now.modes.bands - 1) <= now.variance) filled(now) else now
+    }
+
+    /** [state] with rings found from the longest down, as long as that makes it no less likely. */
+    private fun found(state: BlindState): BlindState {
+        var now = state
+        repeat(REDONE) {
+            val next = refined(now, most, emptySet())
+            if (next == null || next.score < now.score - BlindSearch.ENOUGH) return now
+            now = next
+        }
+        return now
     }
 
     /** [state] with rings that are finer still, as long as that makes it likelier. */
