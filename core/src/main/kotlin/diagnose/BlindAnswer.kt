@@ -263,7 +263,7 @@ internal class BlindAnswer(
             rmse(state.residuals),
             heldOut.rmse,
             heldOut.logLikelihood,
-            DoubleArray(n) { series.values[it] - state.residuals[it] },
+            state.shown,
             spread,
             noise.share,
             noise.time,
@@ -277,7 +277,7 @@ internal class BlindAnswer(
 
     private fun candidates(first: BlindRound): List<Candidate> {
         val state = first.state
-        val predicted = DoubleArray(n) { series.values[it] - state.residuals[it] }
+        val predicted = state.shown
         val list = first.causes.mapIndexed { i, trial ->
             val model = checkNotNull(trial.model)
             val point = checkNotNull(trial.point)

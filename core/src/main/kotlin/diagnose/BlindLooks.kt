@@ -24,7 +24,7 @@ internal class BlindLooks(
     private val series = state.model.series
     private val n = series.size
     private val tau = maxOf(state.timeConstant, series.period)
-    private val prediction = DoubleArray(n) { series.values[it] - state.residuals[it] }
+    private val prediction = state.shown
     private val values = Standard(prediction)
     private val rates = Standard(rise(prediction))
 

@@ -81,20 +81,11 @@ internal class BlindRound(
         val both = terms.filter {
             isOther && (it.cause in BlindDiagnosis.SLOW || !isFar || (isBlurred && it.cause in BlindSearch.LINEAR))
         }
-        val others = both.map { it.key }
-            .zip(
-                loops.all(both) {
-                    (
-                        if (it.cause in
-                            BlindDiagnosis.SLOW
-                        ) {
-                            heldTries
-                        } else {
-                            stillTries
-                        }
-                        ).attempt(it)
-                },
-            ).toMap()
+        val tried = loops.all(both) {
+            val tries = if (it.cause in BlindDiagnosis.SLOW) heldTries else stillTries
+            tries.attempt(it)
+        }
+        val others = both.map { it.key }.zip(tried).toMap()
         fun other(trial: BlindTrial) = others[trial.term?.key]
         fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
         val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }

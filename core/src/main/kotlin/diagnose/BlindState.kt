@@ -30,6 +30,9 @@ internal class BlindState(
     /** Residuals, whitened, without what the water takes. */
     val whitened: DoubleArray by lazy { fit.residual(residuals) }
 
+    /** What the model shows, sensor units, length n. */
+    val shown: DoubleArray get() = DoubleArray(residuals.size) { model.series.values[it] - residuals[it] }
+
     /** What minus twice the log-likelihood has beside the square sum of residuals over their variance. */
     val spare: Double get() = fit.rows * ln(variance) + fit.design.noise.logDeterminant
 

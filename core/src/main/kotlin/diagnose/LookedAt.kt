@@ -29,8 +29,7 @@ internal class LookedAt(
         }
         val chances = follow?.let { waters.chance { change -> it(change) + change } }
         if (chances != null) {
-            val shown = DoubleArray(n) { state.model.series.values[it] - state.residuals[it] }
-            looked.add(shown, isNew = true) { chances.last() }
+            looked.add(state.shown, isNew = true) { chances.last() }
         }
         val known = looked.directions.size
         look.columns.forEachIndexed { i, column -> looked.add(column, isNew = true) { chances?.get(i) ?: 0.0 } }
