@@ -275,10 +275,10 @@ internal class BlindRound(
         val begun = tight.map { i ->
             listOfNotNull(here to 0.0, onStill?.let { it to state.score - still.score })
                 .map { (looks, lost) -> Begun(looks, i, lost) }.maxBy { it.worth }
-        }.filter { it.worth > LIKELY }.sortedByDescending { it.sureness }.take(MOST_LOOKS)
+        }.filter { it.worth > LIKELY }.sortedByDescending { it.undoubted }.take(MOST_LOOKS)
         val quieter = onQuiet?.let { looks -> tight.map { Begun(looks, it, MADE_UP * deficit) } }.orEmpty()
             .filter { it.worth > LIKELY && begun.none { other -> other.index == it.index } }
-            .maxByOrNull { it.sureness }
+            .maxByOrNull { it.undoubted }
         val looked = begun + listOfNotNull(quieter)
         loops.all(looked, ::refitted).forEachIndexed { i, next ->
             val index = looked[i].index
@@ -296,7 +296,7 @@ internal class BlindRound(
         val worth = trial.likelier - lost
 
         /** The same less what the look has to explain beyond others, whose p-value may be too small by as much. */
-        val sureness = worth - 2 * ln(look.doubt)
+        val undoubted = worth - 2 * ln(look.doubt)
     }
 
     private fun refitted(begun: Begun): BlindTrial {

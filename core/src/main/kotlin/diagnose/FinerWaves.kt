@@ -45,7 +45,7 @@ internal object FinerWaves {
      * The same along waves from [longest] down to [shortest], m, without what the fit takes: with w a wave, whitened, and
      * P what takes off it what the water's own can show, z has the covariance σ²P, and (w·z)² is σ² w·Pw on average.
      */
-    fun excess(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): Double {
+    fun excessBetween(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): Double {
         val left = state.whitened
         val found = search.loops.all(waves(state, search, longest, shortest)) { wave ->
             val white = state.fit.whitened(wave)

@@ -53,7 +53,7 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
         val finest = state.modes.finest
         val asked = state.modes.finer.filter { it > finest / FINER }
         return asked.filterIndexedTo(HashSet()) { i, shortest ->
-            FinerWaves.excess(state, search, if (i == 0) finest else asked[i - 1], shortest) > MISSING
+            FinerWaves.excessBetween(state, search, if (i == 0) finest else asked[i - 1], shortest) > MISSING
         }
     }
 

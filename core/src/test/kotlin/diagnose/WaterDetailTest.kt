@@ -48,7 +48,7 @@ class WaterDetailTest {
         fun excess(series: MeasuredSeries): Double {
             val search = BlindSearch(series)
             // Of 4.8 and 5.6 m.
-            return FinerWaves.excess(found(series, search, FEW), search, 6.0, 4.6)
+            return FinerWaves.excessBetween(found(series, search, FEW), search, 6.0, 4.6)
         }
         val more = excess(series { x, y -> long(x, y) + FAINT * (sin(1.2 * x + y / 2) + sin(y - x / 2)) })
         val none = excess(series(::long))

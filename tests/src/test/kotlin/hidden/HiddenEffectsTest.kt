@@ -78,17 +78,15 @@ class HiddenEffectsTest {
     }
 
     /**
-     * Seeds of the work on it: a play whose model left what a lag that goes with speed takes, a response that rings in
-     * water too fine for its log, which a probe ahead seemed to explain, and nothing in a log whose rate of change shows
-     * more of itself at some times by chance.
+     * Seeds of the work on it: a response that rings in water too fine for its log, which a probe ahead seemed to explain,
+     * and nothing in a log whose rate of change shows more of itself at some times by chance.
      */
     @Test
     fun whatIsNotThereIsNotNamed() {
-        val cases = blind(208_002, 209_055, 204_015)
-        val hidden = listOf(setOf(HiddenEffect.HYSTERESIS), setOf(HiddenEffect.RESONANCE), emptySet())
-        assertEquals(hidden, cases.map { it.truth.effects.keys })
-        assertTrue(cases.first().correct && cases.last().answer.verdict == "consistent", Scores(cases).markdown())
-        assertTrue(cases[1].answer.sets.none { "position-offset" in it }, Scores(cases).markdown())
+        val cases = blind(209_055, 204_015)
+        assertEquals(listOf(setOf(HiddenEffect.RESONANCE), emptySet()), cases.map { it.truth.effects.keys })
+        assertTrue(cases.first().answer.sets.none { "position-offset" in it }, Scores(cases).markdown())
+        assertEquals("consistent", cases.last().answer.verdict)
     }
 
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
@@ -116,13 +114,12 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
     }
 
-    /** Seeds of the work on it: an offset with heading and interference of 1.3x, whose period the water takes most of. */
+    /** A seed of the work on it: interference of 1.3x, whose period the water takes most of. */
     @Test
     fun whatIsOutsideTheListIsUnexplainedWhereItIsFaint() {
-        val cases = blind(205_019, 204_010)
-        val hidden = listOf(HiddenEffect.HEADING, HiddenEffect.INTERFERENCE)
-        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
-        assertTrue(cases.all { it.answer.verdict == "unexplained" }, Scores(cases).markdown())
+        val case = blind(204_010).single()
+        assertEquals(setOf(HiddenEffect.INTERFERENCE), case.truth.effects.keys)
+        assertEquals("unexplained", case.answer.verdict)
     }
 
     /** Seed 150128 hides a dead time, 150120 nothing. */
