@@ -33,6 +33,16 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
         return if (version == PlatypusVersion.TEXT) parseText(payload) else parseJson(payload)
     }
 
+    /** What came in before the step that [line] tells of; null where it tells of none, as in any log but a mission's. */
+    fun inputs(line: String): MissionInputs? {
+        val payload = if (version == PlatypusVersion.LEVEL_JSON && INPUTS in line) afterLevel(line) else null
+        val json = payload?.let { LogLine.objectOrNull(it) } ?: return null
+        val step = ((json["mission"] as? JsonObject)?.get("t_s") as? JsonPrimitive)?.doubleOrNull ?: return null
+        val inputs = json["in"] as? JsonObject ?: return null
+        fun rows(key: String) = (inputs[key] as? JsonArray)?.mapNotNull { it.numbers() }.orEmpty()
+        return MissionInputs(step, rows("fix"), rows("compass"))
+    }
+
     private fun afterLevel(line: String): String? {
         val tab = line.indexOf('\t')
         millis = if (tab > 0) line.substring(0, tab).toLongOrNull() ?: -1 else -1
@@ -147,6 +157,7 @@ internal class PlatypusLine(private val version: PlatypusVersion) {
 
         /** Some 30 000 years, ms. */
         private const val LATEST_EPOCH = 1e15
+        private const val INPUTS = "\"in\":{"
         private const val LEVEL_LENGTH = 3
         private const val QUATERNION = 4
 

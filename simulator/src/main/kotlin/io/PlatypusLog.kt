@@ -11,6 +11,9 @@ import kotlin.math.abs
 /**
  * A log of a Platypus boat: the readings of one of its sensors, each placed where the boat was at the reading's time.
  *
+ * That is between its poses; in a mission's log, which has the fixes and headings as well, where all of these together
+ * say ([MissionFixes]). Such a log is read twice, and its times are kept.
+ *
  * Poses before the first GPS fix are a placeholder that looks like a place; they are left out and counted. A log
  * whose name ends in `.incomplete` may have its last line cut.
  */
@@ -28,8 +31,28 @@ internal class PlatypusLog private constructor(
     override var frame: LocalFrame? = null
         private set
 
+    /** Where the fixes put the readings; null in a log without any. */
+    private val places: MissionPlaces? by lazy {
+        if (content.head.none { MISSION in it }) return@lazy null
+        val fixes = MissionFixes()
+        pass({}, fixes) { time, _, _, _, _ -> fixes.reading(time.seconds) }
+        frame?.let { fixes.places(it) }
+    }
+
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
-        val pass = Pass(sink)
+        val places = places ?: return pass(progress, null, sink)
+        var k = 0
+        val pass = pass(progress, null) { time, x, y, value, conditions ->
+            // A log that a mission still writes has more now.
+            val isPlaced = k < places.times.size && places.times[k] == time.seconds && !places.x[k].isNaN()
+            sink.take(time, if (isPlaced) places.x[k] else x, if (isPlaced) places.y[k] else y, value, conditions)
+            k++
+        }
+        return pass.copy(warnings = pass.warnings + listOfNotNull(places.note))
+    }
+
+    private fun pass(progress: (Long) -> Unit, fixes: MissionFixes?, sink: ReadingSink): LogPass {
+        val pass = Pass(fixes, sink)
         BoundedLines(content.reader(progress = progress)).use { lines ->
             for (line in lines) pass.take(line, lines.peek())
         }
@@ -41,7 +64,7 @@ internal class PlatypusLog private constructor(
     private data class Pending(val seconds: Double, val value: Double)
 
     /** One reading of the file from its beginning. */
-    private inner class Pass(private val sink: ReadingSink) {
+    private inner class Pass(private val inputs: MissionFixes?, private val sink: ReadingSink) {
         private val lines = PlatypusLine(version)
         private val clock = PlatypusClock()
         private val track = PoseTrack(poseAge)
@@ -78,6 +101,7 @@ internal class PlatypusLog private constructor(
             }
             backward.accepted()
             latestLine = number
+            if (inputs != null) lines.inputs(line)?.let { inputs.take(seconds, it) }
             when (entry) {
                 is PlatypusEntry.Pose -> takePose(seconds, entry)
                 is PlatypusEntry.Sensor -> takeSensor(seconds, entry)
@@ -184,6 +208,8 @@ internal class PlatypusLog private constructor(
     }
 
     companion object {
+        /** Only a mission's log has steps. */
+        private const val MISSION = "\"mission\":{"
         private const val LARGEST_EASTING = 1e6
         private const val LARGEST_NORTHING = 1e7
         private const val PLACEHOLDER_EASTING = 476_608.34

@@ -10,6 +10,7 @@ import stillwater.mission.MissionSpec
 import stillwater.model.LatLon
 import stillwater.model.LocalFrame
 import stillwater.model.Position
+import stillwater.model.Reading
 import stillwater.sensor.SensorSpec
 import stillwater.virtual.BoardSpec
 import stillwater.virtual.VirtualBoat
@@ -17,6 +18,8 @@ import stillwater.virtual.VirtualBoatSpec
 import java.nio.file.Path
 import kotlin.io.path.writeLines
 import kotlin.math.hypot
+import kotlin.math.roundToInt
+import kotlin.math.sqrt
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
@@ -26,6 +29,9 @@ class MissionLogTest {
     private lateinit var directory: Path
 
     private val lines = ArrayList<String>()
+
+    /** Where the boat really was after each tenth of a second. */
+    private val way = ArrayList<Position>()
     private val spec = MissionSpec.fromJson(
         """{"name":"pond","origin":{"lat_deg":45.5,"lon_deg":-73.6},
             "area":{"south_west":{"x_m":-20,"y_m":-20},"north_east":{"x_m":80,"y_m":80}},
@@ -55,6 +61,7 @@ class MissionLogTest {
             mission.compass(boat.time, boat.heading(), boat.yawRate)
             if (tick == 30) mission.start()
             mission.step(boat.time)
+            way += Position(boat.dynamics.x, boat.dynamics.y)
         }
         // Readings that waited for a later one are taken with it.
         val taken = Regex(""""taken":\[((?:\[[^]]*],?)+)]""")
@@ -77,16 +84,50 @@ class MissionLogTest {
         assertEquals(mapOf("truncated last line" to 1L), pass.skipped)
         assertEquals(taken.map { it.second }, found.map { it.value })
         assertEquals(1_700_000_000.0, found[0].time.seconds, 10.0)
-        // The log's frame begins at its first pose: places are compared as seen from the first reading. A line's stamp may be
-        // some ms after its step, at 1.6 m/s at most, and grid convergence does not count: 0.02 m.
-        val offX = found[0].position.x - taken[0].first.x
-        val offY = found[0].position.y - taken[0].first.y
+        // The mission knew the fixes until then alone, the log's reader knows all.
+        val missions = error(found, taken.map { it.first })
+        val readers = error(found, placesOf(found, log))
+        assertTrue(readers < 0.7 * missions, "off by $readers m, where the mission was by $missions m")
+    }
+
+    @Test
+    fun withoutFixesAMissionsReadingsAreWhereItsPosesAre() {
+        val taken = sail()
+        val file = directory.resolve("mission.txt")
+        file.writeLines(lines.map { it.replace(Regex(""""fix":\[\[[^]]*]],?"""), "") })
+        val log = SurveyLog.open(file)
+        val found = log.readings()
+        // A line's stamp may be some ms after its step, at 1.6 m/s at most.
+        val places = placesOf(found, log)
         for (i in taken.indices) {
-            val off = hypot(
-                found[i].position.x - taken[i].first.x - offX,
-                found[i].position.y - taken[i].first.y - offY,
-            )
+            val off = hypot(places[i].x - taken[i].first.x, places[i].y - taken[i].first.y)
             assertTrue(off < 0.02, "reading $i is $off m off")
         }
     }
+
+    @Test
+    fun fixesThatAreWildAreToldAndLeftOut() {
+        sail()
+        val file = directory.resolve("mission.txt")
+        val wild = lines.indexOfFirst { it.startsWith("59") && "\"fix\":[[" in it }
+        lines[wild] = lines[wild].replace(Regex("""(?<="fix":\[\[[0-9.]{1,20},)45\.5"""), "45.6")
+        file.writeLines(lines)
+        val pass = SurveyLog.open(file).read { _, _, _, _, _ -> }
+        assertEquals(listOf("1 of 120 fixes: too far off the others, left out"), pass.warnings)
+    }
+
+    /** The places of [readings] in the mission's frame, m: the log's begins at its first pose. */
+    private fun placesOf(readings: List<Reading>, log: SurveyLog): List<Position> {
+        val frame = LocalFrame(LatLon(45.5, -73.6))
+        val own = checkNotNull(log.frame)
+        return readings.map { frame.toLocal(own.toLatLon(it.position)) }
+    }
+
+    /** Root mean square of how far [places] are from where the boat was when the [readings] came, m. */
+    private fun error(readings: List<Reading>, places: List<Position>) = sqrt(
+        readings.indices.sumOf { i ->
+            val (x, y) = way[((readings[i].time.seconds - 1_700_000_000) * 10).roundToInt()]
+            (places[i].x - x) * (places[i].x - x) + (places[i].y - y) * (places[i].y - y)
+        } / readings.size,
+    )
 }
