@@ -51,9 +51,12 @@ public class FixSmoother internal constructor(private val fixes: LoggedFixes, gi
     /** Fixes that were left out. */
     public val refused: Int
 
+    /** Logarithm of the density of the fixes, but for a constant. */
+    public val logLikelihood: Double
+
     init {
         val pass = Pass(Nodes(fixes.times))
-        pass.forward(noise)
+        logLikelihood = pass.forward(noise)
         refused = pass.refused
     }
 
@@ -129,7 +132,8 @@ public class FixSmoother internal constructor(private val fixes: LoggedFixes, gi
             val all = ArrayList<Double>(own.size)
             for (time in own) {
                 val last = all.lastOrNull()
-                if (last != null && time - last <= LONGEST_GAP) {
+                // Between headings a step turns; without any it is exact, however long.
+                if (last != null && time - last <= LONGEST_GAP && fixes.headings.isNotEmpty()) {
                     val parts = ceil((time - last) / LONGEST_STEP - ROUNDING).toInt()
                     for (k in 1 until parts) all += last + (time - last) * k / parts
                 }

@@ -248,10 +248,13 @@ internal class CorrectSummary(
     /** What to say where undoing the response sets passes farther apart than they were; null where it does not. */
     private fun worse(): String? {
         val before = result.before?.opposite?.mean ?: return null
-        val after = result.after?.opposite?.mean ?: return null
+        val found = result.after ?: return null
+        val after = found.opposite.mean
         // Nothing was undone, or of nothing there is no share.
         if (result.origin == SensorOrigin.NOTHING || !(before > 0)) return null
-        if (!(after > WORSE * before)) return null
+        // Of few legs a little more is chance, as the line about them says.
+        val much = if (found.scores.size < LagShift.FEWEST_LEGS) WORSE_OF_FEW else WORSE
+        if (!(after > much * before)) return null
         val legs = "opposite legs differ by ${percent(after / before - 1)} more than as measured"
         return when (result.origin) {
             SensorOrigin.GIVEN -> "$legs: the sensor given is not this one's"
@@ -346,5 +349,6 @@ internal class CorrectSummary(
 
         /** Legs that differ by a few percent more may do so by chance. */
         const val WORSE = 1.1
+        const val WORSE_OF_FEW = 2.0
     }
 }

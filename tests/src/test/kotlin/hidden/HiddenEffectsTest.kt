@@ -86,7 +86,7 @@ class HiddenEffectsTest {
         val cases = blind(209_055, 204_015)
         assertEquals(listOf(setOf(HiddenEffect.RESONANCE), emptySet()), cases.map { it.truth.effects.keys })
         assertTrue(cases.first().answer.sets.none { "position-offset" in it }, Scores(cases).markdown())
-        assertEquals("consistent", cases.last().answer.verdict)
+        assertEquals("consistent", cases.last().answer.verdict, Scores(cases).markdown())
     }
 
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
@@ -119,7 +119,7 @@ class HiddenEffectsTest {
     fun whatIsOutsideTheListIsUnexplainedWhereItIsFaint() {
         val case = blind(204_010).single()
         assertEquals(setOf(HiddenEffect.INTERFERENCE), case.truth.effects.keys)
-        assertEquals("unexplained", case.answer.verdict)
+        assertEquals("unexplained", case.answer.verdict, Scores(listOf(case)).markdown())
     }
 
     /** Seed 150128 hides a dead time, 150120 nothing. */
