@@ -94,21 +94,25 @@ public class FixSmoother internal constructor(private val fixes: LoggedFixes, gi
         var step = LARGEST_STEP
         while (step > SMALLEST_STEP) {
             var isBetter = false
-            for (i in START.indices) for (sign in SIGNS) {
-                val moved = best.logs.copyOf()
-                moved[i] = (moved[i] + sign * step).coerceIn(LEAST[i], MOST[i])
-                val next = FixNoise(moved)
-                val nextScore = pass.forward(next)
-                if (nextScore > score) {
-                    best = next
-                    score = nextScore
-                    isBetter = true
-                    break
-                }
+            for (i in START.indices) {
+                // The other way only where one way is no better.
+                val next = SIGNS.asSequence().map { moved(best, i, it * step) }
+                    .map { it to pass.forward(it) }
+                    .firstOrNull { it.second > score } ?: continue
+                best = next.first
+                score = next.second
+                isBetter = true
             }
             if (!isBetter) step /= 2
         }
         return best
+    }
+
+    /** [noise] with its logarithm [i] changed [by] that, within what is asked. */
+    private fun moved(noise: FixNoise, i: Int, by: Double): FixNoise {
+        val logs = noise.logs.copyOf()
+        logs[i] = (logs[i] + by).coerceIn(LEAST[i], MOST[i])
+        return FixNoise(logs)
     }
 
     /** The integral of [part] of the heading until each of its times. */
@@ -285,9 +289,11 @@ public class FixSmoother internal constructor(private val fixes: LoggedFixes, gi
             for (i in 0 until SIZE) state[i] += g[2 * i] * ex + g[2 * i + 1] * ey
             // P ← P − K (the covariance of the fix with the state), which are the first two rows.
             val rows = covariance[k]
-            for (i in 0 until SIZE) for (j in i until SIZE) {
-                p[SIZE * i + j] -= g[2 * i] * rows[j] + g[2 * i + 1] * rows[SIZE + j]
-                p[SIZE * j + i] = p[SIZE * i + j]
+            for (i in 0 until SIZE) {
+                for (j in i until SIZE) {
+                    p[SIZE * i + j] -= g[2 * i] * rows[j] + g[2 * i + 1] * rows[SIZE + j]
+                    p[SIZE * j + i] = p[SIZE * i + j]
+                }
             }
             return -(ln(det) + off) / 2
         }

@@ -30,7 +30,11 @@ class FixSmootherTest {
                 val t = k * 0.1
                 val leg = (t / 80).toInt()
                 val left = t - 80 * leg
-                heading[k] = if (left > 75) PI / 2 else if (leg % 2 == 0) 0.0 else PI
+                heading[k] = when {
+                    left > 75 -> PI / 2
+                    leg % 2 == 0 -> 0.0
+                    else -> PI
+                }
                 val speed = if (left < 3) 0.8 * left / 3 else 0.8
                 x[k] = x[k - 1] + 0.1 * (speed * cos(heading[k]) + 0.1)
                 y[k] = y[k - 1] + 0.1 * (speed * sin(heading[k]) - 0.05)
@@ -62,13 +66,15 @@ class FixSmootherTest {
 
     @Test
     fun findsHowGoodFixesAreAndWhereTheBoatWas() {
-        for (seed in 1..4) for (deviation in doubleArrayOf(0.3, 1.5, 4.0)) {
-            val boat = Boat(seed, deviation)
-            val smoother = FixSmoother(boat.fixes())
-            val raw = deviation * sqrt(2.0)
-            assertEquals(0.0, ln(smoother.fixDeviation / deviation), 0.15, "seed $seed: ${smoother.fixDeviation} m")
-            assertTrue(boat.error(smoother) < 0.5 * raw, "seed $seed, $deviation m: off by ${boat.error(smoother)} m")
-            assertEquals(0, smoother.refused)
+        for (seed in 1..4) {
+            for (deviation in doubleArrayOf(0.3, 1.5, 4.0)) {
+                val boat = Boat(seed, deviation)
+                val smoother = FixSmoother(boat.fixes())
+                val error = boat.error(smoother)
+                assertEquals(0.0, ln(smoother.fixDeviation / deviation), 0.15, "seed $seed: ${smoother.fixDeviation} m")
+                assertTrue(error < 0.5 * deviation * sqrt(2.0), "seed $seed, $deviation m: off by $error m")
+                assertEquals(0, smoother.refused)
+            }
         }
     }
 
@@ -97,7 +103,8 @@ class FixSmootherTest {
     @Test
     fun isTheMeanOfTheSameProcessSolvedAtOnce() {
         val random = Random(7)
-        val times = DoubleArray(25).also { t -> for (i in 1 until t.size) t[i] = t[i - 1] + 0.2 + 4 * random.nextDouble() }
+        val times = DoubleArray(25)
+        for (i in 1 until times.size) times[i] = times[i - 1] + 0.2 + 4 * random.nextDouble()
         val x = DoubleArray(times.size) { sin(0.2 * times[it]) + random.nextDouble() }
         val y = DoubleArray(times.size) { 3 * random.nextDouble() }
         val noise = FixNoise(doubleArrayOf(ln(0.4), ln(0.1), ln(0.07), ln(0.05)))
