@@ -1,59 +1,96 @@
 package stillwater.diagnose
 
-import stillwater.estimate.FixSmoother
-import stillwater.estimate.LoggedFixes
 import stillwater.estimate.TrackSeries
 
 /**
- * Where the boat was, from fixes that jitter ([FixSmoother]). Where the log has speed and heading, what fixes are off the
- * way reckoned from these is smoothed as well, and taken if it is likelier.
+ * Where the boat was, from fixes that jitter: through the rows about each one goes a parabola of time, as wide as it
+ * foretells the fixes left out best. Where the log has speed and heading, what fixes are off the way reckoned from
+ * these is smoothed as well, and taken if it foretells them better.
  *
- * A fix that is repeated until the receiver has a new one counts once.
+ * A fix that is repeated until the receiver has a new one is put on the way between the two first.
  *
  * @property x metres east, length n. @property y metres north, length n.
  */
 internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray) {
     companion object {
+        private val REACHES = intArrayOf(2, 3, 5, 8, 12)
+        private val LONG_REACHES = intArrayOf(5, 12, 25, 50, 100)
+
         /** The smoothed way of [series]. */
         fun of(series: MeasuredSeries): SmoothTrack {
             val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
-            val rows = series.times.indices.filter { i ->
-                i == 0 || series.x[i] != series.x[i - 1] || series.y[i] != series.y[i - 1]
-            }
-            val alone = Way(series, rows, fresh.xs, fresh.ys)
-            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys)
-            if (reckoned != null) {
-                val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
-                val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
-                val other = Way(series, rows, east, north)
-                if (other.logLikelihood > alone.logLikelihood) {
-                    return SmoothTrack(
-                        DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
-                        DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
-                    )
-                }
-            }
-            return SmoothTrack(alone.x, alone.y)
+            val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, it) }
+            val best = fits.minBy { it.missed }
+            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(best.x, best.y)
+            val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
+            val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
+            val other = LONG_REACHES.map { Parabolas(series, east, north, it) }.minBy { it.missed }
+            if (other.missed > best.missed) return SmoothTrack(best.x, best.y)
+            return SmoothTrack(
+                DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
+                DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
+            )
         }
     }
 
-    /** [east] and [north] smoothed by those of the [rows] that have a fix of their own. */
-    private class Way(series: MeasuredSeries, rows: List<Int>, east: DoubleArray, north: DoubleArray) {
-        val x: DoubleArray
-        val y: DoubleArray
-        val logLikelihood: Double
+    /** Parabolas through [reach] rows either side. */
+    private class Parabolas(val series: MeasuredSeries, from: DoubleArray, north: DoubleArray, val reach: Int) {
+        val x = from.copyOf()
+        val y = north.copyOf()
+        var missed = 0.0
+        private val sums = DoubleArray(5)
+        private val right = DoubleArray(3)
 
         init {
-            fun of(column: DoubleArray) = DoubleArray(rows.size) { column[rows[it]] }
-            // Along a line there is one axis, which counts for both.
-            val isLine = north.all { it == north[0] }
-            val smoother = FixSmoother(LoggedFixes(of(series.times), of(east), of(if (isLine) east else north)))
-            val (smoothX, smoothY) = smoother.at(series.times)
-            fun known(smooth: DoubleArray, own: DoubleArray) =
-                DoubleArray(series.size) { if (smooth[it].isNaN()) own[it] else smooth[it] }
-            x = known(smoothX, east)
-            y = if (isLine) north else known(smoothY, north)
-            logLikelihood = smoother.logLikelihood
+            for (i in x.indices) {
+                val rows = rows(i)
+                if (rows.last - rows.first < FEWEST) continue
+                for ((column, out) in listOf(from to x, north to y)) {
+                    missed += (column[i] - middle(column, rows, i, true)).let { it * it }
+                    out[i] = middle(column, rows, i, false)
+                }
+            }
+        }
+
+        private fun rows(i: Int): IntRange {
+            var a = i
+            var b = i
+            val times = series.times
+            while (a > 0 && i - a < reach && times[a] - times[a - 1] <= series.gap) a--
+            while (b < times.size - 1 && b - i < reach && times[b + 1] - times[b] <= series.gap) b++
+            return a..b
+        }
+
+        /** The parabola's value at row [i]; without that row's own where [isLeftOut]. */
+        private fun middle(column: DoubleArray, rows: IntRange, i: Int, isLeftOut: Boolean): Double {
+            sums.fill(0.0)
+            right.fill(0.0)
+            for (k in rows) {
+                if (isLeftOut && k == i) continue
+                val t = (series.times[k] - series.times[i]) / series.period
+                var power = 1.0
+                for (d in 0..4) {
+                    sums[d] += power
+                    if (d < 3) right[d] += power * (column[k] - column[i])
+                    power *= t
+                }
+            }
+            return column[i] + intercept()
+        }
+
+        /** First unknown of the three normal equations, by Cramer's rule. */
+        private fun intercept(): Double {
+            val (a, b, c) = sums
+            val d = sums[3]
+            val e = sums[4]
+            val whole = a * (c * e - d * d) - b * (b * e - c * d) + c * (b * d - c * c)
+            val top = right[0] * (c * e - d * d) - b * (right[1] * e - right[2] * d) +
+                c * (right[1] * d - right[2] * c)
+            return if (whole > 1e-12 * a * c * e) top / whole else right[0] / a
+        }
+
+        private companion object {
+            const val FEWEST = 4
         }
     }
 }

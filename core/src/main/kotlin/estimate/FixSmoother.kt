@@ -51,12 +51,9 @@ public class FixSmoother internal constructor(private val fixes: LoggedFixes, gi
     /** Fixes that were left out. */
     public val refused: Int
 
-    /** Logarithm of the density of the fixes, but for a constant. */
-    public val logLikelihood: Double
-
     init {
         val pass = Pass(Nodes(fixes.times))
-        logLikelihood = pass.forward(noise)
+        pass.forward(noise)
         refused = pass.refused
     }
 
