@@ -101,15 +101,33 @@ internal class CauseSearch(
         return Evidence.pValue((best.score - without.score) / inflation(without, best), 1)
     }
 
-    private fun extended(base: ModelFit, term: Term): ModelFit {
+    private fun extended(base: ModelFit, term: Term): ModelFit =
+        forms(base, term).map { fitted(base, it) }.maxBy { it.score }
+
+    /** The forms that [term] may have beside what [base] has: the likeliest is taken. */
+    private fun forms(base: ModelFit, term: Term): List<Term> = when {
+        // What is noise, or rounding, of the other quantity's own the sensor does not show.
+        term.cause == Cause.CROSS_SENSITIVITY -> listOf(term, term.copy(isQuiet = true))
+        // A lag of which one of two parts is limited, or that follows another one, is not told from one with a limit behind.
+        term.cause == Cause.SLEW_LIMIT && base.model.terms.none { it.cause in LAG_PARTS } ->
+            listOf(term, term.copy(isWithin = true))
+        else -> listOf(term)
+    }
+
+    /** [base] with [term], fitted from several starts. */
+    private fun fitted(base: ModelFit, term: Term): ModelFit {
         val kept = base.model.terms.filter { it.key != term.key }
         val model = ResponseModel(series, kept + term, base.model.steps, scales)
         val free = freed(model, base, term)
-        val rough = starts(base, model, term)
-            .map { Fitting.fit(model, it, free, used, longest, noise = base.noise) }
-            .maxBy { it.score }
-        val fine = Fitting.fit(model, rough.numbers, free, used, longest, guess = base.noise)
-        return inOrder(if (fine.score >= rough.score) fine else rough)
+        val starts = starts(base, model, term)
+        // What a strong effect leaves of the base looks like noise that wanders. Under that only what goes from row to row
+        // counts, of which in a condition most may be its own noise: the number comes out small, and what it misses wanders.
+        return inOrder(
+            noises(base).flatMap { noise ->
+                val rough = starts.map { Fitting.fit(model, it, free, used, longest, noise = noise) }.maxBy { it.score }
+                listOf(rough, Fitting.fit(model, rough.numbers, free, used, longest, guess = noise))
+            }.maxBy { it.score },
+        )
     }
 
     private fun starts(base: ModelFit, model: ResponseModel, term: Term): List<DoubleArray> {
@@ -150,7 +168,7 @@ internal class CauseSearch(
         return withMoreJumps(best)
     }
 
-    /** Under which places of jumps are looked for. */
+    /** Under which fits begin, and places of jumps are looked for. */
     private fun noises(base: ModelFit) =
         listOf(base.noise, CorrelatedNoise.white(scales, used)).distinctBy { it.share }
 
@@ -255,6 +273,7 @@ internal class CauseSearch(
         /** What shows at an end of the range, or in the steepest water, alone. */
         private val ACT_NOW_AND_THEN = setOf(Cause.SATURATION, Cause.SLEW_LIMIT)
 
+        private val LAG_PARTS = setOf(Cause.TWO_PATH_RESPONSE, Cause.SECOND_ORDER_RESPONSE)
         private val LAG_CHANGES = setOf(
             Cause.ASYMMETRIC_RESPONSE,
             Cause.FLOW_DEPENDENT_RESPONSE,

@@ -43,11 +43,15 @@ internal class ExtendedSensor(
             if (delay > 0) add(SensorStage.Delay(delay))
         }
         value(Cause.DEAD_TIME)?.let { add(SensorStage.Delay(it)) }
-        add(lag())
+        val lag = lag()
+        add(lag)
         value(Cause.SECOND_ORDER_RESPONSE)?.let { add(SensorStage.Lag(it)) }
-        value(Cause.SLEW_LIMIT)?.let { add(SensorStage.Slew(it / abs(gain))) }
+        limit()?.takeIf { lag !is SensorStage.LimitedLag }?.let { add(SensorStage.Slew(it)) }
         value(Cause.HYSTERESIS)?.let { add(SensorStage.Backlash(it / abs(gain))) }
     }
+
+    /** The largest rate of what the sensor shows before its gain, sensor units/s; null where there is no such limit. */
+    private fun limit() = value(Cause.SLEW_LIMIT)?.let { it / abs(gain) }
 
     private fun lag(): SensorStage {
         val asymmetry = value(Cause.ASYMMETRIC_RESPONSE)
@@ -71,7 +75,8 @@ internal class ExtendedSensor(
             asymmetry != null -> SensorStage.Asymmetric(tau * exp(asymmetry / 2), tau * exp(-asymmetry / 2))
             flow != null -> SensorStage.FlowLag(tau, model.scales.ordinarySpeed, flow)
             warmth != null -> SensorStage.TemperatureLag(tau, model.scales.ordinaryTemperature, warmth)
-            else -> SensorStage.Lag(tau)
+            else -> limit()?.takeIf { model.terms.any { it.isWithin } }?.let { SensorStage.LimitedLag(tau, it) }
+                ?: SensorStage.Lag(tau)
         }
     }
 

@@ -48,6 +48,10 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
         when (stage) {
             is SensorStage.Lag ->
                 if (timeConstant.isNaN()) timeConstant = stage.timeConstant else second = stage.timeConstant
+            is SensorStage.LimitedLag -> {
+                first(stage.timeConstant)
+                found[Term(Cause.SLEW_LIMIT, isWithin = true)] = doubleArrayOf(stage.rate * abs(gainLeft()))
+            }
             is SensorStage.Asymmetric -> {
                 first(exp((ln(stage.rising) + ln(stage.falling)) / 2))
                 put(Cause.ASYMMETRIC_RESPONSE, ln(stage.rising / stage.falling))
@@ -143,6 +147,7 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
                 "expected at most two lags, one of which does not change, in a sensor that is taken as given"
             }
             for (kind in SINGLE) require(spec.stages.count { kind.isInstance(it) } <= 1) { ONCE }
+            require(spec.stages.count { it is SensorStage.Slew || it is SensorStage.LimitedLag } <= 1) { ONCE }
             val cross = spec.stages.filterIsInstance<SensorStage.Cross>().map { it.condition }
             require(cross.size == cross.toSet().size) { ONCE }
             val needed = if (spec.stages.any(::isWarmth)) cross + Conditions.TEMPERATURE else cross
@@ -151,7 +156,6 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
         }
 
         private val SINGLE = listOf(
-            SensorStage.Slew::class,
             SensorStage.Backlash::class,
             SensorStage.Range::class,
             SensorStage.Jumps::class,
@@ -159,9 +163,9 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
         private const val ONCE = "expected at most one slew limit, hysteresis, saturation, list of offset steps, and " +
             "cross-sensitivity to each condition in a sensor that is taken as given"
 
-        private fun isLag(stage: SensorStage) = stage is SensorStage.Lag || stage is SensorStage.Asymmetric ||
-            stage is SensorStage.TwoPath || stage is SensorStage.FlowLag || stage is SensorStage.TemperatureLag ||
-            stage is SensorStage.Combined
+        private fun isLag(stage: SensorStage) = stage is SensorStage.Lag || stage is SensorStage.LimitedLag ||
+            stage is SensorStage.Asymmetric || stage is SensorStage.TwoPath || stage is SensorStage.FlowLag ||
+            stage is SensorStage.TemperatureLag || stage is SensorStage.Combined
 
         private fun isWarmth(stage: SensorStage) = stage is SensorStage.TemperatureLag ||
             (stage is SensorStage.Combined && stage.relativeChange != 0.0)

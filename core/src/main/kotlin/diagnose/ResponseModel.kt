@@ -10,8 +10,8 @@ import kotlin.math.sqrt
 /**
  * The reading that a sensor with the causes [terms] would give along a log whose truth is the log's reference.
  *
- * The parts act in this order: delay and offset of place, lag (with all that changes its time constant), second lag or
- * slow path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The
+ * The parts act in this order: delay and offset of place, lag (with all that changes its time constant, or with a limit to
+ * its rate), second lag or slow path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The
  * truth is taken as a cubic spline through the rows, or as held over each step ([steps]); each lag is exact for
  * that.
  *
@@ -31,6 +31,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private val work = DoubleArray(n)
     private val second = DoubleArray(n)
     private val taus = DoubleArray(n)
+    private val limit = terms.firstOrNull { it.cause == Cause.SLEW_LIMIT }
     private val isGap = scales.unknown?.isGap
     private val isUntilNext = steps == Steps.UNTIL_NEXT
     private val spline = Spline(series.times, scales.unknown?.isBroken)
@@ -83,14 +84,15 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             lag(work, out, 1.0, asymmetry)
             for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
         } else {
-            lag(work, out, 1.0, asymmetry)
+            val most = if (limit?.isWithin == true) p[slot(limit)] / abs(p[GAIN]) else Double.POSITIVE_INFINITY
+            lag(work, out, 1.0, asymmetry, most)
         }
         if (Cause.SECOND_ORDER_RESPONSE in causes) {
             taus.fill(p[slot(Cause.SECOND_ORDER_RESPONSE)])
             lag(out, second, 1.0, 0.0)
             second.copyInto(out)
         }
-        if (Cause.SLEW_LIMIT in causes) slew(out, p[slot(Cause.SLEW_LIMIT)] / abs(p[GAIN]))
+        if (limit?.isWithin == false) slew(out, p[slot(limit)] / abs(p[GAIN]))
         if (Cause.HYSTERESIS in causes) play(out, p[slot(Cause.HYSTERESIS)] / abs(p[GAIN]))
         calibrate(p, out)
         if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
@@ -179,8 +181,17 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         }
     }
 
-    /** A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. */
-    private fun lag(input: DoubleArray, out: DoubleArray, factor: Double, asymmetry: Double) {
+    /**
+     * A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. It changes by no
+     * more than [most], sensor units/s.
+     */
+    private fun lag(
+        input: DoubleArray,
+        out: DoubleArray,
+        factor: Double,
+        asymmetry: Double,
+        most: Double = Double.POSITIVE_INFINITY,
+    ) {
         val up = factor * exp(asymmetry / 2)
         val down = factor * exp(-asymmetry / 2)
         val isTruth = input === work && !isDelayed
@@ -208,7 +219,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
                 // The response to a cubic is a cubic; what is off it fades.
                 val early = if (held) before else curve.follower(i - 1, 0.0, tau)
                 val late = if (held) before else curve.follower(i - 1, dt, tau)
-                state = late + (state - early) * fade
+                state = (late + (state - early) * fade).coerceIn(state - most * dt, state + most * dt)
             }
             out[i] = state
         }
@@ -270,7 +281,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             val at = layout.slots.getValue(term.key)
             when (term.cause) {
                 Cause.CROSS_SENSITIVITY -> {
-                    val column = scales.centred.getValue(term.condition.orEmpty())
+                    val column = (if (term.isQuiet) scales.quiet else scales.centred).getValue(term.condition.orEmpty())
                     for (i in 0 until n) out[i] += p[at] * column[i]
                 }
                 Cause.DRIFT -> for (i in 0 until n) out[i] += p[at] * (series.times[i] - series.times[0])
@@ -355,6 +366,12 @@ internal class Scales(
     val centred: Map<String, DoubleArray> = series.conditions.mapValues { (name, column) ->
         val filled = series.filled(column)
         DoubleArray(n) { filled[it] - middles.getValue(name) }
+    }
+
+    /** The same without most of its own noise and rounding, which a reading does not show. */
+    val quiet: Map<String, DoubleArray> by lazy {
+        val isGap = unknown?.isGap ?: BooleanArray(n)
+        centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
     }
 
     /** Finest step between different values, sensor units; 0 where there is none. */

@@ -5,15 +5,18 @@ package stillwater.diagnose
  *
  * @property cause the cause. @property condition the condition it depends on, where it names one.
  * @property times when it acts, s after the first row, for jumps. @property isEitherWay whether a dead time may be below
- * 0, because the reference is late.
+ * 0, because the reference is late. @property isQuiet whether the condition is taken without most of its own noise.
+ * @property isWithin whether it is the lag's own rate that is limited, not that of what the lag shows.
  */
 internal data class Term(
     val cause: Cause,
     val condition: String? = null,
     val times: List<Double> = emptyList(),
     val isEitherWay: Boolean = false,
+    val isQuiet: Boolean = false,
+    val isWithin: Boolean = false,
 ) {
-    /** What tells terms of one cause apart: jumps of another time are the same term. */
+    /** What tells terms of one cause apart: jumps of another time, or another form of it, are the same term. */
     val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
 }
 

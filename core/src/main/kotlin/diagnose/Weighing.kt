@@ -175,10 +175,22 @@ internal class Weighing(
             all.isEmpty() && late > SmallShifts.LEAST_ROWS * series.period -> Verdict.Unexplained(
                 ReferenceLead.words(late),
             )
-            all.isEmpty() -> Verdict.Consistent
+            all.isEmpty() -> passing()?.let(Verdict::Unexplained) ?: Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
         }
+    }
+
+    /**
+     * In words, what is there for certain although no cause that would explain it foretells rows it was not fitted to: what
+     * comes and goes, as bubbles, weed or a loose plug, looks like jumps that are others in each part of a log. Else null.
+     */
+    private fun passing(): String? {
+        val adjusted = Evidence.holm(forward.first.map { it.pValue }, tried)
+        val surest = adjusted.indices.minBy { adjusted[it] }
+        if (adjusted[surest] >= PASSING * settings.level) return null
+        return "it comes and goes: ${forward.first[surest].term.cause.label} would explain part of what is left, for " +
+            "certain, but what one part of the log says of it does not hold in another"
     }
 
     /** What hides all else: who gives one number for many readings shows no lag. */
@@ -270,6 +282,9 @@ internal class Weighing(
         const val LEAST_SPREAD = 0.03
         const val LEAST_WARMTH = 0.05
         const val COARSE = 0.3
+
+        /** Of the level: what no cause of the list foretells must be as much surer. */
+        const val PASSING = 0.01
 
         /** Of the noise's variance: more of it is told of rounding. */
         const val ROUNDED = 0.25

@@ -155,7 +155,7 @@ public class UndoableSensor private constructor(
 
         /**
          * [spec] as it can be undone: dead times, up to two lags or two paths, or one lag that changes with conditions,
-         * and a slew limit; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise,
+         * and a slew limit, in the lag or behind it; then gains, offsets, steps of them, drifts and cross-sensitivities, with noise,
          * quantisation and outliers anywhere. Of a hysteresis and of the ends of a range what can be known is kept:
          * [play] and [range].
          *
@@ -184,6 +184,10 @@ public class UndoableSensor private constructor(
                 is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
                 is SensorStage.Delay -> found.follows(response.copy(deadTime = response.deadTime + stage.deadTime))
                 is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))
+                is SensorStage.LimitedLag -> {
+                    lag(ResponseLag(stage.timeConstant))
+                    found.follows(found.response.copy(slewRate = stage.rate))
+                }
                 is SensorStage.Asymmetric -> lag(ResponseLag(stage.rising, stage.falling))
                 is SensorStage.Slew -> found.follows(response.copy(slewRate = stage.rate))
                 is SensorStage.TwoPath -> found.beside(ResponseLag(stage.fast), stage.slow, stage.slowShare)

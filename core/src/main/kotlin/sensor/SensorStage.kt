@@ -41,6 +41,20 @@ public sealed interface SensorStage {
         override fun build(initial: Double, random: Random): SensorModel = SlewLimit(rate, initial)
     }
 
+    /** [RateLimitedLag] with [timeConstant] τ, s, and at most [rate], sensor units/s. */
+    @Serializable
+    @SerialName("rate-limited-lag")
+    public data class LimitedLag(
+        @SerialName("time_constant_s") val timeConstant: Double,
+        @SerialName("rate_per_s") val rate: Double,
+    ) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel = RateLimitedLag(timeConstant, rate, initial)
+    }
+
     /** [GaussianNoise] of [standardDeviation], sensor units. */
     @Serializable
     @SerialName("noise")

@@ -72,6 +72,7 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
             for (stage in sensor.stages) {
                 when (stage) {
                     is SensorStage.Lag -> longest += stage.timeConstant
+                    is SensorStage.LimitedLag -> longest += stage.timeConstant
                     is SensorStage.Asymmetric -> longest += maxOf(stage.rising, stage.falling)
                     is SensorStage.TwoPath -> longest += stage.slow
                     is SensorStage.FlowLag -> longest += stage.timeConstant
@@ -94,6 +95,7 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
             sensor.stages.map { stage ->
                 when (stage) {
                     is SensorStage.Slew -> stage.copy(rate = stage.rate / range)
+                    is SensorStage.LimitedLag -> stage.copy(rate = stage.rate / range)
                     is SensorStage.Noise -> stage.copy(standardDeviation = stage.standardDeviation / range)
                     is SensorStage.Quantum -> stage.copy(step = stage.step / range)
                     is SensorStage.Calibration ->
