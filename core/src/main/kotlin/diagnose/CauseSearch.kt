@@ -273,6 +273,7 @@ internal class CauseSearch(
         /** What shows at an end of the range, or in the steepest water, alone. */
         private val ACT_NOW_AND_THEN = setOf(Cause.SATURATION, Cause.SLEW_LIMIT)
 
+        /** What makes two lags of one. */
         private val LAG_PARTS = setOf(Cause.TWO_PATH_RESPONSE, Cause.SECOND_ORDER_RESPONSE)
         private val LAG_CHANGES = setOf(
             Cause.ASYMMETRIC_RESPONSE,

@@ -281,6 +281,7 @@ public class Diagnosis private constructor(
             settings,
             late,
             before,
+            loops,
             ::tell,
         )
 
@@ -326,7 +327,8 @@ public class Diagnosis private constructor(
         return if (best.score > rough.score + SHAKEN && abs(found) > series.period) found else 0.0
     }
 
-    /** One more trial is done; a search of [terms] terms takes one round of them or several. */
+    /** One more trial is done, on any thread; a search of [terms] terms takes one round of them or several. */
+    @Synchronized
     private fun tell(terms: Int) {
         trials++
         progress(trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))

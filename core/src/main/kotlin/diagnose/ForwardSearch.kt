@@ -8,7 +8,8 @@ import kotlin.math.ln
  * dropped that the others make needless. Where more than one is found, the search is begun anew with each of the next
  * likeliest, because a combination can imitate a single cause that was second at first.
  *
- * @param terms all that is tried. @param told called after each trial.
+ * @param terms all that is tried. @param loops how trials that do not wait for each other are gone through.
+ * @param told called after each trial, on any thread.
  */
 internal class ForwardSearch(
     private val search: CauseSearch,
@@ -16,10 +17,11 @@ internal class ForwardSearch(
     private val baseHeldOut: HeldOutScore,
     private val terms: List<Term>,
     private val settings: DiagnosisSettings,
+    private val loops: Loops,
     private val told: () -> Unit,
 ) {
     /** Each of [terms] alone on top of the base. */
-    val first: List<Trial> = terms.map { attempt(base, baseHeldOut, it) }
+    val first: List<Trial> = loops.all(terms) { attempt(base, baseHeldOut, it) }
 
     /** The trials chosen one after the other; each fit holds all before it. */
     fun chosen(): List<Trial> {
@@ -31,7 +33,7 @@ internal class ForwardSearch(
         // That something is at work is certain here: what might be it need be likely only.
         val others = first.filter { it.pValue < LIKELY && it.term.key !in keys }
             .sortedByDescending { it.worth }.take(OTHER_BEGINNINGS)
-        return (listOf(found) + others.map { from(it, found) }.filter { it.isNotEmpty() }).maxBy(::worth)
+        return (listOf(found) + loops.all(others) { from(it, found) }.filter { it.isNotEmpty() }).maxBy(::worth)
     }
 
     private fun attempt(fit: ModelFit, heldOut: HeldOutScore, term: Term) =
@@ -68,7 +70,7 @@ internal class ForwardSearch(
             val last = chosen.last()
             val taken = chosen.map { it.term.key }
             val rest = terms.filter { it.key !in taken && compatible(it, chosen) }
-            chosen += best(worthy(rest.map { attempt(last.fit, last.heldOut, it) })) ?: break
+            chosen += best(worthy(loops.all(rest) { attempt(last.fit, last.heldOut, it) })) ?: break
             val other = rival.take(chosen.size)
             if (other.isNotEmpty() && chosen.last().fit.score < other.last().fit.score + DIFFERENT) return emptyList()
         }
@@ -123,7 +125,7 @@ internal class ForwardSearch(
         val isHeld = numbers.any { it in held } && Evidence.pValue(last.score - rest.score, 1) > LIKELY
         if (isHeld) return@map listOf(trial.term.cause)
         val likely = first.filter { it.pValue < LIKELY && it.term.key !in others && it.term.key != trial.term.key }
-        val trials = likely.map { attempt(rest, baseHeldOut, it.term.copy(times = emptyList())) }
+        val trials = loops.all(likely) { attempt(rest, baseHeldOut, it.term.copy(times = emptyList())) }
         alike(trial, last.score - rest.score - trial.cost, trials)
     }
 

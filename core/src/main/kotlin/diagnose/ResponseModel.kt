@@ -3,7 +3,6 @@ package stillwater.diagnose
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.exp
-import kotlin.math.ln
 import kotlin.math.sin
 import kotlin.math.sqrt
 
@@ -219,10 +218,37 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
                 // The response to a cubic is a cubic; what is off it fades.
                 val early = if (held) before else curve.follower(i - 1, 0.0, tau)
                 val late = if (held) before else curve.follower(i - 1, dt, tau)
-                state = (late + (state - early) * fade).coerceIn(state - most * dt, state + most * dt)
+                val free = late + (state - early) * fade
+                val isFree = maxOf(abs(before - state), abs(after - free)) <= most * tau
+                state = if (isFree) {
+                    free
+                } else {
+                    limited(state, most, tau, dt) { if (held) before else curve.follower(i - 1, it, tau) }
+                }
             }
             out[i] = state
         }
+    }
+
+    /**
+     * What a lag of [tau] s shows [dt] s after it showed [state], where it changes by at most [most] a second; once its past
+     * has faded it shows what [follows], s into the step. The limit may begin or end to act on the way.
+     */
+    private inline fun limited(
+        state: Double,
+        most: Double,
+        tau: Double,
+        dt: Double,
+        follows: (Double) -> Double,
+    ): Double {
+        val part = dt / PARTS
+        val fade = exp(-part / tau)
+        var now = state
+        for (k in 0 until PARTS) {
+            val free = follows((k + 1) * part) + (now - follows(k * part)) * fade
+            now = free.coerceIn(now - most * part, now + most * part)
+        }
+        return now
     }
 
     /** The row that says what is held over the step before row [i]. */
@@ -328,70 +354,8 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         /** Time constants after which nothing is left of the first state. */
         private const val FADED = 40.0
         private const val SLOWEST = 8
-    }
-}
 
-/**
- * Quantities of a log that several models share.
- *
- * @property unknown what its reference leaves open; null where there is none. @property shocks what that does to the
- * reading; null for none.
- */
-internal class Scales(
-    val series: MeasuredSeries,
-    val unknown: UnknownTruth? = null,
-    val shocks: UnknownTruth.Shocks? = null,
-) {
-    private val n = series.size
-
-    /** Whether row [i] may be far off for what is not known of the truth before it. */
-    fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true
-
-    /** Speed that counts as ordinary, m/s. */
-    val ordinarySpeed: Double = maxOf(median(series.speed), SLOWEST)
-
-    /** Log of speed over the ordinary, as the lag takes it. */
-    val logSpeed = DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
-
-    /** Temperature that counts as ordinary, °C. */
-    val ordinaryTemperature: Double = series.temperature?.let(::median) ?: Double.NaN
-
-    /** Temperature over the ordinary, °C; 0 where there is none. */
-    val warmth = DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
-
-    /** What each condition is centred on. */
-    val middles: Map<String, Double> = series.conditions.mapValues { (_, column) -> median(series.filled(column)) }
-
-    /** Each condition less its middle. */
-    val centred: Map<String, DoubleArray> = series.conditions.mapValues { (name, column) ->
-        val filled = series.filled(column)
-        DoubleArray(n) { filled[it] - middles.getValue(name) }
-    }
-
-    /** The same without most of its own noise and rounding, which a reading does not show. */
-    val quiet: Map<String, DoubleArray> by lazy {
-        val isGap = unknown?.isGap ?: BooleanArray(n)
-        centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
-    }
-
-    /** Finest step between different values, sensor units; 0 where there is none. */
-    val resolution: Double = resolution(series.shown(series.values))
-
-    /** From the lowest to the highest reading, sensor units. */
-    val range: Double = series.shown(series.values).let { (it.maxOrNull() ?: 0.0) - (it.minOrNull() ?: 0.0) }
-
-    companion object {
-        private const val SLOWEST = 0.01
-
-        /** The largest step of which all differences of [values] are multiples, or 0. */
-        fun resolution(values: DoubleArray): Double {
-            val distinct = values.toSet().sorted()
-            if (distinct.size < 3) return 0.0
-            val steps = DoubleArray(distinct.size - 1) { distinct[it + 1] - distinct[it] }
-            val smallest = steps.filter { it > 1e-12 * (abs(distinct.last()) + abs(distinct.first())) }.minOrNull()
-                ?: return 0.0
-            val fits = steps.count { abs(it / smallest - Math.rint(it / smallest)) < 0.02 }
-            return if (fits >= 0.99 * steps.size) smallest else 0.0
-        }
+        /** Of a step in which a limit begins or ends to act. */
+        private const val PARTS = 8
     }
 }

@@ -11,7 +11,8 @@ import kotlin.math.sqrt
  *
  * @param used rows that are fitted. @param spikes rows that are not, because they are far off by themselves.
  * @param late by how much the reference was late, s, before it was put right; 0 where it was not.
- * @param before the share that the row before has in the truth that is held over each step.
+ * @param loops how what can be done at once is. @param before the share that the row before has in the truth that is held
+ * over each step.
  */
 internal class Weighing(
     private val search: CauseSearch,
@@ -21,6 +22,7 @@ internal class Weighing(
     private val settings: DiagnosisSettings,
     private val late: Double,
     private val before: Double,
+    loops: Loops,
     told: (Int) -> Unit,
 ) {
     private val series = base.model.series
@@ -28,7 +30,7 @@ internal class Weighing(
     private val report = FitReport(series, used, isOpen = before == 0.0)
     private val baseHeldOut = HeldOut.score(base, used)
     private val terms = terms()
-    private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings) { told(terms.size) }
+    private val forward = ForwardSearch(search, base, baseHeldOut, terms, settings, loops) { told(terms.size) }
 
     private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
     private val water = ChangingWater(series, truth)

@@ -35,9 +35,12 @@ public class RateLimitedLag(
     override fun step(input: Double, dt: Double, conditions: Conditions): Double {
         if (!input.isFinite() || !(dt > 0 && dt.isFinite())) return state
         // In halves: the difference of two huge numbers overflows.
-        val evenly = 2 * ((abs(input / 2 - state / 2) / rate) - timeConstant / 2).coerceAtLeast(0.0)
+        val evenly = 2 * (abs(input / 2 - state / 2) / rate - timeConstant / 2).coerceAtLeast(0.0)
         val limited = minOf(evenly, dt)
-        if (limited > 0) state = if (input > state) minOf(input, state + limited * rate) else maxOf(input, state - limited * rate)
+        if (limited > 0) {
+            val moved = limited * rate
+            state = if (input > state) minOf(input, state + moved) else maxOf(input, state - moved)
+        }
         if (limited < dt) state = towards(state, input, -expm1(-(dt - limited) / timeConstant))
         return state
     }

@@ -80,6 +80,7 @@ class AllocationTest {
         val stages = listOf(
             SensorStage.Lag(9.5),
             SensorStage.Slew(0.01),
+            SensorStage.LimitedLag(9.5, 0.01),
             SensorStage.Noise(0.002),
             SensorStage.Quantum(0.005),
             SensorStage.Asymmetric(7.0, 13.0),

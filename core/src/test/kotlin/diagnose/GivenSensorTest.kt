@@ -75,16 +75,24 @@ class GivenSensorTest {
         assertPredicted(listOf(SensorStage.Lag(3.0), SensorStage.Drifting(1e-3), SensorStage.Drifting(-3e-3)))
         assertPredicted(listOf(SensorStage.Asymmetric(6.0, 4.0), SensorStage.Lag(2.0)))
         assertPredicted(listOf(SensorStage.Lag(6.0), SensorStage.Lag(2.0)))
+        assertPredicted(
+            listOf(SensorStage.LimitedLag(3.0, 0.05), SensorStage.Lag(2.0), SensorStage.Calibration(0.5, 0.3)),
+        )
     }
 
     @Test
     fun anExtendedSensorIsReadAgainAsItWasWritten() {
-        val stages = listOf(SensorStage.Lag(3.0), SensorStage.Slew(0.05), SensorStage.Calibration(0.5, 0.3))
-        val (model, numbers) = model(stages)
-        val free = BooleanArray(numbers.size)
-        val fit = Fitting.fit(model, numbers, free, BooleanArray(n) { true }, 20.0)
-        val written = ExtendedSensor(fit, null).spec("extended").stages.filter { it !is SensorStage.Noise }
-        assertEquals(stages, written)
+        for (response in listOf(
+            listOf(SensorStage.Lag(3.0), SensorStage.Slew(0.05)),
+            listOf(SensorStage.LimitedLag(3.0, 0.05), SensorStage.Lag(2.0)),
+        )) {
+            val stages = response + SensorStage.Calibration(0.5, 0.3)
+            val (model, numbers) = model(stages)
+            val free = BooleanArray(numbers.size)
+            val fit = Fitting.fit(model, numbers, free, BooleanArray(n) { true }, 20.0)
+            val written = ExtendedSensor(fit, null).spec("extended").stages.filter { it !is SensorStage.Noise }
+            assertEquals(stages, written)
+        }
     }
 
     @Test
@@ -93,6 +101,7 @@ class GivenSensorTest {
             List(3) { SensorStage.Lag(2.0) } to "at most two lags",
             listOf(SensorStage.Asymmetric(2.0, 3.0), SensorStage.FlowLag(2.0, 1.0, 0.5)) to "at most two lags",
             listOf(SensorStage.Slew(0.1), SensorStage.Slew(0.2)) to "at most one slew limit",
+            listOf(SensorStage.LimitedLag(3.0, 0.1), SensorStage.Slew(0.2)) to "at most one slew limit",
             listOf(SensorStage.Cross("salinity", 30.0, 0.1)) to "--condition salinity=COLUMN",
             listOf(SensorStage.Combined(5.0, relativeChange = 0.1)) to "--condition temperature=COLUMN",
         )) {

@@ -25,6 +25,7 @@ class SensorSpecTest {
     fun everyStageComesBackFromJsonAsItWent() {
         assertEquals(every, SensorSpec.fromJson(every.toJson()))
         val beyond = listOf(
+            SensorStage.LimitedLag(9.5, 0.01),
             SensorStage.Asymmetric(7.0, 13.0),
             SensorStage.Delay(2.5),
             SensorStage.TwoPath(2.0, 40.0, 0.3),

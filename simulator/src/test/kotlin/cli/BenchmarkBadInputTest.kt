@@ -362,7 +362,7 @@ class BenchmarkBadInputTest {
             sensor(
                 ":1:35: stages[0].type: expected one of asymmetric-lag, combined-lag, cross-sensitivity, dead-time, " +
                     "drift, first-order-lag, flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, " +
-                    "outliers, quantisation, saturation, slew-limit, temperature-dependent-lag, " +
+                    "outliers, quantisation, rate-limited-lag, saturation, slew-limit, temperature-dependent-lag, " +
                     "two-path-lag, found 'magic'",
                 """{"name": "x", "stages": [{"type": "magic"}]}""",
             ),

@@ -20,6 +20,8 @@ class SensorContractTest {
         SensorStage.Lag(9.5),
         SensorStage.Lag(1e-3),
         SensorStage.Slew(0.01),
+        SensorStage.LimitedLag(9.5, 0.01),
+        SensorStage.LimitedLag(1e-300, 1e300),
         SensorStage.Slew(1e300),
         SensorStage.Noise(0.0),
         SensorStage.Noise(0.02),
