@@ -28,6 +28,7 @@ public data class ResponseLag(val rising: Double, val falling: Double = rising) 
  *   the sensor shows (1 − w) of the first and w of the second.
  * @property flowExponent p, dimensionless, within 0..2: the time constants are those at a reference speed v₀ of the boat,
  *   and (v / v₀)^−p as long at the speed v; 0 for lags that are always the same. Not beside a dead time or a limit.
+ * @property isLimitWithin whether the limit is that of the lag's own rate, not that of what the lags show.
  * @throws IllegalArgumentException if a number is out of its range, or there are more than two lags.
  */
 public data class Response(
@@ -36,6 +37,7 @@ public data class Response(
     val slewRate: Double = Double.POSITIVE_INFINITY,
     val slowShare: Double = 0.0,
     val flowExponent: Double = 0.0,
+    val isLimitWithin: Boolean = false,
 ) {
     init {
         require(deadTime >= 0 && deadTime.isFinite()) { "deadTime ($deadTime s) must be at least 0 and finite" }

@@ -25,11 +25,30 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         silent = BooleanArray(series.size) { i ->
             (maxOf(0, i - reach)..minOf(series.size - 1, i + reach)).any { running[it] }
         }
+        if (response.isLimitWithin) linger(series.times, running, LINGERS * response.meanDelay)
         val touched = if (response.slewRate.isFinite()) reach * series.medianStep * response.slewRate else 0.0
         looseness = DoubleArray(series.size) { if (running[it]) 0.0 else touched }
     }
 
+    /**
+     * A lag that was held back itself shows after a run what a lag without a limit would have shown before, which is beyond
+     * it on the run's side until that has faded: for [seconds] after each run of rows that are [running].
+     */
+    private fun linger(times: DoubleArray, running: BooleanArray, seconds: Double) {
+        var last = -1
+        for (i in running.indices) {
+            if (running[i]) {
+                last = i
+            } else if (last >= 0 && times[i] - times[last] < seconds) {
+                silent[i] = true
+                rising[i] = rising[last]
+            }
+        }
+    }
+
     companion object {
+        /** Time constants after which nothing is left of what a limit held back. */
+        private const val LINGERS = 4.0
         private const val AT_LIMIT = 0.85
         private const val FEWEST = 2
         private const val MOST = 8

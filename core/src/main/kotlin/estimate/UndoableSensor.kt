@@ -186,7 +186,7 @@ public class UndoableSensor private constructor(
                 is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))
                 is SensorStage.LimitedLag -> {
                     lag(ResponseLag(stage.timeConstant))
-                    found.follows(found.response.copy(slewRate = stage.rate))
+                    found.follows(found.response.copy(slewRate = stage.rate, isLimitWithin = true))
                 }
                 is SensorStage.Asymmetric -> lag(ResponseLag(stage.rising, stage.falling))
                 is SensorStage.Slew -> found.follows(response.copy(slewRate = stage.rate))

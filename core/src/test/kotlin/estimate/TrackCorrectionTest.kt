@@ -149,6 +149,10 @@ class TrackCorrectionTest {
             listOf(SensorStage.Delay(8.0)) to Response(8.0),
             listOf(SensorStage.Lag(6.0), SensorStage.Lag(6.0)) to Response(lags = List(2) { ResponseLag(6.0) }),
             listOf(SensorStage.Asymmetric(13.0, 7.0)) to Response(lags = listOf(ResponseLag(13.0, 7.0))),
+            listOf(SensorStage.LimitedLag(8.0, 0.03)) to
+                Response(lags = listOf(ResponseLag(8.0)), slewRate = 0.03, isLimitWithin = true),
+            listOf(SensorStage.Lag(8.0), SensorStage.Slew(0.03)) to
+                Response(lags = listOf(ResponseLag(8.0)), slewRate = 0.03),
         )
         for ((stages, response) in sensors) {
             val log = LawnmowerLog(seed = 14, stages)
