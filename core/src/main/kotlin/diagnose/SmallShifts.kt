@@ -24,9 +24,14 @@ internal class SmallShifts(private val last: ModelFit) {
     /** Of [trial], which may be any of [set]: whether it is too small. */
     fun isSmall(trial: Trial, set: List<Cause>): Boolean {
         val shift = shift(trial.term, set)
-        val isUndone = shift != null && model.steps.isHeld && abs(shift - lead) < LEAST_ROWS * period
-        return isUndone || (isWithinRows && isLessThanARow(trial.term))
+        return (shift != null && (isUndone(shift) || isNothing(shift))) || (isWithinRows && isLessThanARow(trial.term))
     }
+
+    /** Whether a delay of [shift] s puts a truth that is held over each step back where it was. */
+    private fun isUndone(shift: Double) = model.steps.isHeld && abs(shift - lead) < LEAST_ROWS * period
+
+    /** Whether a delay of [shift] s is one of those that ten steps of a simulation a row make. */
+    private fun isNothing(shift: Double) = abs(shift) < SIMULATED_ROWS * period
 
     /** Whether [term] puts the readings ahead by about as much as a truth held over each step does, which this is not. */
     fun isLikeHeld(term: Term): Boolean =
@@ -36,6 +41,8 @@ internal class SmallShifts(private val last: ModelFit) {
     fun words(small: List<Trial>): List<String> = small.map { trial ->
         val why = when {
             isWithinRows -> SHARP
+            late(trial.term, model, last.numbers)?.let { isNothing(it) && !isUndone(it) } == true ->
+                "clocks, fixes and the way a log is sampled do as much as a twentieth of a row."
             else -> "it undoes the shift of a truth that is held over each step."
         }
         words(trial.term, model, last.numbers, why)
@@ -116,6 +123,12 @@ internal class SmallShifts(private val last: ModelFit) {
 
         /** Twice a log-likelihood that is more than chance: 1 % over eighteen causes tried. */
         const val CERTAIN = 11.9
+
+        /**
+         * Rows; a shift of less is none. A simulation of ten steps a row, each by the truth at its end or at its beginning, is
+         * ahead or late by half a step, 0.05 rows, and no boat's clock and fixes are that good.
+         */
+        const val SIMULATED_ROWS = 0.06
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

@@ -188,9 +188,10 @@ internal class Weighing(
      * comes and goes, as bubbles, weed or a loose plug, looks like jumps that are others in each part of a log. Else null.
      */
     private fun passing(): String? {
+        if (chosen.isNotEmpty()) return null
         val adjusted = Evidence.holm(forward.first.map { it.pValue }, tried)
-        val surest = adjusted.indices.minBy { adjusted[it] }
-        if (adjusted[surest] >= PASSING * settings.level) return null
+        val surest = adjusted.indices.filterNot { forward.first[it].foretells }.minByOrNull { adjusted[it] }
+        if (surest == null || adjusted[surest] >= PASSING * settings.level) return null
         return "it comes and goes: ${forward.first[surest].term.cause.label} would explain part of what is left, for " +
             "certain, but what one part of the log says of it does not hold in another"
     }

@@ -102,11 +102,10 @@ class SmallEffectsTest {
         assertEquals(listOf(Cause.OFFSET_STEPS), assertIs<Verdict.Named>(verdict).causes)
     }
 
-    /** A hundredth of a row, in slow water: as a dead time of as much, from which nothing tells it there. */
-    @Test
-    fun aSecondLagMuchShorterThanARowIsNoDeadTimeForCertain() {
+    /** Lags of 8 s and [second] s in a row, in slow water. */
+    private fun twice(second: Double): DiagnosisResult {
         val slow = List(12) { k -> Triple(2 * PI / (40 + 13 * k), 2 * PI * random.nextDouble(), 0.2) }
-        val lags = listOf(8.0, 0.01)
+        val lags = listOf(8.0, second)
         val still = DoubleArray(n) { i -> slow.sumOf { (rate, phase, height) -> height * sin(rate * i + phase) } }
         val values = DoubleArray(n) { i ->
             slow.sumOf { (rate, phase, height) ->
@@ -116,8 +115,23 @@ class SmallEffectsTest {
             } + 5e-4 * random.nextGaussian()
         }
         val series = MeasuredSeries(times, times, DoubleArray(n), values, still, emptyMap())
-        val sets = assertIs<Verdict.Ambiguous>(Diagnosis(series).run().verdict).sets
+        return Diagnosis(series).run()
+    }
+
+    /** As a dead time of as much, from which nothing tells it there. */
+    @Test
+    fun aSecondLagMuchShorterThanARowIsNoDeadTimeForCertain() {
+        val sets = assertIs<Verdict.Ambiguous>(twice(0.08).verdict).sets
         assertEquals(setOf(Cause.SECOND_ORDER_RESPONSE, Cause.DEAD_TIME), sets.single().toSet())
+    }
+
+    /** So much is half a step of a simulation with fifty steps a row, however surely it shows. */
+    @Test
+    fun aShiftOfAHundredthOfARowIsToldAndNotNamed() {
+        val result = twice(0.01)
+        assertEquals(Verdict.Consistent, result.verdict)
+        val told = result.warnings.single { "not named" in it }
+        assertContains(told, Regex("(second-order-response|dead-time) of 0\\.0\\d* s was fitted beside"))
     }
 
     /** At which speed the given time constant was found nobody said: 0.9 m/s is as good as the log's usual 0.8 m/s. */
