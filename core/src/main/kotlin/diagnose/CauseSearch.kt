@@ -107,10 +107,12 @@ internal class CauseSearch(
     /** The forms that [term] may have beside what [base] has: the likeliest is taken. */
     private fun forms(base: ModelFit, term: Term): List<Term> = when {
         // What is noise, or rounding, of the other quantity's own the sensor does not show.
-        term.cause == Cause.CROSS_SENSITIVITY -> listOf(term, term.copy(isQuiet = true))
+        term.cause == Cause.CROSS_SENSITIVITY -> listOf(term.copy(isQuiet = false), term.quiet())
         // A lag of which one of two parts is limited, or that follows another one, is not told from one with a limit behind.
         term.cause == Cause.SLEW_LIMIT && base.model.terms.none { it.cause in LAG_PARTS } ->
-            listOf(term, term.copy(isWithin = true))
+            listOf(term.copy(isWithin = false), term.copy(isWithin = true))
+        term.cause == Cause.SLEW_LIMIT ->
+            listOf(term.copy(isWithin = base.model.terms.any { it.key == term.key && it.isWithin }))
         else -> listOf(term)
     }
 
@@ -143,7 +145,7 @@ internal class CauseSearch(
     private fun inOrder(fit: ModelFit): ModelFit {
         val term = fit.model.terms.firstOrNull { it.cause == Cause.SECOND_ORDER_RESPONSE } ?: return fit
         val second = fit.model.slot(term)
-        val isPlain = fit.model.terms.none { it.cause in LAG_CHANGES }
+        val isPlain = fit.model.terms.none { it.cause in LAG_CHANGES || it.isWithin }
         if (!isPlain || !fit.free[ResponseModel.TIME_CONSTANT]) return fit
         val numbers = fit.numbers.copyOf()
         if (numbers[second] <= numbers[ResponseModel.TIME_CONSTANT]) return fit

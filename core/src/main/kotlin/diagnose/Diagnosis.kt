@@ -114,7 +114,7 @@ public class Diagnosis private constructor(
         val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) ||
             first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         // A place ahead by just what a held truth is ahead by is rather that.
-        val isLikeHeld = first.chosen.any { SmallShifts(first.last).isLikeHeld(it.term) }
+        val isLikeHeld = first.chosen.any { SmallShifts(first.last, first.base).isLikeHeld(it.term) }
         val own = first.last.model.steps
         val turned = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0, own.other) else first
         // What makes sharp steps look late may have hidden the third way.
@@ -352,10 +352,14 @@ public class Diagnosis private constructor(
 
     private fun base(steps: Steps, scales: Scales): ModelFit {
         val given = settings.base?.let { GivenSensor(it, scales) }
-        val model = ResponseModel(series, given?.terms.orEmpty(), steps, scales)
-        val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
-        val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
-        return starts.map { Fitting.fit(model, it, free, used, longest) }.maxBy { it.score }
+        // A sensor file does not say how noisily another quantity is measured that the sensor shows.
+        val forms = given?.terms.orEmpty().let { terms -> listOf(terms, terms.map { it.quiet() }).distinct() }
+        return forms.flatMap { terms ->
+            val model = ResponseModel(series, terms, steps, scales)
+            val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
+            val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
+            starts.map { Fitting.fit(model, it, free, used, longest) }
+        }.maxBy { it.score }
     }
 
     private fun starts(model: ResponseModel): List<DoubleArray> =

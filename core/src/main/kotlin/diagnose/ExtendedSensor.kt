@@ -46,7 +46,10 @@ internal class ExtendedSensor(
         val lag = lag()
         add(lag)
         value(Cause.SECOND_ORDER_RESPONSE)?.let { add(SensorStage.Lag(it)) }
-        limit()?.takeIf { lag !is SensorStage.LimitedLag }?.let { add(SensorStage.Slew(it)) }
+        limit()?.takeIf { lag !is SensorStage.LimitedLag }?.let {
+            add(SensorStage.Slew(it))
+            if (model.terms.any { term -> term.isWithin }) losses += BEHIND
+        }
         value(Cause.HYSTERESIS)?.let { add(SensorStage.Backlash(it / abs(gain))) }
     }
 
@@ -118,6 +121,9 @@ internal class ExtendedSensor(
         if (isCoarse && resolution > 0) add(SensorStage.Quantum(resolution))
     }
 }
+
+/** What is lost of a limit to the rate of a lag that changes. */
+private const val BEHIND = "The limit is that of the lag's own rate; of a lag that changes the sensor file has it behind the lag."
 
 /** How often and how far single readings are off: [probability] of each, dimensionless; [size], sensor units. */
 internal data class SpikeSize(val probability: Double, val size: Double) {

@@ -9,7 +9,9 @@ import stillwater.sensor.SensorStage
  * @param free the model whose lag the log itself tells.
  */
 internal class GivenLag(search: BlindSearch, private val free: BlindState, spec: SensorSpec) {
+    /** None where one of them is limited, which this does not look at. */
     private val lags = spec.stages.filterIsInstance<SensorStage.Lag>()
+        .takeIf { spec.stages.none { it is SensorStage.LimitedLag } }.orEmpty()
 
     /** Whether anything of the sensor given was not looked at: a gain and an offset do not show anyway. */
     val isPartial: Boolean = lags.size != 1 ||

@@ -12,7 +12,7 @@ import kotlin.math.sqrt
  * The parts act in this order: delay and offset of place, lag (with all that changes its time constant, or with a limit to
  * its rate), second lag or slow path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The
  * truth is taken as a cubic spline through the rows, or as held over each step ([steps]); each lag is exact for
- * that.
+ * that, but one with a limit where that begins or ends to act within the step.
  *
  * @property series the log; its reference must be there. @property terms what acts beside the base. @property steps how
  *   the truth goes on between the rows.
@@ -31,6 +31,9 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     private val second = DoubleArray(n)
     private val taus = DoubleArray(n)
     private val limit = terms.firstOrNull { it.cause == Cause.SLEW_LIMIT }
+
+    /** Whether it is the lag's own rate that is limited; two paths have a limit behind them. */
+    private val isWithin = limit?.isWithin == true && Cause.TWO_PATH_RESPONSE !in causes
     private val isGap = scales.unknown?.isGap
     private val isUntilNext = steps == Steps.UNTIL_NEXT
     private val spline = Spline(series.times, scales.unknown?.isBroken)
@@ -83,7 +86,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             lag(work, out, 1.0, asymmetry)
             for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
         } else {
-            val most = if (limit?.isWithin == true) p[slot(limit)] / abs(p[GAIN]) else Double.POSITIVE_INFINITY
+            val most = if (limit != null && isWithin) p[slot(limit)] / abs(p[GAIN]) else Double.POSITIVE_INFINITY
             lag(work, out, 1.0, asymmetry, most)
         }
         if (Cause.SECOND_ORDER_RESPONSE in causes) {
@@ -91,7 +94,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
             lag(out, second, 1.0, 0.0)
             second.copyInto(out)
         }
-        if (limit?.isWithin == false) slew(out, p[slot(limit)] / abs(p[GAIN]))
+        if (limit != null && !isWithin) slew(out, p[slot(limit)] / abs(p[GAIN]))
         if (Cause.HYSTERESIS in causes) play(out, p[slot(Cause.HYSTERESIS)] / abs(p[GAIN]))
         calibrate(p, out)
         if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])

@@ -4,14 +4,14 @@ import java.util.Locale
 import kotlin.math.abs
 
 /**
- * Effects of the model [last] that the way the log is sampled may make as well, however surely they show: they are kept
+ * Effects of the model [last], [base] with more, that the way the log is sampled may make as well, however surely they show: they are kept
  * in the model, so that nothing else is taken for them, and are not named.
  *
  * Where the truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less
  * than a shift of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a
  * delay of half a step then puts it back where it was.
  */
-internal class SmallShifts(private val last: ModelFit) {
+internal class SmallShifts(private val last: ModelFit, private val base: ModelFit) {
     private val model = last.model
     private val period = model.series.period
 
@@ -24,14 +24,20 @@ internal class SmallShifts(private val last: ModelFit) {
     /** Of [trial], which may be any of [set]: whether it is too small. */
     fun isSmall(trial: Trial, set: List<Cause>): Boolean {
         val shift = shift(trial.term, set)
-        return (shift != null && (isUndone(shift) || isNothing(shift))) || (isWithinRows && isLessThanARow(trial.term))
+        val isNone = shift != null && (isUndone(trial.term, shift) || isNothing(trial.term, shift))
+        return isNone || (isWithinRows && isLessThanARow(trial.term))
     }
 
-    /** Whether a delay of [shift] s puts a truth that is held over each step back where it was. */
-    private fun isUndone(shift: Double) = model.steps.isHeld && abs(shift - lead) < LEAST_ROWS * period
+    /** Whether a delay of [shift] s by [term], beyond a given one, puts a truth that is held over each step back where it was. */
+    private fun isUndone(term: Term, shift: Double) =
+        model.steps.isHeld && abs(shift - given(term) - lead) < LEAST_ROWS * period
 
-    /** Whether a delay of [shift] s is one of those that ten steps of a simulation a row make. */
-    private fun isNothing(shift: Double) = abs(shift) < SIMULATED_ROWS * period
+    /** Whether a delay of [shift] s by [term] differs from a given one by no more than a simulation in fine steps makes. */
+    private fun isNothing(term: Term, shift: Double) =
+        abs(shift - given(term)) < SIMULATED_ROWS * period
+
+    /** The delay by [term] that the base has already, s. */
+    private fun given(term: Term) = late(term, base.model, base.numbers) ?: 0.0
 
     /** Whether [term] puts the readings ahead by about as much as a truth held over each step does, which this is not. */
     fun isLikeHeld(term: Term): Boolean =
@@ -41,8 +47,9 @@ internal class SmallShifts(private val last: ModelFit) {
     fun words(small: List<Trial>): List<String> = small.map { trial ->
         val why = when {
             isWithinRows -> SHARP
-            late(trial.term, model, last.numbers)?.let { isNothing(it) && !isUndone(it) } == true ->
-                "clocks, fixes and the way a log is sampled do as much as a twentieth of a row."
+            late(trial.term, model, last.numbers)?.let { isNothing(trial.term, it) && !isUndone(trial.term, it) } ==
+                true ->
+                "clocks, fixes and the way a log is sampled do as much as a thirtieth of a row."
             else -> "it undoes the shift of a truth that is held over each step."
         }
         words(trial.term, model, last.numbers, why)
@@ -125,10 +132,10 @@ internal class SmallShifts(private val last: ModelFit) {
         const val CERTAIN = 11.9
 
         /**
-         * Rows; a shift of less is none. A simulation of ten steps a row, each by the truth at its end or at its beginning, is
-         * ahead or late by half a step, 0.05 rows, and no boat's clock and fixes are that good.
+         * Rows; a shift of less is none. A simulation of twenty steps a row, each by the truth at its end or at its beginning,
+         * is ahead or late by half a step, 0.025 rows, and no boat's clock and fixes are that good.
          */
-        const val SIMULATED_ROWS = 0.06
+        const val SIMULATED_ROWS = 0.03
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

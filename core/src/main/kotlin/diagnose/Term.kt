@@ -18,6 +18,9 @@ internal data class Term(
 ) {
     /** What tells terms of one cause apart: jumps of another time, or another form of it, are the same term. */
     val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
+
+    /** The same with a quantity of its own, where it has one, without most of that one's noise. */
+    fun quiet(): Term = if (cause == Cause.CROSS_SENSITIVITY) copy(isQuiet = true) else this
 }
 
 /**

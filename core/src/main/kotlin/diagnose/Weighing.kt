@@ -67,7 +67,7 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val shifts = SmallShifts(last)
+        val shifts = SmallShifts(last, base)
         val (small, clear) = chosen.zip(forward.alike(chosen)).partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
             still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())

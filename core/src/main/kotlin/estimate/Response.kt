@@ -85,6 +85,11 @@ public data class Response(
             add(SensorStage.TwoPath(fast, slow, slowShare))
             return@buildList
         }
+        val own = lags.singleOrNull()?.takeIf { isLimitWithin && slewRate.isFinite() && it.rising == it.falling }
+        if (own != null) {
+            add(SensorStage.LimitedLag(own.rising, slewRate))
+            return@buildList
+        }
         for (lag in lags) {
             val isSymmetric = lag.rising == lag.falling
             add(if (isSymmetric) SensorStage.Lag(lag.rising) else SensorStage.Asymmetric(lag.rising, lag.falling))

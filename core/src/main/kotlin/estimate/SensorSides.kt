@@ -25,7 +25,7 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         silent = BooleanArray(series.size) { i ->
             (maxOf(0, i - reach)..minOf(series.size - 1, i + reach)).any { running[it] }
         }
-        if (response.isLimitWithin) linger(series.times, running, LINGERS * response.meanDelay)
+        if (response.isLimitWithin) linger(series.times, running, LINGERS * (response.meanDelay - response.deadTime))
         val touched = if (response.slewRate.isFinite()) reach * series.medianStep * response.slewRate else 0.0
         looseness = DoubleArray(series.size) { if (running[it]) 0.0 else touched }
     }

@@ -150,6 +150,7 @@ public class UndoableSensor private constructor(
         /** A range without ends. */
         public val ENDLESS: ClosedFloatingPointRange<Double> = Double.NEGATIVE_INFINITY..Double.POSITIVE_INFINITY
 
+        private const val TWO_LIMITS = "two limits of the rate cannot be undone"
         private const val WITH_OTHERS =
             "a lag that changes with conditions cannot be undone beside a dead time or another lag"
 
@@ -185,11 +186,15 @@ public class UndoableSensor private constructor(
                 is SensorStage.Delay -> found.follows(response.copy(deadTime = response.deadTime + stage.deadTime))
                 is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))
                 is SensorStage.LimitedLag -> {
+                    require(response.slewRate.isInfinite()) { TWO_LIMITS }
                     lag(ResponseLag(stage.timeConstant))
                     found.follows(found.response.copy(slewRate = stage.rate, isLimitWithin = true))
                 }
                 is SensorStage.Asymmetric -> lag(ResponseLag(stage.rising, stage.falling))
-                is SensorStage.Slew -> found.follows(response.copy(slewRate = stage.rate))
+                is SensorStage.Slew -> {
+                    require(response.slewRate.isInfinite()) { TWO_LIMITS }
+                    found.follows(response.copy(slewRate = stage.rate))
+                }
                 is SensorStage.TwoPath -> found.beside(ResponseLag(stage.fast), stage.slow, stage.slowShare)
                 is SensorStage.FlowLag -> {
                     val flow = TimeConstant.ofFlow(stage.timeConstant, stage.referenceSpeed, stage.exponent)

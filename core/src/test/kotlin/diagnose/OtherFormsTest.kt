@@ -3,6 +3,7 @@ package stillwater.diagnose
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import kotlin.concurrent.thread
 import kotlin.math.exp
 import kotlin.math.round
 import kotlin.math.sin
@@ -34,9 +35,14 @@ class OtherFormsTest {
         }
     }
 
-    private fun diagnosed(values: DoubleArray, conditions: Map<String, DoubleArray> = emptyMap()): DiagnosisResult {
+    private fun diagnosed(
+        values: DoubleArray,
+        conditions: Map<String, DoubleArray> = emptyMap(),
+        given: List<SensorStage>? = null,
+    ): DiagnosisResult {
         val reference = DoubleArray(n) { water(times[it]) }
-        return Diagnosis(MeasuredSeries(times, times, DoubleArray(n), values, reference, conditions)).run()
+        val settings = DiagnosisSettings(base = given?.let { SensorSpec("given", it) })
+        return Diagnosis(MeasuredSeries(times, times, DoubleArray(n), values, reference, conditions), settings).run()
     }
 
     /** White and wandering noise, half each: under such a base's noise what goes from row to row counts most. */
@@ -66,6 +72,44 @@ class OtherFormsTest {
                 assertEquals(0.5, number, 0.02, "seed $seed, step $step")
             }
         }
+    }
+
+    @Test
+    fun aGivenCrossSensitivityThatIsRightIsNotNamedForTheNoiseOfItsQuantity() {
+        val random = java.util.Random(5)
+        val values = shown(SensorStage.Lag(6.0))
+        for (i in 0 until n) values[i] += 0.5 * (warmth(times[i]) - 18) + 0.01 * random.nextGaussian()
+        val measured = DoubleArray(n) { round(warmth(times[it]) / 0.1) * 0.1 }
+        val given = listOf(SensorStage.Lag(6.0), SensorStage.Cross(Conditions.TEMPERATURE, 18.0, 0.5))
+        assertEquals(Verdict.Consistent, diagnosed(values, mapOf(Conditions.TEMPERATURE to measured), given).verdict)
+    }
+
+    @Test
+    fun aGivenDeadTimeThatIsNotThereIsNamed() {
+        val random = java.util.Random(6)
+        val values = shown(SensorStage.Lag(8.0))
+        for (i in 0 until n) values[i] += 0.01 * random.nextGaussian()
+        val verdict = diagnosed(values, given = listOf(SensorStage.Delay(2.0), SensorStage.Lag(8.0))).verdict
+        assertEquals(Verdict.Named(listOf(Cause.DEAD_TIME)), verdict)
+    }
+
+    @Test
+    fun trialsOnTwoThreadsComeToTheSameBits() {
+        val random = java.util.Random(7)
+        val values = shown(SensorStage.LimitedLag(8.0, 0.06))
+        for (i in 0 until n) values[i] += 0.5 * (warmth(times[i]) - 18) + 0.01 * random.nextGaussian()
+        val warm = mapOf(Conditions.TEMPERATURE to DoubleArray(n) { warmth(times[it]) })
+        val series = MeasuredSeries(times, times, DoubleArray(n), values, DoubleArray(n) { water(times[it]) }, warm)
+        val atOnce = Loops { count, task ->
+            val odd = thread { for (i in 1 until count step 2) task(i) }
+            for (i in 0 until count step 2) task(i)
+            odd.join()
+        }
+        val one = Diagnosis(series).run()
+        val other = Diagnosis(series, DiagnosisSettings(), atOnce).run()
+        assertEquals(one.verdict, other.verdict)
+        assertEquals(one.candidates.map { it.pValue }, other.candidates.map { it.pValue })
+        assertEquals(one.extendedSensor, other.extendedSensor)
     }
 
     @Test

@@ -162,6 +162,25 @@ class TrackCorrectionTest {
         }
     }
 
+    /** After each turn of the water the sensor runs the other way while a lag without a limit would still be beyond it. */
+    @Test
+    fun aLagHeldBackItselfIsUndoneWhereItTurns() {
+        val random = Random(15)
+        val stage = SensorStage.LimitedLag(8.0, 0.03)
+        val n = 2400
+        val times = DoubleArray(n) { it.toDouble() }
+        val truth = DoubleArray(n) { abs(it % 120 - 60) * 0.05 + 0.4 * sin(it / 53.0) }
+        val sensor = stage.build(truth[0], kotlin.random.Random(1))
+        val values =
+            DoubleArray(n) { sensor.step(truth[it], 1.0, Conditions.NONE) + 0.01 * (random.nextDouble() - 0.5) }
+        val series = TrackSeries(times, DoubleArray(n) { 0.5 * it }, DoubleArray(n), values)
+        val response = UndoableSensor.of(SensorSpec("given", listOf(stage))).response
+        val track = TrackCorrector(series, 0.0).correct(listOf(LikelyResponse(listOf(response), 1.0)))
+        val held = (0 until n).count { truth[it] in track.lower[it]..track.upper[it] }
+        // Twenty turns, each one piece of evidence: two standard errors are 10 %.
+        assertEquals(0.95, held / n.toDouble(), 0.1)
+    }
+
     @Test
     fun rateLimitIsFoundUnderNoiseAndItsIntervalsHoldTheWaterThatOutranIt() {
         for ((seed, rate) in listOf(31 to 0.04, 32 to 0.02)) {
