@@ -123,7 +123,8 @@ internal class ExtendedSensor(
 }
 
 /** What is lost of a limit to the rate of a lag that changes. */
-private const val BEHIND = "The limit is that of the lag's own rate; of a lag that changes the sensor file has it behind the lag."
+private const val BEHIND =
+    "The limit is that of the lag's own rate; of a lag that changes the sensor file has it behind the lag."
 
 /** How often and how far single readings are off: [probability] of each, dimensionless; [size], sensor units. */
 internal data class SpikeSize(val probability: Double, val size: Double) {
