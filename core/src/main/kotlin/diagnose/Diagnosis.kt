@@ -238,9 +238,9 @@ public class Diagnosis private constructor(
 
     /** [fit] with steps held if they are not, and the other way round. */
     private fun turned(fit: ModelFit): ModelFit {
-        val scales = scales(fit, fit.model.steps.other)
-        val other = ResponseModel(series, fit.model.terms, fit.model.steps.other, scales)
-        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, scales.shocks)
+        val steps = fit.model.steps.other
+        val other = ResponseModel(series, fit.model.terms, steps, scales(fit, steps))
+        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, used, other.scales.shocks)
         return Fitting.fit(other, fit.numbers, fit.free, used, longest, guess = guess)
     }
 
@@ -353,9 +353,8 @@ public class Diagnosis private constructor(
     private fun base(steps: Steps, scales: Scales): ModelFit {
         val given = settings.base?.let { GivenSensor(it, scales) }
         // A sensor file does not say how noisily another quantity is measured that the sensor shows.
-        val forms = given?.terms.orEmpty().let { terms -> listOf(terms, terms.map { it.quiet() }).distinct() }
-        return forms.flatMap { terms ->
-            val model = ResponseModel(series, terms, steps, scales)
+        val forms = given?.terms.orEmpty().let { terms -> listOf(terms, terms.map(Term::quiet)).distinct() }
+        return forms.map { ResponseModel(series, it, steps, scales) }.flatMap { model ->
             val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
             val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
             starts.map { Fitting.fit(model, it, free, used, longest) }
@@ -378,9 +377,7 @@ public class Diagnosis private constructor(
         /** Of the row before in a truth that is held over a step: none, as in one that goes straight, and all. */
         val SHARES = listOf(0.0, 0.5, 1.0)
 
-        /**
-         * Twice the log-likelihood, less two, above which a shift is more than half a row: 1 % over eighteen causes tried.
-         */
+        /** Twice the log-likelihood, less two, from which a shift is more than half a row: 1 % over eighteen causes. */
         const val SHIFT = 9.9
 
         /** Twice the log-likelihood that a number gains by chance. */
