@@ -377,7 +377,7 @@ public class Diagnosis private constructor(
         /** Of the row before in a truth that is held over a step: none, as in one that goes straight, and all. */
         val SHARES = listOf(0.0, 0.5, 1.0)
 
-        /** Twice the log-likelihood, less two, from which a shift is more than half a row: 1 % over eighteen causes. */
+        /** Twice the log-likelihood, less two, above which a shift is more than half a row: 1 % over 18 causes tried. */
         const val SHIFT = 9.9
 
         /** Twice the log-likelihood that a number gains by chance. */
