@@ -39,15 +39,7 @@ internal class BlindLag(
     private fun refined(state: BlindState): BlindState {
         var best = state
         repeat(REFINEMENTS) {
-            val free = BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }
-            val found = BlindDescent(search, best).from(best.model, best.numbers, free, STEPS)
-            val next = search.settled(
-                best.model.terms,
-                found.numbers,
-                best.fit.design.noise,
-                best.variances,
-                before = best,
-            )
+            val next = search.improved(best, BooleanArray(state.numbers.size) { it >= ResponseModel.BASE }, STEPS)
             val gain = next.score - best.score
             if (gain > 0) best = next
             if (!(gain > BlindSearch.ENOUGH)) return best

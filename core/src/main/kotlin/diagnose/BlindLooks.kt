@@ -23,6 +23,7 @@ internal class BlindLooks(
 ) {
     private val series = state.model.series
     private val n = series.size
+    private val loops = state.fit.design.loops
     private val tau = maxOf(state.timeConstant, series.period)
     private val prediction = state.shown
     private val values = Standard(prediction)
@@ -32,7 +33,7 @@ internal class BlindLooks(
     val list: List<BlindLook> by lazy { shapes() + BlindPeriods(state, tries).look() }
 
     /** What each of [list] gains. */
-    val trials: List<BlindTrial> by lazy { list.map(tries::looked) }
+    val trials: List<BlindTrial> by lazy { loops.all(list, tries::looked) }
 
     /** The [index]-th of [list] with water and noise of its own. */
     fun refitted(index: Int): RefittedLook = tries.refitted(list[index], trials[index])
@@ -98,7 +99,7 @@ internal class BlindLooks(
     private fun ringing(): BlindLook {
         val shortest = maxOf(tau, SHORTEST * series.period)
         val searched = 2 * ln(PERIODS.toDouble())
-        return (0 until PERIODS).map { k ->
+        val all = (0 until PERIODS).map { k ->
             val period = shortest * (LONGEST * tau / shortest).pow(k / (PERIODS - 1.0))
             val said = "%.3g".format(Locale.ROOT, period)
             BlindLook(
@@ -107,7 +108,8 @@ internal class BlindLooks(
                 searched,
                 ofWater = true,
             )
-        }.maxBy { tries.looked(it).gain }
+        }
+        return all.zip(loops.all(all, tries::looked)).maxBy { (_, trial) -> trial.gain }.first
     }
 
     /**

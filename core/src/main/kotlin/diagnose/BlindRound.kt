@@ -25,8 +25,7 @@ internal class BlindRound(
     private val open = search.opened(model)
 
     /** Water that does not change, from noise that suits it, from such as hardly wanders, and from what suits changes. */
-    private val still = listOfNotNull(settledStill, quiet?.let { search.climbed(search.requieted(it)) })
-        .maxBy { it.score }
+    private val still = (quiet?.let { search.likelier(settledStill, it) } ?: settledStill)
         // Where the water of the model changes anyway, what suits it when it does not is known.
         .let { if (open !== model && open.score - it.score > CHANGING_TOO) likelier(it, search.still(open)) else it }
 
@@ -265,6 +264,8 @@ internal class BlindRound(
     private fun looks(): List<BlindTrial> {
         val onStill = if (still === state) null else looksOn(still, stillTries)
         val onQuiet = quietTries?.let { looksOn(checkNotNull(quiet), it) }
+        // What is asked of one model waits for none of the others.
+        loops.all(listOfNotNull(here, onStill, onQuiet)) { it.trials }
         val deficit = quiet?.let { state.score - it.score } ?: 0.0
         // What waves of the water that are missing do looks like another response: one counts with which none are.
         val found = here.list.indices.mapTo(ArrayList()) { i ->

@@ -90,8 +90,17 @@ internal class BlindSearch private constructor(
             val lag = minOf(times * state.timeConstant, series.duration)
             settled(state.model.terms, base(lag), quiet, state.variances, before = state)
         }
-        val other = climbed(requieted(climbed(begun.maxBy { it.score })))
-        return if (other.score > state.score) other else state
+        return likelier(state, climbed(begun.maxBy { it.score }))
+    }
+
+    /**
+     * [state], or what is likelier and is found from [quiet], another model under noise that hardly wanders. Where that is
+     * far less likely noise does wander: the other model is then held against [state] under the same noise.
+     */
+    fun likelier(state: BlindState, quiet: BlindState): BlindState {
+        val isFar = state.score - quiet.score > FAR_BEHIND
+        val other = climbed(if (isFar) again(quiet, state.fit.design.noise) else requieted(quiet))
+        return if (!(other.score > state.score)) state else if (isFar) climbed(requieted(other)) else other
     }
 
     private fun hardlyWandering(state: BlindState) =
@@ -208,10 +217,23 @@ internal class BlindSearch private constructor(
     private fun again(state: BlindState, noise: BlindNoise) =
         settled(state.model.terms, state.numbers, noise, state.variances, before = state)
 
-    /** [state] with the numbers that fit better, and the water for them. */
-    fun improved(state: BlindState): BlindState {
-        val found = BlindDescent(this, state).from(state.model, state.numbers, free(state.model), STEPS)
-        return settled(state.model.terms, found.numbers, state.fit.design.noise, state.variances, before = state)
+    /**
+     * [state] with those of its [free] numbers that fit better, in at most [steps] steps, and the water for them.
+     *
+     * Numbers that are hardly better are left as they are: what the sensor shows of the water's waves is then known, and
+     * the water alone is found.
+     */
+    fun improved(
+        state: BlindState,
+        free: BooleanArray = free(state.model),
+        steps: Int = STEPS,
+    ): BlindState {
+        val found = BlindDescent(this, state).from(state.model, state.numbers, free, steps)
+        val isBetter = state.fit.rows * ln(state.left / found.left) > HARDLY
+        if (!isBetter && state.lastGain < HARDLY) return state
+        val numbers = if (isBetter) found.numbers else state.numbers
+        val noise = state.fit.design.noise
+        return settled(state.model.terms, numbers, noise, state.variances, before = state, most = MOST_ROUNDS)
     }
 
     /** [state] with the numbers that fit better and the water for them, in turn, as long as that makes it likelier. */
@@ -244,8 +266,9 @@ internal class BlindSearch private constructor(
     fun opened(state: BlindState): BlindState {
         if (!isStill(state)) return state
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
+        val noise = state.fit.design.noise
         val open =
-            settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
+            settled(state.model.terms, state.numbers, noise, variances, FIRST_ROUNDS, before = state, most = MOST_ROUNDS)
         return climbed(requieted(climbed(open)))
     }
 
@@ -257,7 +280,7 @@ internal class BlindSearch private constructor(
      * The water for the sensor with [terms] and [numbers].
      *
      * @param variances of the bands to begin with; empty for none. @param rounds times that variances are fitted.
-     * @param before a state whose water is near.
+     * @param before a state whose water is near. @param most rounds at most, for as long as each makes it likelier.
      */
     fun settled(
         terms: List<Term>,
@@ -267,6 +290,7 @@ internal class BlindSearch private constructor(
         rounds: Int = ROUNDS,
         modes: WaterModes? = null,
         before: BlindState? = null,
+        most: Int = rounds,
     ): BlindState {
         val waves = modes ?: before?.modes ?: this.modes
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
@@ -275,22 +299,27 @@ internal class BlindSearch private constructor(
         var bands = variances.takeIf { it.size == waves.bands } ?: waves.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
-        var hidden = RangeEnd.beyond(model, at)
-        var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
-        for (round in 0..rounds) {
-            val change = fit.change(residuals(model, at))
+        var residuals = residuals(model, at)
+        var score = Double.NEGATIVE_INFINITY
+        var round = 0
+        while (true) {
+            val hidden = RangeEnd.beyond(model, at)
+            var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
+            val change = fit.change(residuals)
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
             model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
-            if (round < rounds) {
-                bands = WaterVariances.next(fit, residuals(model, at), waves)
-                hidden = RangeEnd.beyond(model, at)
-                fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
+            residuals = residuals(model, at)
+            val left = fit.left(residuals)
+            val gained = fit.score(left) - score
+            score = fit.score(left)
+            if (round >= most || (round >= rounds && !(gained > MORE))) {
+                return BlindState(model, at, fit, bands, residuals, left, waves, before?.behind.orEmpty(), gained)
             }
+            bands = WaterVariances.next(fit, left, waves)
+            round++
         }
-        val residuals = residuals(model, at)
-        return BlindState(model, at, fit, bands, residuals, fit.left(residuals), waves, before?.behind.orEmpty())
     }
 
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
@@ -338,6 +367,9 @@ internal class BlindSearch private constructor(
 
         /** Share of noise that hardly wanders; and from which on it may have taken what a sensor does. */
         const val QUIET = 0.2
+
+        /** Twice the log-likelihood that such noise is behind where noise wanders for certain. */
+        const val FAR_BEHIND = 300.0
         const val WANDERING = 0.5
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
@@ -346,6 +378,10 @@ internal class BlindSearch private constructor(
         /** Variance over the noise's of water that changes, to begin with. */
         const val OPENED = 10.0
         const val ROUNDS = 2
+        const val MOST_ROUNDS = 10
+
+        /** Twice the gain in log-likelihood of a round for which there is another one. */
+        const val MORE = 0.5
 
         /**
          * Twice the gain in log-likelihood from which steps are held: water in the field is not, and a response of another
@@ -357,6 +393,9 @@ internal class BlindSearch private constructor(
 
         /** Twice the gain in log-likelihood below which nothing is tried once more. */
         const val ENOUGH = 2.0
+
+        /** The same for which numbers, or the variances of the water's waves, stay as they are: next to no error of theirs. */
+        const val HARDLY = 0.05
         const val FLAT = 1e-8
         const val LEAST = 1e-8
         const val MOST = 1e10

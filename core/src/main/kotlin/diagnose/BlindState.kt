@@ -10,6 +10,7 @@ import kotlin.math.ln
  * @property fit the water's part. @property variances of the waves in each band over the noise's.
  * @property residuals readings less what the model shows, length n. @property left their square sum once the water has
  *   taken what it can. @param known how far other noises were behind, seen from this one's or from one before it.
+ * @property lastGain twice the gain in log-likelihood by the last time that variances were fitted.
  */
 internal class BlindState(
     val model: ResponseModel,
@@ -19,7 +20,8 @@ internal class BlindState(
     val residuals: DoubleArray,
     val left: Double,
     val modes: WaterModes,
-    known: Map<NoiseStep, NoiseLoss> = emptyMap(),
+    known: Map<NoiseStep, NoiseLoss>,
+    val lastGain: Double,
 ) {
     /** Twice the log-likelihood, less a constant. */
     val score: Double = fit.score(left)

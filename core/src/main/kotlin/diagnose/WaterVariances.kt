@@ -3,11 +3,11 @@ package stillwater.diagnose
 /** How strong the waves of each band are, over the noise. */
 internal object WaterVariances {
     /** MacKay's fixed point: what the waves of a band have been found to be over how well they are determined. */
-    fun next(fit: BlindFit, residuals: DoubleArray, modes: WaterModes): DoubleArray {
+    fun next(fit: BlindFit, left: Double, modes: WaterModes): DoubleArray {
         val squares = DoubleArray(modes.bands)
         val known = DoubleArray(modes.bands)
         val spreads = fit.spreads()
-        val variance = fit.left(residuals) / fit.rows
+        val variance = left / fit.rows
         for (k in 0 until modes.size) {
             val band = modes.band[k]
             squares[band] += fit.heights[k] * fit.heights[k] / variance
