@@ -103,11 +103,17 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> =
         Combination.of(modes.columns.asList(), heights, n, loops)
 
-    /** [waters] along the track as the linear parts of the sensor show them. */
-    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>, steps: Steps): Array<DoubleArray> {
+    /** [waters] along the track as the linear parts of the sensor show them; their [bends] where they are kept. */
+    fun seen(
+        terms: List<Term>,
+        numbers: DoubleArray,
+        waters: Array<DoubleArray>,
+        steps: Steps,
+        bends: LinearResponse.Bends?,
+    ): Array<DoubleArray> {
         val (linear, own) = linear(terms, numbers)
         val out = Array(waters.size) { DoubleArray(n) }
-        response(linear, own, waters, steps).of(waters, loops, out.asList())
+        response(linear, own, waters, steps).of(waters, loops, out.asList(), bends)
         return out
     }
 

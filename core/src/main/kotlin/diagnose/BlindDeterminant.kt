@@ -17,6 +17,9 @@ package stillwater.diagnose
 internal class BlindDeterminant(search: BlindSearch, private val state: BlindState) {
     private val own = linear(state.model, state.numbers)
     private val waters = BlindWaters(search, state, DRAWS)
+
+    /** Wᵀ Rx of each, so that no R(θ)x need be whitened. */
+    private val turned = waters.shown.map(state.fit.design.noise::turned)
     private val squares = product(state.model, state.numbers)
 
     /** For [model] with [numbers]. */
@@ -25,12 +28,7 @@ internal class BlindDeterminant(search: BlindSearch, private val state: BlindSta
 
     private fun product(model: ResponseModel, numbers: DoubleArray): Double {
         val seen = waters.seen(model, numbers)
-        var sum = 0.0
-        for (k in seen.indices) {
-            state.fit.design.noise.whiten(seen[k], seen[k])
-            sum += dot(waters.shown[k], seen[k])
-        }
-        return sum
+        return seen.indices.sumOf { dot(turned[it], seen[it]) }
     }
 
     /** What [numbers] of [model] tell what the sensor shows of a wave. */

@@ -37,7 +37,8 @@ internal class BlindSearch private constructor(
     val modes: WaterModes get() = fine ?: rough
     private var fine: WaterModes? = null
 
-    private fun noise(share: Double, steps: Double) =
+    /** Noise of which [share] wanders over so many [steps]. */
+    fun noise(share: Double, steps: Double) =
         CorrelatedNoise(series.times, share, steps * series.period, used.copyOf())
 
     /** The same search in readings that are less by [change], length n. */
@@ -79,39 +80,6 @@ internal class BlindSearch private constructor(
         lastVariance = state.variance
         return state
     }
-
-    /**
-     * [state], or what is likelier and is found from noise that hardly wanders, and from longer lags: a lag that is too
-     * short and noise that wanders make up for each other.
-     */
-    private fun restarted(state: BlindState): BlindState {
-        val quiet = hardlyWandering(state)
-        val begun = loops.all(LONGER) { times ->
-            val lag = minOf(times * state.timeConstant, series.duration)
-            settled(state.model.terms, base(lag), quiet, state.variances, before = state)
-        }
-        return likelier(state, climbed(begun.maxBy { it.score }))
-    }
-
-    /**
-     * [state], or what is likelier and is found from [quiet], another model under noise that hardly wanders. Where that is
-     * far less likely noise does wander: the other model is then held against [state] under the same noise.
-     */
-    fun likelier(state: BlindState, quiet: BlindState): BlindState {
-        val isFar = state.score - quiet.score > FAR_BEHIND
-        val other = climbed(if (isFar) again(quiet, state.fit.design.noise) else requieted(quiet))
-        return if (!(other.score > state.score)) state else if (isFar) climbed(requieted(other)) else other
-    }
-
-    private fun hardlyWandering(state: BlindState) =
-        BlindNoise(noise(QUIET, FIRST_STEPS), state.fit.design.noise.spread)
-
-    /**
-     * [state] with noise that hardly wanders, where it does: such noise has taken what a sensor does that the model does
-     * not have, and leaves little for it to explain.
-     */
-    fun quiet(state: BlindState): BlindState? =
-        if (state.fit.design.noise.noise.share < WANDERING) null else climbed(again(state, hardlyWandering(state)))
 
     /** [state] with as many waves as it takes; where even those it has are too few, at the lag they tell. */
     private fun finer(state: BlindState): BlindState {
@@ -156,7 +124,7 @@ internal class BlindSearch private constructor(
     }
 
     /** Numbers of a lag of [timeConstant] s. */
-    private fun base(timeConstant: Double) = doubleArrayOf(timeConstant, 1.0, 0.0, 0.0)
+    fun base(timeConstant: Double) = doubleArrayOf(timeConstant, 1.0, 0.0, 0.0)
 
     /** [state] with the noise that suits it best; never a less likely one. */
     fun quieted(state: BlindState): BlindState {
@@ -214,7 +182,8 @@ internal class BlindSearch private constructor(
         return best
     }
 
-    private fun again(state: BlindState, noise: BlindNoise) =
+    /** [state] under [noise], and the water for that. */
+    fun again(state: BlindState, noise: BlindNoise) =
         settled(state.model.terms, state.numbers, noise, state.variances, before = state)
 
     /**
@@ -233,7 +202,7 @@ internal class BlindSearch private constructor(
         if (!isBetter && state.lastGain < HARDLY) return state
         val numbers = if (isBetter) found.numbers else state.numbers
         val noise = state.fit.design.noise
-        return settled(state.model.terms, numbers, noise, state.variances, before = state, most = MOST_ROUNDS)
+        return settled(state.model.terms, numbers, noise, state.variances, before = state)
     }
 
     /** [state] with the numbers that fit better and the water for them, in turn, as long as that makes it likelier. */
@@ -266,9 +235,8 @@ internal class BlindSearch private constructor(
     fun opened(state: BlindState): BlindState {
         if (!isStill(state)) return state
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
-        val noise = state.fit.design.noise
         val open =
-            settled(state.model.terms, state.numbers, noise, variances, FIRST_ROUNDS, before = state, most = MOST_ROUNDS)
+            settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
         return climbed(requieted(climbed(open)))
     }
 
@@ -280,7 +248,7 @@ internal class BlindSearch private constructor(
      * The water for the sensor with [terms] and [numbers].
      *
      * @param variances of the bands to begin with; empty for none. @param rounds times that variances are fitted.
-     * @param before a state whose water is near. @param most rounds at most, for as long as each makes it likelier.
+     * @param before a state whose water is near.
      */
     fun settled(
         terms: List<Term>,
@@ -290,7 +258,6 @@ internal class BlindSearch private constructor(
         rounds: Int = ROUNDS,
         modes: WaterModes? = null,
         before: BlindState? = null,
-        most: Int = rounds,
     ): BlindState {
         val waves = modes ?: before?.modes ?: this.modes
         val own = numbers.copyOf().also { it[ResponseModel.FIRST] = 0.0 }
@@ -300,26 +267,27 @@ internal class BlindSearch private constructor(
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
         var model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
         var residuals = residuals(model, at)
-        var score = Double.NEGATIVE_INFINITY
-        var round = 0
-        while (true) {
-            val hidden = RangeEnd.beyond(model, at)
-            var fit = BlindFit(designs.designed(columns, hidden, noise), precisions(bands, waves), heights)
+        fun fit() =
+            BlindFit(designs.designed(columns, RangeEnd.beyond(model, at), noise), precisions(bands, waves), heights)
+        var fit = fit()
+        var was = 0.0
+        var left = 0.0
+        for (round in 0..rounds) {
+            if (round > 0) {
+                was = fit.score(left)
+                bands = WaterVariances.next(fit, left, waves)
+                fit = fit()
+            }
             val change = fit.change(residuals)
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
             model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             residuals = residuals(model, at)
-            val left = fit.left(residuals)
-            val gained = fit.score(left) - score
-            score = fit.score(left)
-            if (round >= most || (round >= rounds && !(gained > MORE))) {
-                return BlindState(model, at, fit, bands, residuals, left, waves, before?.behind.orEmpty(), gained)
-            }
-            bands = WaterVariances.next(fit, left, waves)
-            round++
+            left = fit.left(residuals)
         }
+        val gained = fit.score(left) - was
+        return BlindState(model, at, fit, bands, residuals, left, waves, before?.behind.orEmpty(), gained)
     }
 
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
@@ -329,9 +297,13 @@ internal class BlindSearch private constructor(
         return out
     }
 
-    /** [waters] along the track as the linear parts of the sensor show them. */
-    fun seen(terms: List<Term>, numbers: DoubleArray, waters: Array<DoubleArray>): Array<DoubleArray> =
-        designs.seen(terms, numbers, waters, steps)
+    /** [waters] along the track as the linear parts of the sensor show them; their [bends] where they are kept. */
+    fun seen(
+        terms: List<Term>,
+        numbers: DoubleArray,
+        waters: Array<DoubleArray>,
+        bends: LinearResponse.Bends? = null,
+    ): Array<DoubleArray> = designs.seen(terms, numbers, waters, steps, bends)
 
     /** The waters of [modes] with [heights] along the track. */
     fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> = designs.along(modes, heights)
@@ -362,15 +334,6 @@ internal class BlindSearch private constructor(
         /** Logarithm of the ratio of lags from which on one is not found from the other. */
         const val FAR_LAG = 0.5
 
-        /** Times the lag found, from which it is looked for once more. */
-        val LONGER = listOf(1.0, 2.0, 4.0)
-
-        /** Share of noise that hardly wanders; and from which on it may have taken what a sensor does. */
-        const val QUIET = 0.2
-
-        /** Twice the log-likelihood that such noise is behind where noise wanders for certain. */
-        const val FAR_BEHIND = 300.0
-        const val WANDERING = 0.5
         const val FIRST_SHARE = 0.8
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
@@ -378,10 +341,6 @@ internal class BlindSearch private constructor(
         /** Variance over the noise's of water that changes, to begin with. */
         const val OPENED = 10.0
         const val ROUNDS = 2
-        const val MOST_ROUNDS = 10
-
-        /** Twice the gain in log-likelihood of a round for which there is another one. */
-        const val MORE = 0.5
 
         /**
          * Twice the gain in log-likelihood from which steps are held: water in the field is not, and a response of another

@@ -17,13 +17,14 @@ internal class BlindWaters(private val search: BlindSearch, private val state: B
         }
     }
     private val waters: Array<DoubleArray> by lazy { search.along(state.modes, heights) }
+    private val bends = LinearResponse.Bends(draws)
 
     /** What the sensor of [state] shows of each, whitened, over the noise's spread. */
     val shown: Array<DoubleArray> by lazy { state.fit.design.times(heights) }
 
     /** What the sensor with [numbers] of [model] shows of each, sensor units over the noise's spread; new. */
     fun seen(model: ResponseModel, numbers: DoubleArray): Array<DoubleArray> {
-        val seen = search.seen(model.terms, numbers, waters)
+        val seen = search.seen(model.terms, numbers, waters, bends)
         val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
         // What was before the log, the same of all waters but for its height.
         val fading = DoubleArray(times.size) { exp(-(times[it] - times[0]) / timeConstant) }

@@ -108,8 +108,8 @@ class BlindDiagnosisTest {
 
     @Test
     fun whatTheHalvesContradictIsNotNamed() {
-        val early = log(SensorStage.Asymmetric(12.0, 3.0)).values
-        val late = log(SensorStage.Asymmetric(5.5, 4.0)).values
+        val early = log(SensorStage.Asymmetric(9.0, 3.0)).values
+        val late = log(SensorStage.Asymmetric(4.8, 4.2)).values
         val values = DoubleArray(n) { if (it < n / 2) early[it] else late[it] }
         val times = DoubleArray(n) { it.toDouble() }
         val verdict = Diagnosis(MeasuredSeries(times, x, y, values, null)).run().verdict
