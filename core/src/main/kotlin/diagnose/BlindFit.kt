@@ -29,17 +29,19 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
     }
 
     /** Wᵀ [whitened], where whitening is W: with a column it is what [whitened] is with that, whitened; new. */
-    fun turned(whitened: DoubleArray): DoubleArray = DoubleArray(whitened.size).also {
-        noise.turned(whitened, it)
-        for (i in it.indices) it[i] /= spread[i]
+    fun turned(whitened: DoubleArray): DoubleArray = DoubleArray(whitened.size).also { turned(whitened, it) }
+
+    private fun turned(whitened: DoubleArray, out: DoubleArray) {
+        noise.turned(whitened, out)
+        for (i in out.indices) out[i] /= spread[i]
     }
 
     /** Writes what [whitened] is with whitened jumps into [out]: jumps of one unit at each row, which stay. */
     fun jumps(whitened: DoubleArray, out: DoubleArray) {
-        noise.turned(whitened, out)
+        turned(whitened, out)
         var sum = 0.0
         for (i in out.indices.reversed()) {
-            sum += out[i] / spread[i]
+            sum += out[i]
             out[i] = sum
         }
     }
