@@ -40,9 +40,10 @@ internal class BlindAnswer(
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
         // A drift or a jump that was chosen is held against such water already.
         val isChangeTold = told.any { Cause.TIME_VARYING_FIELD in it }
-        val isLikelyChange = chosen.isEmpty() && end.changed > CHANGED
+        val isChangeNamed = !isChangeTold && isNamedChange(end.changed, chosen)
+        val isLikelyChange = end.changed > CHANGED && !isChangeTold && !isChangeNamed
         val all = told + listOfNotNull(
-            changes(end.changed, chosen).takeIf { it.isNotEmpty() && !isChangeTold },
+            listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT).takeIf { isChangeNamed },
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
         )
@@ -83,18 +84,12 @@ internal class BlindAnswer(
     }
 
     /**
-     * What may be where water that changes in time is worth [changed] beside those [chosen]; empty where that is too
-     * little. Beside rounding nothing else can be looked for. Alone it is said and not named: fixes that jitter make
-     * passes disagree as well, and real water is never quite still.
+     * Whether water that changes in time, worth [changed] beside those [chosen], is named. Beside rounding nothing else can
+     * be looked for. Alone it is said and not named: fixes that jitter make passes disagree as well, and real water is
+     * never quite still.
      */
-    private fun changes(changed: Double, chosen: List<BlindStep>): List<Cause> {
-        val isAsked = chosen.isNotEmpty() && chosen.none { it.trial.term?.cause == Cause.QUANTISATION }
-        return when {
-            !isAsked || changed <= CHANGED -> emptyList()
-            changed > BEYOND_JUMPS -> listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT)
-            else -> listOf(Cause.TIME_VARYING_FIELD) + BlindDiagnosis.SLOW
-        }
-    }
+    private fun isNamedChange(changed: Double, chosen: List<BlindStep>): Boolean =
+        changed > NAMED_CHANGE && chosen.isNotEmpty() && chosen.none { it.trial.term?.cause == Cause.QUANTISATION }
 
     /**
      * Where [left] is the strongest of what is left, with [sureness], which [isOthers] if a lag that may be of either
@@ -336,8 +331,12 @@ internal class BlindAnswer(
             "The log is likelier where the water, or the sensor's zero, is let change while it was measured: it may " +
                 "have changed."
 
-        /** The same beyond which a jump would have been sure by itself, wherever it is. */
-        private const val BEYOND_JUMPS = 40.0
+        /**
+         * The same from which it is named beside a cause: less may be fixes that jitter (33.6 in 236051, nothing wrong), or the
+         * waves that suit the cause (26.8 and 28.4 in 234153 and 234097, where nothing changes). A jump would have been sure by
+         * itself from here on, wherever it is.
+         */
+        private const val NAMED_CHANGE = 40.0
 
         /** Causes that halves of a log do not contradict: what happens once, and steps that all readings are on. */
         private val NOT_HALVED = BlindDiagnosis.SLOW + Cause.QUANTISATION

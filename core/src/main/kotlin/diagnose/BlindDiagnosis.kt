@@ -50,8 +50,12 @@ internal class BlindDiagnosis(
             // Wild readings hide that steps are held; they do not make them look so.
             if (!search.steps.isHeld) base = search.stepped(base)
         }
+        deeper = search.deeper(base)
         return answer(base)
     }
+
+    /** The model of a lag alone with finer waves, where those found at first may have been too few; it is asked once. */
+    private var deeper: BlindState? = null
 
     /** The answer on top of [likeliest], a lag alone. */
     private fun answer(likeliest: BlindState, isTurned: Boolean = false): DiagnosisResult {
@@ -67,6 +71,7 @@ internal class BlindDiagnosis(
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === likeliest) round(start, still) else round(start)
+        finer(first)?.let { return answer(search.begun(it)) }
         val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
         val found = forward(first)
@@ -85,6 +90,15 @@ internal class BlindDiagnosis(
     }
 
     /**
+     * The model with finer waves where it is likelier than all that [first] has, and not asked yet. Waves that are missing
+     * and a response that is wrong look alike: what no response makes up for is the water's.
+     */
+    private fun finer(first: BlindRound): BlindState? {
+        val likeliest = (first.causes.mapNotNull { it.state } + first.state).maxOf { it.score }
+        return deeper?.takeIf { it.score > likeliest + BlindLag.MUCH }?.also { deeper = null }
+    }
+
+    /**
      * [base] with other steps, where what [first] found is a shift that these do for: a truth that is held over each step
      * is ahead by half of one, or behind. Null where they do not.
      */
@@ -94,7 +108,7 @@ internal class BlindDiagnosis(
         val late = halfRowLate(base, first) ?: return null
         // Of those that shift readings another may explain more: an offset of place, where speeds differ.
         val shapes = first.causes.filter { it.term?.cause in BlindTerms.OF_LAG }.mapNotNull { it.state } + first.state
-        return search.turned(late, Steps.UNTIL_NEXT, shapes.maxOf { it.score } - BlindLag.MUCH)
+        return search.turned(late, Steps.UNTIL_NEXT, shapes.maxOf { it.score } - ONE_NUMBER)
     }
 
     /**
@@ -257,6 +271,9 @@ internal class BlindDiagnosis(
 
         /** Twice a gain in log-likelihood below which a cause goes again, once others are named beside it. */
         private const val NEEDLESS = 8.0
+
+        /** Twice a gain in log-likelihood that one number has by chance in one log of twenty. */
+        private const val ONE_NUMBER = 3.84
 
         /** Shifts of the whole log. */
         private val SHIFTS = setOf(Cause.DEAD_TIME, Cause.POSITION_OFFSET)

@@ -89,7 +89,9 @@ internal class BlindRound(
         fun worth(trial: BlindTrial) = maxOf(trial.worth, other(trial)?.worth ?: 0.0)
         val likely = all.filter { it.ratio > LIKELY || other(it)?.let(::isLikelyOnStill) == true }
             .sortedByDescending(::worth).take(MOST_LIKELY).toSet() +
-            all.filter { it.name in onQuiet || it.pValue < settings.level }
+            all.filter { it.name in onQuiet || it.pValue < settings.level } +
+            // Something changed: whether it is a drift is asked, however little of it water that changes has left.
+            all.filter { it.term?.cause == Cause.DRIFT && changing > CHANGING_TOO }
         loops.all(all) {
             val other = other(it)
             val settled = when {

@@ -94,6 +94,20 @@ internal class BlindSearch private constructor(
 
     private fun redone(state: BlindState) = WaterDetail(this, most).of(state)
 
+    /** [state] with finer waves where those it has may be too few, as likely as can be; null where they are not. */
+    fun deeper(state: BlindState): BlindState? {
+        if (state.isResolved) return null
+        return WaterDetail(this, most).deeper(state)?.let { restarted(climbed(requieted(evened(it)))) }
+    }
+
+    /** [state], from which on all that follows begins. */
+    fun begun(state: BlindState): BlindState {
+        fine = state.modes
+        steps = state.model.steps
+        lastVariance = state.variance
+        return state
+    }
+
     /** The noise's variance that [best] found, sensor units². */
     var lastVariance: Double = 0.0
         private set

@@ -25,6 +25,21 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
         return if (now.isResolved && now.power(now.modes.bands - 1) <= now.variance) filled(now) else now
     }
 
+    /**
+     * [state], whose finest waves are strong, with ever finer ones, a ring at a time, until the finest are weak; null where
+     * that is no likelier, or where so many columns would take too long.
+     */
+    fun deeper(state: BlindState): BlindState? {
+        var now = state
+        repeat(DEEPENED) {
+            val next = now.modes.finer.firstOrNull()?.let { refined(now, mostOffered, setOf(it)) }
+            if (next == null || !(next.score > now.score + BlindSearch.ENOUGH)) return now.takeIf { it !== state }
+            now = next
+            if (now.isResolved) return now
+        }
+        return now
+    }
+
     /** [state] with rings found from the longest down, as long as that makes it no less likely. */
     private fun found(state: BlindState): BlindState {
         var now = state
@@ -70,6 +85,7 @@ internal class WaterDetail(private val search: BlindSearch, private val most: In
     companion object {
         private const val REDONE = 2
         private const val FILLED = 3
+        private const val DEEPENED = 4
 
         /** How many times finer than the finest rings others are asked for. */
         private const val FINER = 4
