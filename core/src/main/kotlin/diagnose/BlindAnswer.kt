@@ -36,7 +36,7 @@ internal class BlindAnswer(
         }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         // What shifts readings by next to nothing, however surely, stays in the model.
-        val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let { BlindTerms.isLittle(it, last) } != true }
+        val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let(::isNothing) != true }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
         // A drift or a jump that was chosen is held against such water already.
         val isChangeTold = told.any { Cause.TIME_VARYING_FIELD in it }
@@ -145,10 +145,18 @@ internal class BlindAnswer(
         base.timeConstant *
             exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
-    /** What is to be said of those [chosen] that do next to nothing, however surely. */
-    private fun little(chosen: List<BlindStep>) = chosen.mapNotNull { it.trial.term }
-        .filter { BlindTerms.isLittle(it, last) }
-        .map { SmallShifts.words(it, last.model, last.numbers, "it is a ${SmallShifts.LITTLE}") }
+    /** Whether [term] shifts readings by no more than a simulation in fine steps does. */
+    private fun isNothing(term: Term) = BlindTerms.isLittle(term, last, SmallShifts.SIMULATED_ROWS)
+
+    /** What is to be said of those [chosen] that do little, however surely. */
+    private fun little(chosen: List<BlindStep>) =
+        chosen.mapNotNull { it.trial.term }.filter { BlindTerms.isLittle(it, last) }.map { term ->
+            if (isNothing(term)) {
+                SmallShifts.words(term, last.model, last.numbers, "it is a ${SmallShifts.LITTLE}")
+            } else {
+                "The ${term.cause.label} is a ${SmallShifts.LITTLE}"
+            }
+        }
 
     private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
         if (given?.isPartial == true) {

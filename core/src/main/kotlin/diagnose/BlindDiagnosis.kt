@@ -103,7 +103,7 @@ internal class BlindDiagnosis(
      * is ahead by half of one, or behind. Null where they do not.
      */
     private fun turned(base: BlindState, first: BlindRound): BlindState? {
-        val ahead = first.shift()?.let { search.turned(base, search.steps.other, it.score - BlindLag.MUCH) }
+        val ahead = first.shift()?.let { search.turned(base, search.steps.other, it.score - ONE_NUMBER) }
         if (ahead != null || search.steps.isHeld) return ahead
         val late = halfRowLate(base, first) ?: return null
         // Of those that shift readings another may explain more: an offset of place, where speeds differ.
@@ -135,7 +135,7 @@ internal class BlindDiagnosis(
         val (shifts, others) = last.model.terms.partition { it.cause in SHIFTS }
         val rows = shifts.sumOf { SmallShifts.late(it, last.model, last.numbers) ?: 0.0 } / series.period
         val steps = Steps.entries.firstOrNull { it.isHeld && -rows / it.lead in HALVES } ?: return null
-        val state = search.turned(last, steps, last.score - BlindLag.MUCH, others) ?: return null
+        val state = search.turned(last, steps, last.score - ONE_NUMBER, others) ?: return null
         ended = round(state)
         return rest.dropLast(1) + BlindStep(rest.last().trial, rest.last().round, state)
     }

@@ -44,11 +44,11 @@ internal object BlindTerms {
     }
 
     /**
-     * Whether [term], as [found] has it, makes readings late by next to nothing: the smoothed way itself is off by as
-     * much, which explains a little.
+     * Whether [term], as [found] has it, makes readings late by less than so many [rows]: the smoothed way itself is off by
+     * a tenth, which explains a little.
      */
-    fun isLittle(term: Term, found: BlindState): Boolean {
+    fun isLittle(term: Term, found: BlindState, rows: Double = SmallShifts.LEAST_ROWS): Boolean {
         val late = SmallShifts.late(term, found.model, found.numbers) ?: return false
-        return abs(late) < SmallShifts.LEAST_ROWS * found.model.series.period
+        return abs(late) < rows * found.model.series.period
     }
 }
