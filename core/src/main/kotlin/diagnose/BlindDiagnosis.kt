@@ -153,7 +153,7 @@ internal class BlindDiagnosis(
             if (round.adjustedCauses.none { it < CAUSES * settings.level }) break
             // That something is there is told by the surest cause, which it is by the likeliest; rounding comes last, for
             // in readings that are rounded nothing else can be looked for.
-            val sure = round.causes.filter { it.pValue < settings.level }
+            val sure = possible(round)
             val likeliest = sure.maxBy { it.likelier }
             val best = if (likeliest.term?.cause ==
                 Cause.QUANTISATION
@@ -181,6 +181,20 @@ internal class BlindDiagnosis(
         }
         if (chosen.size == settings.mostCauses && ended?.state !== chosen.last().state) ended = null
         return needed(chosen)
+    }
+
+    /**
+     * The causes of [round] that may be meant. Where something changed, for certain, others have water that changes beside
+     * them, which makes up for it: they are no answer in place of a drift or a jump, unless they are as sure as a first one.
+     */
+    private fun possible(round: BlindRound): List<BlindTrial> {
+        fun isFirst(i: Int) = round.adjustedCauses[i] < CAUSES * settings.level
+        fun isSlow(trial: BlindTrial) = trial.term?.cause in SLOW
+        val isChange = round.changing > settings.separation &&
+            round.causes.indices.any { isFirst(it) && isSlow(round.causes[it]) }
+        return round.causes.filterIndexed { i, trial ->
+            trial.pValue < settings.level && (!isChange || isSlow(trial) || isFirst(i))
+        }
     }
 
     /** The likeliest of the causes of [round] that are as sure as a first one must be, but rounding; null if none is. */

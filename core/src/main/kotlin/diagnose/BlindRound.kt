@@ -27,7 +27,7 @@ internal class BlindRound(
     /** Water that does not change, from noise that suits it, from such as hardly wanders, and from what suits changes. */
     private val still = (quiet?.let { search.likelier(settledStill, it) } ?: settledStill)
         // Where the water of the model changes anyway, what suits it when it does not is known.
-        .let { if (open !== model && open.score - it.score > CHANGING_TOO) likelier(it, search.still(open)) else it }
+        .let { if (open !== model && open.score - it.score > CHANGING_TOO) better(it, search.still(open)) else it }
 
     /** The model, with water that changes in time or does not. */
     val state = if (open.score > still.score) open else still
@@ -99,8 +99,14 @@ internal class BlindRound(
                 it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
                 else -> it
             }
-            if (isOfLag(settled)) settled else settled.atMost(0.0)
+            if (isOfLag(settled)) doubted(settled) else settled.atMost(0.0)
         }
+    }
+
+    /** [trial], of which, if a drift, waves that are missing do as much: passes then differ by when they were. */
+    private fun doubted(trial: BlindTrial): BlindTrial {
+        val isDoubtful = trial.term?.cause == Cause.DRIFT && !(trial.state ?: state).isResolved
+        return if (isDoubtful) trial.lessSure(BlindLook.DOUBT_OF_CHANGE) else trial
     }
 
     /** Whether [trial] needs no lag, or there is one for certain: a lag alone, or the one that it is another shape of. */
@@ -180,12 +186,12 @@ internal class BlindRound(
         return tries.settled(trial, found, best, searched)
     }
 
-    private fun likelier(one: BlindState, other: BlindState) = if (other.score > one.score) other else one
+    private fun better(one: BlindState, other: BlindState) = if (other.score > one.score) other else one
 
     /** [found], or a drift as [trial] begun from the noise that suits still water without it. */
     private fun likelierDrift(found: BlindState, trial: BlindTrial): BlindState {
         val begun = search.improved(search.with(still, stillTries.attempt(checkNotNull(trial.term))))
-        return likelier(search.climbed(found), search.climbed(search.requieted(begun)))
+        return better(search.climbed(found), search.climbed(search.requieted(begun)))
     }
 
     private fun searched(trial: BlindTrial): Double = tries.searched(trial.term?.times.orEmpty().size)
