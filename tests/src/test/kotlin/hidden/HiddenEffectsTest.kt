@@ -114,6 +114,35 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
     }
 
+    /**
+     * Seeds of the work on it: a warmth in water that is finer than its columns showed at first, two lags that are later
+     * than the half row of a way of sampling, and water that changes, which others seemed to explain as well at first.
+     */
+    @Test
+    fun whatFinerWatersOrTheFirstStepsHidIsTold() {
+        val cases = blind(234_290, 234_142, 234_158, 238_306)
+        val hidden = listOf(
+            HiddenEffect.TEMPERATURE,
+            HiddenEffect.SECOND_ORDER,
+            HiddenEffect.TIME_VARYING,
+            HiddenEffect.TIME_VARYING,
+        )
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
+    /**
+     * Seeds of the work on it: nothing in a random walk whose waves are not resolved, and interference beside a lag that
+     * few stretches of the log tell from a dead time, these for certain.
+     */
+    @Test
+    fun wavesThatAreMissingAreNoDriftAndALagThatIsFarLikelierIsOne() {
+        val cases = blind(238_045, 236_177)
+        assertEquals(listOf(emptySet(), setOf(HiddenEffect.INTERFERENCE)), cases.map { it.truth.effects.keys })
+        assertTrue(cases.first().answer.sets.none { "drift" in it }, Scores(cases).markdown())
+        assertEquals("unexplained", cases.last().answer.verdict, Scores(cases).markdown())
+    }
+
     /** A seed of the work on it: interference of 1.3x, whose period the water takes most of. */
     @Test
     fun whatIsOutsideTheListIsUnexplainedWhereItIsFaint() {
