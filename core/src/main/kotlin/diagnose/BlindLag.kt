@@ -147,8 +147,8 @@ internal class BlindLag(
 
         /**
          * The same of which stretches are not asked: steep water may hold most of what tells the kinds apart, in few of
-         * them. Of 30 simulated dead times one is behind a time constant, by 63 (234800 to 234829); Lac Hertel has 99 for a
-         * time constant, where others find a dead time.
+         * them. Of 30 simulated dead times two are behind a time constant, by 2 and 63 (234800 to 234829); Lac Hertel has
+         * 99 for a time constant, where others find a dead time.
          */
         private const val FAR = 200.0
         private const val LAG_SEEN = 12.0
