@@ -144,7 +144,7 @@ public class Diagnosis private constructor(
         val shocks = scales(first.base, Steps.EVEN).shocks
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
-            without(gone, fit, tau, Scales(ahead(rows), shaken, shocks), Steps.EVEN, used)
+            fit.without(gone, tau, Scales(ahead(rows), shaken, shocks), Steps.EVEN, used, longest)
         val (rows, best) = ReferenceLead.likeliest { led(first.last, shifts, it).score } ?: return null
         if (best - kept.sumOf { it.cost } < least) return null
         val second = weighing(led(first.base, emptyList(), rows), first.spikes, rows * series.period)
@@ -171,6 +171,7 @@ public class Diagnosis private constructor(
         }.maxBy { it.third }.takeIf { it.third >= 0 } ?: return null
         val second = before.weighing(Steps.HELD, first.spikes)
         val isFewer = second.chosen.count(::isShift) < shifts.size
+        if (isUndone(first, second) && second.explained < first.explained + COINCIDENCE) return null
         return second.takeIf { it.explained >= first.explained + if (isFewer && gone.isNotEmpty()) -SHIFT else HELD }
     }
 
@@ -185,33 +186,8 @@ public class Diagnosis private constructor(
     private fun ahead(first: Weighing, gone: List<Trial>, rows: BooleanArray): Double {
         val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
-        val fit = without(gone, first.last, tau, scales(first.base, Steps.HELD), Steps.HELD, rows)
+        val fit = first.last.without(gone, tau, scales(first.base, Steps.HELD), Steps.HELD, rows, longest)
         return fit.score - kept - first.explained + if (gone.isEmpty()) -HELD else SHIFT
-    }
-
-    /**
-     * [fit] to [rows] of what [scales] have without [gone], begun from a lag of [tau] s, with [steps]. A given number that
-     * is among [gone] is given again.
-     */
-    private fun without(
-        gone: List<Trial>,
-        fit: ModelFit,
-        tau: Double,
-        scales: Scales,
-        steps: Steps,
-        rows: BooleanArray,
-    ): ModelFit {
-        val keys = gone.map { it.term.key }
-        val given = gone.flatMap { it.term.cause.baseNumbers }
-        val model = ResponseModel(scales.series, fit.model.terms.filter { it.key !in keys }, steps, scales)
-        val start = model.carried(fit.model, fit.numbers)
-        start[ResponseModel.TIME_CONSTANT] = tau
-        val free = BooleanArray(start.size) { it < ResponseModel.BASE && fit.free[it] && it !in given }
-        for (term in model.terms) {
-            for (k in 0 until model.width(term)) free[model.slot(term) + k] = fit.free[fit.model.slot(term) + k]
-        }
-        val guess = CorrelatedNoise(series.times, fit.noise.share, fit.noise.time, rows, scales.shocks)
-        return Fitting.fit(model, start, free, rows, longest, guess = guess)
     }
 
     /** [share] of the reference of the row before in that of each row, but where that is a gap away. */
@@ -227,14 +203,22 @@ public class Diagnosis private constructor(
     private fun ahead(rows: Double) =
         series.withQuieter(ReferenceLead.course(series, rows * series.period, unknown.isBroken))
 
-    /** [first] where it explains the log better for its numbers, by [margin], than the weighing with [steps]. */
+    /**
+     * [first] where it explains the log better for its numbers, by [margin], than the weighing with [steps]; a truth that
+     * is held, and a delay that is by chance just what undoes that, must explain far more.
+     */
     private fun better(first: Weighing, margin: Double, steps: Steps): Weighing {
         val rows = used.copyOf()
         val second = weighing(steps)
-        if (second.explained > first.explained - margin) return second
+        val least = if (isUndone(first, second)) COINCIDENCE else -margin
+        if (second.explained > first.explained + least) return second
         rows.copyInto(used)
         return first
     }
+
+    /** Whether [second] has a truth held over each step, which [first] has not, and a delay that undoes that. */
+    private fun isUndone(first: Weighing, second: Weighing) =
+        !first.last.model.steps.isHeld && SmallShifts(second.last, second.base).areUndone(second.chosen)
 
     /** [fit] with steps held if they are not, and the other way round. */
     private fun turned(fit: ModelFit): ModelFit {
@@ -373,6 +357,9 @@ public class Diagnosis private constructor(
         /** Twice the log-likelihood by which steps must look held. */
         const val HELD = 6.0
         const val SETTLING = 2
+
+        /** The same of one delay in five hundred that there might be, of which few sensors have any. */
+        const val COINCIDENCE = 18.0
 
         /** Of the row before in a truth that is held over a step: none, as in one that goes straight, and all. */
         val SHARES = listOf(0.0, 0.5, 1.0)

@@ -39,10 +39,10 @@ internal class ForwardSearch(
     private fun attempt(fit: ModelFit, heldOut: HeldOutScore, term: Term) =
         search.attempt(fit, heldOut, term, base).also { told() }
 
-    /** Those of [trials] that are more than chance and foretell what is held out. */
-    private fun worthy(trials: List<Trial>): List<Trial> {
+    /** Those of [trials] that are less likely than [level] by chance and foretell what is held out. */
+    private fun worthy(trials: List<Trial>, level: Double = settings.level): List<Trial> {
         val adjusted = Evidence.holm(trials.map { it.pValue })
-        return trials.indices.filter { adjusted[it] < settings.level && trials[it].foretells }.map { trials[it] }
+        return trials.indices.filter { adjusted[it] < level && trials[it].foretells }.map { trials[it] }
     }
 
     /**
@@ -70,7 +70,8 @@ internal class ForwardSearch(
             val last = chosen.last()
             val taken = chosen.map { it.term.key }
             val rest = terms.filter { it.key !in taken && compatible(it, chosen) }
-            chosen += best(worthy(loops.all(rest) { attempt(last.fit, last.heldOut, it) })) ?: break
+            val trials = loops.all(rest) { attempt(last.fit, last.heldOut, it) }
+            chosen += best(worthy(trials, BESIDE * settings.level)) ?: break
             val other = rival.take(chosen.size)
             if (other.isNotEmpty() && chosen.last().fit.score < other.last().fit.score + DIFFERENT) return emptyList()
         }
@@ -150,11 +151,16 @@ internal class ForwardSearch(
     private fun isRival(trial: Trial) =
         trial.pValue < LIKELY || trial.term.cause.conditionalNumber?.let { base.free[it] } ?: true
 
-    private companion object {
-        const val OTHER_BEGINNINGS = 2
-        const val LIKELY = 0.01
+    companion object {
+        /**
+         * Of a level: what is there beside a cause must be as much surer. One thing wrong with a log is likelier than two, and
+         * what one leaves that is not quite its model is taken by others.
+         */
+        const val BESIDE = 0.1
+        private const val OTHER_BEGINNINGS = 2
+        private const val LIKELY = 0.01
 
         /** Twice the log-likelihood by which two sets of causes are not the same. */
-        const val DIFFERENT = 0.5
+        private const val DIFFERENT = 0.5
     }
 }

@@ -28,6 +28,11 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
         return isNone || (isWithinRows && isLessThanARow(trial.term))
     }
 
+    /** Whether one of [chosen] puts a truth that is held over each step back where it was. */
+    fun areUndone(chosen: List<Trial>): Boolean = chosen.any { trial ->
+        late(trial.term, model, last.numbers)?.let { isUndone(trial.term, it) } == true
+    }
+
     /** Whether a delay of [shift] s by [term], beyond a given one, puts a truth that is held over each step back where it was. */
     private fun isUndone(term: Term, shift: Double) =
         model.steps.isHeld && abs(shift - given(term) - lead) < LEAST_ROWS * period

@@ -158,7 +158,6 @@ internal class Weighing(
     private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
         val all = sets + certain.map { listOf(it) }
         val structured = left.adjusted < settings.structureLevel
-        val least = chosen.minOfOrNull { it.ratio } ?: 0.0
         // A truth that is guessed between rows swings beyond both ends of what it does.
         val isTiming = structured || sets.flatten().any { it.isTiming || it == Cause.SATURATION }
         return when {
@@ -169,7 +168,7 @@ internal class Weighing(
                 "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
                     "went in between might explain what is left",
             )
-            structured && left.ratio > LEFT * least -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
+            structured && isMore(left) -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
@@ -181,6 +180,13 @@ internal class Weighing(
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
         }
+    }
+
+    /** Whether [left], which is there, is as strong as the weakest of what was chosen, or a part of it and surer. */
+    private fun isMore(left: Dependence): Boolean {
+        val least = chosen.minOfOrNull { it.ratio } ?: 0.0
+        val isSurer = left.adjusted < ForwardSearch.BESIDE * settings.structureLevel
+        return left.ratio > if (isSurer) LEFT * least else least
     }
 
     /**

@@ -35,6 +35,18 @@ class HiddenEffectsTest {
     }
 
     /**
+     * Seeds of the work on it: an asymmetry and a play beside which chance looked like something else at 1 %, and a short
+     * second lag on the bench, which a truth held over each step and a delay that undoes it hid.
+     */
+    @Test
+    fun whatIsBesideACauseMustBeSurerAndADelayThatUndoesHeldStepsIsNone() {
+        val cases = HiddenCampaign.run(listOf(240_120L, 240_152L, 241_180L), withReference = true, directory)
+        val hidden = listOf(HiddenEffect.ASYMMETRIC, HiddenEffect.HYSTERESIS, HiddenEffect.SECOND_ORDER)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
+    /**
      * Seeds of the work on it: a probe ahead of the receiver on a random walk where a lag alone is no better than none,
      * two lags of which stretches of the log told nothing by what was left of rows that had been fitted, coarse rounding
      * that one half shows more than the other, and an offset with heading in a log that shows a lag of either kind.
