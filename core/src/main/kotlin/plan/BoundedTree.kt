@@ -34,7 +34,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private var ones = LongArray(FIRST_NODES)
     private var twos = LongArray(FIRST_NODES)
     private var fours = LongArray(FIRST_NODES)
-    private var values = DoubleArray(FIRST_NODES)
     private var sensors = DoubleArray(FIRST_NODES)
 
     // Families: the node they come from, or COUNTED, and, in the place after it, their directions and one, packed as an
@@ -106,33 +105,40 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         val place = if (isRoot) cells.start else places[parent] + cells.steps[(children and MASK) - 1]
         val depth = if (isRoot) 0 else depths[parent] + 1
         val value = worths[family]
+        val sensor = if (isRoot) sensors[ROOT] else leaving(sensors[parent], cells.middles[place])
         if (depth == lastBranching) {
             // Drawn in any case: the orders that follow depend on it.
             val packed = order.drawn()
-            // Neither a visit nor a sensor makes a cell worth more than it is wide.
-            if (value + cells.widestBeside[place] > bestValue) {
-                val sensor = if (isRoot) sensors[ROOT] else leaving(parent, place)
-                if (mayEndBest(place, value, sensor)) finish(add(parent, place, depth, value), packed)
+            // Visits make no cell worth more. A sum that is no number tells nothing.
+            if (!(value + promisedBeside(place, sensor) <= bestValue)) {
+                finish(add(parent, place, depth, sensor), place, value, sensor, packed)
             }
             return
         }
-        val node = add(parent, place, depth, value)
+        val node = add(parent, place, depth, sensor)
         if (value > 0) lastPolled = node
         if (depth + 1 == lastBranching && value + cells.widest + cells.widest <= bestValue) {
-            count(node, depth + 1)
+            count(node, place, depth + 1, value, sensor)
         } else if (depth < settings.horizon) {
-            branch(node, depth + 1)
+            branch(node, place, depth + 1, value, sensor)
         }
     }
 
-    private fun add(parent: Int, place: Int, depth: Int, value: Double): Int {
+    /** No cell beside [place] promises more than this to a [sensor] that leaves it. */
+    private fun promisedBeside(place: Int, sensor: Double): Double =
+        cells.promisedBeside[place] + abs(sensor - cells.middles[place])
+
+    /** Whether no cell beside [place] teaches a [sensor] that leaves it anything, for certain. */
+    private fun isDull(place: Int, sensor: Double): Boolean =
+        cells.promisedBeside[place] <= 0 && abs(sensor - cells.middles[place]) <= cells.slack
+
+    private fun add(parent: Int, place: Int, depth: Int, sensor: Double): Int {
         val node = size++
         if (node == places.size) growNodes()
         places[node] = place
         parents[node] = parent
         depths[node] = depth
-        values[node] = value
-        if (parent != NONE) sensors[node] = leaving(parent, place)
+        sensors[node] = sensor
         if (parent != NONE && settings.discountVisits) {
             visit(node, parent)
         } else {
@@ -159,27 +165,32 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         fours[node] = four or carryOn
     }
 
-    /** What the sensor is expected to show on leaving [place], which it entered from the node [parent]. */
-    private fun leaving(parent: Int, place: Int): Double {
-        val sensor = sensors[parent]
-        return sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, cells.middles[place] - sensor))
-    }
+    /** What the [sensor] is expected to show on leaving a place whose bounds have that [middle]. */
+    private fun leaving(sensor: Double, middle: Double): Double =
+        sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
 
     /** Makes the neighbours of [node] its children, of [depth]. */
-    private fun branch(node: Int, depth: Int) {
+    private fun branch(node: Int, place: Int, depth: Int, value: Double, sensor: Double) {
         val one = ones[node]
         val two = twos[node]
         val four = fours[node]
-        val value = values[node]
-        val sensor = sensors[node]
-        val place = places[node]
         val widths = cells.widths
         val middles = cells.middles
         val steps = cells.steps
         // The family of neighbours that teach nothing.
         val flat = if (perMove) value / depth else value
         var alike = 0
-        order.forEach { direction ->
+        val packed = order.drawn()
+        if (isDull(place, sensor)) {
+            order.forEach(packed) { direction ->
+                // All bits set where there is a cell, none in the rim, whose widths are less than 0.
+                val isCell = (widths[place + steps[direction]].toRawBits() ushr Long.SIZE_BITS - 1).toInt() - 1
+                alike = (alike shl (isCell and BITS)) or (direction + 1 and isCell)
+            }
+            if (alike != 0) push(node, alike, value, flat)
+            return
+        }
+        order.forEach(packed) { direction ->
             val next = place + steps[direction]
             val width = widths[next]
             if (width >= 0) {
@@ -205,22 +216,20 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /**
      * Counts the neighbours of [node] as its children, of [depth], which is one move before the horizon, where none of
-     * them can end the best path. In which order they are polled then makes no difference.
+     * them can end the best path. In which order they are polled then makes no difference. Seldom called: written out,
+     * it stays out of its caller's code, which is faster without it.
      */
-    private fun count(node: Int, depth: Int) {
+    private fun count(node: Int, place: Int, depth: Int, value: Double, sensor: Double) {
         order.drawn()
         val one = ones[node]
         val two = twos[node]
         val four = fours[node]
-        val value = values[node]
-        val sensor = sensors[node]
-        val place = places[node]
         val widths = cells.widths
         val middles = cells.middles
         val steps = cells.steps
         val waiting = queue.bestPriority
         var alike = 0
-        for (direction in 0 until order.ways) {
+        order.forEachAsNumbered { direction ->
             val next = place + steps[direction]
             val width = widths[next]
             if (width >= 0) {
@@ -241,32 +250,13 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * Whether a neighbour of [place] ends the best path even if none was visited before: visits make no cell worth more.
-     * Mostly none does, so that there is no node yet.
-     */
-    private fun mayEndBest(place: Int, value: Double, sensor: Double): Boolean {
-        val widths = cells.widths
-        val middles = cells.middles
-        val steps = cells.steps
-        var any = false
-        for (direction in 0 until order.ways) {
-            val next = place + steps[direction]
-            if (value + (widths[next] - abs(middles[next] - sensor)) > bestValue) any = true
-        }
-        return any
-    }
-
-    /**
      * Looks whether a neighbour of [node], in the order [packed], ends the best path; at the horizon that is all it can
      * do.
      */
-    private fun finish(node: Int, packed: Int) {
+    private fun finish(node: Int, place: Int, value: Double, sensor: Double, packed: Int) {
         val one = ones[node]
         val two = twos[node]
         val four = fours[node]
-        val value = values[node]
-        val sensor = sensors[node]
-        val place = places[node]
         val widths = cells.widths
         val middles = cells.middles
         val steps = cells.steps
@@ -299,13 +289,12 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
      * What is left of [promise] for a boat that goes to [place] from [node], when its visits on the path are taken into
      * account, of which [one], [two] and [four] are the node's bits.
      *
-     * Mostly the boat was there once at the most. The path is gone through only where it was there very often, or
-     * where another place on the path may have the same slot. A half is as exact by a product, without a jump.
+     * The path is gone through only where the boat was there very often, or where another place on the path may have the
+     * same slot.
      */
     private fun discounted(promise: Double, node: Int, place: Int, one: Long, two: Long, four: Long): Double {
         val slot = place ushr cells.slotShift
         val count = ((one ushr slot) and 1L) + 2 * ((two ushr slot) and 1L) + 4 * ((four ushr slot) and 1L)
-        if (count < minOf(cells.uncertainVisits, PARTS.size)) return promise * PARTS[count.toInt()]
         return promise / (1 + if (count < cells.uncertainVisits) count.toInt() else visits(node, place))
     }
 
@@ -352,7 +341,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         ones = ones.copyOf(capacity)
         twos = twos.copyOf(capacity)
         fours = fours.copyOf(capacity)
-        values = values.copyOf(capacity)
         sensors = sensors.copyOf(capacity)
     }
 
@@ -369,8 +357,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         /** Instead of a family's node: its children are only counted. */
         const val COUNTED = -2
 
-        /** What a cell is worth that was not visited on the path, and one that was once. */
-        val PARTS = doubleArrayOf(1.0, 0.5)
         const val FIRST_NODES = 256
         const val FIRST_FAMILIES = 1024
         const val BITS = NeighbourOrder.BITS

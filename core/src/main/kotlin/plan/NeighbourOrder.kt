@@ -37,6 +37,15 @@ internal class NeighbourOrder(private val random: Random, val ways: Int) {
         }
     }
 
+    /** Calls [visit] with each direction in the order of their numbers; the first four are written out. */
+    inline fun forEachAsNumbered(visit: (Int) -> Unit) {
+        visit(0)
+        visit(1)
+        visit(2)
+        visit(3)
+        for (direction in 4 until ways) visit(direction)
+    }
+
     /** Draws the next order. Fisher and Yates: every order is as likely. */
     fun drawn(): Int {
         var packed = directions

@@ -2,6 +2,7 @@ package stillwater.plan
 
 import stillwater.field.FieldMap
 import stillwater.model.Grid
+import kotlin.math.abs
 
 /**
  * What the bounded planner asks of a map, for the cells a boat can reach from its own, in arrays that the search reads
@@ -30,12 +31,20 @@ internal class ReachableCells(private val ways: Int) {
     var widths: DoubleArray = DoubleArray(0)
         private set
 
-    /** Midpoint of each place's bounds, sensor units. */
+    /** Midpoint of each place's bounds, sensor units; 0 in the rim. */
     var middles: DoubleArray = DoubleArray(0)
         private set
 
-    /** The widest bounds beside each place that holds a cell, sensor units; less than 0 where there is no cell. */
-    var widestBeside: DoubleArray = DoubleArray(0)
+    /**
+     * The most that a cell beside each place promises, sensor units: its width less the distance of its middle from what
+     * the sensor shows, for a sensor that is within [slack] of the place's own middle. One that is farther away is
+     * promised no more than this and that distance. NaN or infinite where something is not finite.
+     */
+    var promisedBeside: DoubleArray = DoubleArray(0)
+        private set
+
+    /** Far above all rounding in a promise, sensor units; NaN where a middle is not finite. */
+    var slack: Double = 0.0
         private set
 
     /** The widest bounds of all places, sensor units. */
@@ -75,9 +84,10 @@ internal class ReachableCells(private val ways: Int) {
         if (widths.size < places) {
             widths = DoubleArray(places)
             middles = DoubleArray(places)
-            widestBeside = DoubleArray(places)
+            promisedBeside = DoubleArray(places)
         }
         widths.fill(RIM, 0, places)
+        middles.fill(0.0, 0, places)
         for (r in 0 until rows) {
             readRow(map, (firstRow + r) * grid.columns + firstColumn, (r + 1) * stride + 1, columns)
         }
@@ -85,10 +95,13 @@ internal class ReachableCells(private val ways: Int) {
         for (direction in steps.indices) {
             steps[direction] = NeighbourOrder.ROW_STEPS[direction] * stride + NeighbourOrder.COLUMN_STEPS[direction]
         }
-        for (r in 0 until rows) widestBesideRow((r + 1) * stride + 1, columns)
         val apart = (rows - 1) * stride + columns - 1
         uncertainVisits = if (slotShift == 1 && slotsDiffer(apart, reach)) MANY_VISITS else 1
-        widest = widestOf(widths)
+        widest = most(widths)
+        slack = SLACK * (largest(middles) + widest)
+        promisedBeside.fill(Double.NEGATIVE_INFINITY, 0, places)
+        lookBeside(1, stride)
+        if (ways == NeighbourOrder.ALL) lookBeside(stride - 1, stride + 1)
     }
 
     private fun readRow(map: FieldMap, cell: Int, place: Int, columns: Int) {
@@ -105,26 +118,38 @@ internal class ReachableCells(private val ways: Int) {
     }
 
     /** By a jump, which is foreseen: maxima would wait for each other. */
-    private fun widestOf(widths: DoubleArray): Double {
+    private fun most(widths: DoubleArray): Double {
         var most = 0.0
         for (place in 0 until places) if (widths[place] > most) most = widths[place]
         return most
     }
 
-    /** Without a jump as well. */
-    private fun widestBesideRow(first: Int, columns: Int) {
-        val widths = widths
-        val stride = stride
-        for (place in first until first + columns) {
-            val inRow = maxOf(widths[place - 1], widths[place + 1])
-            widestBeside[place] = maxOf(inRow, maxOf(widths[place - stride], widths[place + stride]))
+    /** How far from 0 a middle is at the most; NaN where one is not finite. */
+    private fun largest(middles: DoubleArray): Double {
+        var most = 0.0
+        for (place in 0 until places) {
+            val size = abs(middles[place])
+            if (!(size <= most)) most = if (size <= Double.MAX_VALUE) size else return Double.NaN
         }
-        if (ways == NeighbourOrder.ALL) {
-            for (place in first until first + columns) {
-                val below = maxOf(widths[place - stride - 1], widths[place - stride + 1])
-                val above = maxOf(widths[place + stride - 1], widths[place + stride + 1])
-                widestBeside[place] = maxOf(widestBeside[place], maxOf(below, above))
-            }
+        return most
+    }
+
+    /**
+     * Looks what the places that are [one] and [other] places before and after each place promise. Goes through the rim
+     * too, where nobody asks: one loop, without a jump, does several places at once.
+     */
+    private fun lookBeside(one: Int, other: Int) {
+        val widths = widths
+        val middles = middles
+        val promised = promisedBeside
+        val twice = 2 * slack
+        for (place in stride + 1 until places - stride - 1) {
+            val middle = middles[place]
+            val first = widths[place - one] - abs(middles[place - one] - middle)
+            val second = widths[place + one] - abs(middles[place + one] - middle)
+            val third = widths[place - other] - abs(middles[place - other] - middle)
+            val fourth = widths[place + other] - abs(middles[place + other] - middle)
+            promised[place] = maxOf(promised[place], maxOf(maxOf(first, second), maxOf(third, fourth)) + twice)
         }
     }
 
@@ -153,6 +178,9 @@ internal class ReachableCells(private val ways: Int) {
         const val RIM: Double = -1.0
 
         private const val SLOTS = 64
+
+        /** Of the widest bounds and the middle farthest from 0; sums of three such numbers round by less than 1e-15. */
+        private const val SLACK = 1e-12
 
         /** Visits that the planner's tree does not count any more. */
         const val MANY_VISITS: Int = 7

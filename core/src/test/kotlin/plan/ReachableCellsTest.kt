@@ -5,6 +5,7 @@ import stillwater.field.FieldMap
 import stillwater.model.Grid
 import stillwater.model.Interval
 import kotlin.math.abs
+import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
@@ -60,6 +61,57 @@ class ReachableCellsTest {
         val cells = ReachableCells(NeighbourOrder.ALL)
         cells.read(FieldMap(Grid.unit(10, 10), Interval.UNIT), 55, 10)
         assertEquals(1, cells.uncertainVisits)
+    }
+
+    /** What the cells beside [place] promise a sensor that shows [sensor], the most; −∞ where there is none. */
+    private fun mostPromised(cells: ReachableCells, ways: Int, place: Int, sensor: Double): Double =
+        cells.steps.take(ways).map { place + it }.filter { cells.widths[it] >= 0 }
+            .maxOfOrNull { cells.widths[it] - abs(cells.middles[it] - sensor) } ?: Double.NEGATIVE_INFINITY
+
+    @Test
+    fun noCellPromisesMoreThanIsSaid() {
+        val random = Random(20_261_125)
+        for (trial in 0 until 400) {
+            val ways = if (trial % 2 == 0) 4 else NeighbourOrder.ALL
+            val grid = Grid.unit(1 + random.nextInt(9), 1 + random.nextInt(9))
+            val scale = listOf(1.0, 1e-9, 1e9, 1e300)[trial % 4]
+            val map = FieldMap(grid, Interval(-scale, scale))
+            for (cell in 0 until grid.size) {
+                val lower = (random.nextDouble() * 2 - 1) * scale
+                map.setBounds(cell, lower, lower + (random.nextDouble() - 0.2) * scale / 2)
+            }
+            if (trial % 5 == 0) map.setBounds(random.nextInt(grid.size), Double.NEGATIVE_INFINITY, scale)
+            if (trial % 7 == 0) map.setBounds(random.nextInt(grid.size), Double.NEGATIVE_INFINITY, Double.POSITIVE_INFINITY)
+            val cells = ReachableCells(ways)
+            cells.read(map, random.nextInt(grid.size), 1 + random.nextInt(6))
+            for ((place, _) in placesOf(cells, grid)) {
+                val middle = cells.middles[place]
+                for (sensor in listOf(middle, middle * (1 + 1e-15), random.nextDouble() * scale, -3 * scale)) {
+                    val most = mostPromised(cells, ways, place, sensor)
+                    val gap = abs(sensor - middle)
+                    assertFalse(most > cells.promisedBeside[place] + gap, "trial $trial, place $place, $sensor")
+                    val isDull = cells.promisedBeside[place] <= 0 && gap <= cells.slack
+                    assertFalse(isDull && most > 0, "trial $trial, place $place, $sensor")
+                }
+            }
+        }
+    }
+
+    @Test
+    fun whatIsSaidIsWhatCellsPromise() {
+        val random = Random(20_261_126)
+        val grid = Grid.unit(10, 10)
+        val map = FieldMap(grid, Interval.UNIT)
+        for (cell in 0 until grid.size) random.nextDouble().let { map.setBounds(cell, it / 2, it) }
+        for (ways in listOf(4, NeighbourOrder.ALL)) {
+            val cells = ReachableCells(ways)
+            cells.read(map, 33, 5)
+            for ((place, _) in placesOf(cells, grid)) {
+                val most = mostPromised(cells, ways, place, cells.middles[place])
+                // Twice the slack of 1e-12 of at most 2, and its rounding.
+                assertEquals(most, cells.promisedBeside[place], 5e-12)
+            }
+        }
     }
 
     private companion object {
