@@ -30,11 +30,14 @@ internal class NodeQueue(capacity: Int) {
     /** First bits of the priority that belongs to bucket 0; set by the first priority above 0. */
     private var lowest = UNSET
 
+    /** The best bucket that has a node, known before the next poll asks for it; [EMPTY] where none has. */
+    private var top = EMPTY
+
     /** Whether no node waits. */
-    val isEmpty: Boolean get() = groups == 0L
+    val isEmpty: Boolean get() = top < 0
 
     /** Priority of the best node; less than 0 where none waits. */
-    val bestPriority: Double get() = if (isEmpty) NO_PRIORITY else Double.fromBits(keys[heads[bestBucket()]])
+    val bestPriority: Double get() = if (isEmpty) NO_PRIORITY else Double.fromBits(keys[heads[top]])
 
     /** Forgets all nodes. */
     fun clear() {
@@ -45,6 +48,7 @@ internal class NodeQueue(capacity: Int) {
             groups = groups xor (1L shl word)
         }
         lowest = UNSET
+        top = EMPTY
     }
 
     /** Adds [node]. */
@@ -57,6 +61,7 @@ internal class NodeQueue(capacity: Int) {
         val word = bucket / WORD
         filled[word] = filled[word] or (1L shl bucket)
         groups = groups or (1L shl word)
+        top = maxOf(top, bucket)
         val head = heads[bucket]
         val child = links[2 * head]
         // All bits set where the node goes below the head, none where it goes above. Of equal ones the newer goes above.
@@ -69,17 +74,22 @@ internal class NodeQueue(capacity: Int) {
     }
 
     /** The best node, which stays. */
-    fun peek(): Int = heads[bestBucket()] - 1
+    fun peek(): Int {
+        check(top >= 0) { "nothing in an empty queue" }
+        return heads[top] - 1
+    }
 
+    /** As [filled] and [groups] say. */
     private fun bestBucket(): Int {
-        check(groups != 0L) { "nothing in an empty queue" }
+        if (groups == 0L) return EMPTY
         val word = LAST_BIT - groups.countLeadingZeroBits()
         return word * WORD + LAST_BIT - filled[word].countLeadingZeroBits()
     }
 
     /** Takes the best node out. */
     fun poll(): Int {
-        val bucket = bestBucket()
+        check(top >= 0) { "nothing in an empty queue" }
+        val bucket = top
         val word = bucket / WORD
         val best = heads[bucket]
         val child = links[2 * best]
@@ -89,6 +99,7 @@ internal class NodeQueue(capacity: Int) {
         val left = filled[word] xor (isEmpty shl bucket)
         filled[word] = left
         groups = groups xor (((left or -left) ushr LAST_BIT xor 1L) shl word)
+        top = bestBucket()
         return best - 1
     }
 
@@ -145,6 +156,7 @@ internal class NodeQueue(capacity: Int) {
 
     private companion object {
         const val NONE = 0
+        const val EMPTY = -1
         const val BELOW_ALL = -1L
         const val NO_PRIORITY = -1.0
         const val WORD = 64
