@@ -32,12 +32,31 @@ public class FirstOrderLag(public val timeConstant: Double, initial: Double) : S
 
     override fun step(input: Double, dt: Double, conditions: Conditions): Double {
         if (!input.isFinite() || !(dt > 0 && dt.isFinite())) return state
+        state = towards(state, input, gainOf(dt))
+        return state
+    }
+
+    override fun stepAll(input: Double, dt: Double, conditions: Conditions, outputs: DoubleArray, count: Int) {
+        if (!input.isFinite() || !(dt > 0 && dt.isFinite())) {
+            outputs.fill(state, 0, count)
+            return
+        }
+        val gain = gainOf(dt)
+        // In a local variable: a step waits for the one before and for nothing else.
+        var last = state
+        for (i in 0 until count) {
+            last = towards(last, input, gain)
+            outputs[i] = last
+        }
+        state = last
+    }
+
+    private fun gainOf(dt: Double): Double {
         if (dt != gainDt) {
             gainDt = dt
             gain = -expm1(-dt / timeConstant)
         }
-        state = towards(state, input, gain)
-        return state
+        return gain
     }
 
     public companion object {

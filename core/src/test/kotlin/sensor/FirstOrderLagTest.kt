@@ -150,6 +150,37 @@ class FirstOrderLagTest {
     }
 
     @Test
+    fun stepsTogetherAreTheSameBits() {
+        val random = Random(20_261_125)
+        fun build() = SensorSpec("lag", listOf(SensorStage.Lag(3.0))).build(0.4, Random(1))
+        val together = build()
+        val singly = build()
+        val outputs = DoubleArray(12)
+        for (stay in 0 until 1000) {
+            val input = if (stay % 9 == 0) Double.NaN else random.nextDouble() - 0.2
+            val dt = listOf(1.0, 0.25, 0.0, Double.POSITIVE_INFINITY)[random.nextInt(4)]
+            val count = random.nextInt(outputs.size + 1)
+            outputs.fill(-9.0)
+            together.stepAll(input, dt, Conditions.NONE, outputs, count)
+            for (i in 0 until count) assertEquals(singly.step(input, dt, Conditions.NONE), outputs[i])
+            for (i in count until outputs.size) assertEquals(-9.0, outputs[i])
+        }
+    }
+
+    @Test
+    fun aChainsStepsTogetherAreTheSameBits() {
+        val stages = listOf(SensorStage.Noise(0.1), SensorStage.Lag(3.0), SensorStage.Noise(0.2))
+        fun build() = SensorSpec("noisy", stages).build(0.4, Random(7))
+        val together = build()
+        val singly = build()
+        val outputs = DoubleArray(10)
+        for (stay in 0 until 100) {
+            together.stepAll(stay % 3.0, 1.0, Conditions.NONE, outputs, 10)
+            for (i in 0 until 10) assertEquals(singly.step(stay % 3.0, 1.0, Conditions.NONE), outputs[i])
+        }
+    }
+
+    @Test
     fun impossibleNumbersAreRefusedByName() {
         for (tau in listOf(0.0, -1.0, Double.NaN, Double.POSITIVE_INFINITY)) {
             val error = assertFailsWith<IllegalArgumentException> { FirstOrderLag(tau, 0.0) }

@@ -123,10 +123,8 @@ class Boat(
     /** Takes [count] samples where the boat is, then hands them to each estimator. */
     private fun sample(field: CellField, count: Int) {
         val truth = field.truth(x, y)
-        for (i in 0 until count) {
-            times[i] = ++samples * travel.period
-            readings[i] = sensor.step(truth, travel.period, Conditions.NONE)
-        }
+        for (i in 0 until count) times[i] = ++samples * travel.period
+        sensor.stepAll(truth, travel.period, Conditions.NONE, readings, count)
         onSample?.let { told -> repeat(count) { told(x, y) } }
         reading = readings[count - 1]
         odometer.seconds = times[count - 1]
