@@ -8,7 +8,7 @@ import kotlin.math.abs
  * The bounded planner's tree of paths and the queue of its open ends, in arrays that are used again for every plan.
  *
  * Most children are never polled, so that a child becomes a node only then, and one move before the horizon only where
- * its neighbours may be wide enough to end the best path. What waits in the queue is a family: children of one node that
+ * its neighbours may promise enough to end the best path. What waits in the queue is a family: children of one node that
  * are worth the same and came one after the other. All children that teach nothing are one; it stays in the queue until
  * its last child is polled. Nodes are numbered as they were polled; node 0 is the root. The queue polls the child with
  * the highest priority, and of equal ones the one that came last, so that a tie is followed in depth. Where no child of
@@ -63,6 +63,9 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     /** Depth of nodes whose children cannot be expanded; where the original's choice polls them too, none. */
     private val lastBranching = if (settings.choice == PathChoice.BEST) settings.horizon - 1 else NONE
 
+    /** Whether each poll draws an order, whatever it polls; where nodes at the horizon are polled, those draw none. */
+    private val alwaysDraws = settings.choice == PathChoice.BEST
+
     /** Whether no child waits to be polled. */
     val exhausted: Boolean get() = queue.isEmpty && due == 0
 
@@ -87,9 +90,10 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /** Polls the child with the highest priority and adds its neighbours to its path, unless it is at the horizon. */
     fun advance() {
+        // First of all: it waits for nothing that follows, but the neighbours wait for it.
+        val drawn = if (alwaysDraws) order.drawn() else 0
         if (due > 0) {
             due--
-            order.drawn()
             return
         }
         val family = queue.peek()
@@ -97,21 +101,16 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         val children = origins[2 * family + 1]
         val others = children ushr BITS
         if (others == 0) queue.poll() else origins[2 * family + 1] = others
-        if (parent == COUNTED) {
-            order.drawn()
-            return
-        }
+        if (parent == COUNTED) return
         val isRoot = parent == NONE
         val place = if (isRoot) cells.start else places[parent] + cells.steps[(children and MASK) - 1]
         val depth = if (isRoot) 0 else depths[parent] + 1
         val value = worths[family]
         val sensor = if (isRoot) sensors[ROOT] else leaving(sensors[parent], cells.middles[place])
         if (depth == lastBranching) {
-            // Drawn in any case: the orders that follow depend on it.
-            val packed = order.drawn()
             // Visits make no cell worth more. A sum that is no number tells nothing.
             if (!(value + promisedBeside(place, sensor) <= bestValue)) {
-                finish(add(parent, place, depth, sensor), place, value, sensor, packed)
+                finish(add(parent, place, depth, sensor), place, value, sensor, drawn)
             }
             return
         }
@@ -120,7 +119,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         if (depth + 1 == lastBranching && value + cells.widest + cells.widest <= bestValue) {
             count(node, place, depth + 1, value, sensor)
         } else if (depth < settings.horizon) {
-            branch(node, place, depth + 1, value, sensor)
+            branch(node, place, depth + 1, value, sensor, if (alwaysDraws) drawn else order.drawn())
         }
     }
 
@@ -169,8 +168,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private fun leaving(sensor: Double, middle: Double): Double =
         sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
 
-    /** Makes the neighbours of [node] its children, of [depth]. */
-    private fun branch(node: Int, place: Int, depth: Int, value: Double, sensor: Double) {
+    /** Makes the neighbours of [node] its children, of [depth], in the order [packed]. */
+    private fun branch(node: Int, place: Int, depth: Int, value: Double, sensor: Double, packed: Int) {
         val one = ones[node]
         val two = twos[node]
         val four = fours[node]
@@ -180,7 +179,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         // The family of neighbours that teach nothing.
         val flat = if (perMove) value / depth else value
         var alike = 0
-        val packed = order.drawn()
         if (isDull(place, sensor)) {
             order.forEach(packed) { direction ->
                 // All bits set where there is a cell, none in the rim, whose widths are less than 0.
@@ -220,7 +218,6 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
      * it stays out of its caller's code, which is faster without it.
      */
     private fun count(node: Int, place: Int, depth: Int, value: Double, sensor: Double) {
-        order.drawn()
         val one = ones[node]
         val two = twos[node]
         val four = fours[node]
