@@ -81,7 +81,9 @@ class ReachableCellsTest {
                 map.setBounds(cell, lower, lower + (random.nextDouble() - 0.2) * scale / 2)
             }
             if (trial % 5 == 0) map.setBounds(random.nextInt(grid.size), Double.NEGATIVE_INFINITY, scale)
-            if (trial % 7 == 0) map.setBounds(random.nextInt(grid.size), Double.NEGATIVE_INFINITY, Double.POSITIVE_INFINITY)
+            if (trial % 7 == 0) {
+                map.setBounds(random.nextInt(grid.size), Double.NEGATIVE_INFINITY, Double.POSITIVE_INFINITY)
+            }
             val cells = ReachableCells(ways)
             cells.read(map, random.nextInt(grid.size), 1 + random.nextInt(6))
             for ((place, _) in placesOf(cells, grid)) {
