@@ -15,7 +15,9 @@ import kotlin.math.sqrt
  * independent.
  *
  * Where the track crosses itself seldom, places that it comes close to again stand in ([Meetings]), each with an error
- * reckoned from jitter and slope; the error of r grows where the Δu spread more than that about r Δt.
+ * reckoned from jitter and slope. What lies across the way at neighbouring meetings makes one error, not many: with h the
+ * share that each Δu has in r, the variance of r is Σ h h' C, with C that of all meetings' errors together. It grows where
+ * the Δu spread more than that about r Δt, and is known no better than the slope is.
  *
  * The change is taken as even in time and the same everywhere. Cost: O(n) for a track that does not stay in one place.
  */
@@ -52,13 +54,15 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
         /** How late the readings' truth is, s. */
         val late: Double get() = if (isApart) (later * shifted - both * higher) / apart else 0.0
 
-        /** Variance of [rate] where weights are one over those of what is higher. */
-        val variance: Double get() = if (isApart) faster / apart else 1 / later
+        /** What of one that is [higher] by a sensor unit, with such a [weight], goes into [rate]; 1/s. */
+        fun share(later: Double, faster: Double, weight: Double): Double =
+            if (isApart) weight * (this.faster * later - both * faster) / apart else weight * later / this.later
     }
 
     private val crossings = crossings().sortedBy { it.first }
     private val isCrossed = crossings.size >= FEWEST
-    private val meetings = if (isCrossed || !isMoving()) emptyList() else Meetings(series, truth, apart()).all()
+    private val beside = if (isCrossed || !isMoving()) null else Meetings(series, truth, apart())
+    private val meetings = beside?.all().orEmpty()
     private val isMet = meetings.size >= FEWEST_MEETINGS
 
     /** r, sensor units/s; NaN where the track does not cross itself often enough. */
@@ -80,8 +84,7 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     }
 
     /** Probability of such a rate in water that does not change. */
-    val pValue: Double =
-        if (rate.isNaN()) 1.0 else Evidence.student(rate / maxOf(error, 1e-300), if (isCrossed) GROUPS - 1 else KNOWN)
+    val pValue: Double = if (rate.isNaN()) 1.0 else Evidence.student(rate / maxOf(error, 1e-300), degrees())
 
     /** The crossings, in the order of the first visits. */
     fun revisits() = Revisits(
@@ -115,8 +118,13 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
             val off = (it.higher - sums.rate * it.later - sums.late * it.faster) / it.error
             off * off
         } / (meetings.size - 1)
-        return sqrt(maxOf(spread, 1.0) * sums.variance)
+        val shares = DoubleArray(meetings.size) { i ->
+            meetings[i].let { sums.share(it.later, it.faster, 1 / (it.error * it.error)) }
+        }
+        return sqrt(maxOf(spread, 1.0) * checkNotNull(beside).variance(meetings, shares))
     }
+
+    private fun degrees() = beside?.let { it.pieces.coerceIn(1, KNOWN) } ?: (GROUPS - 1)
 
     private fun isMoving() = series.size >= FEWEST && median(series.speed) >= SLOWEST
 
@@ -176,7 +184,7 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
         const val FEWEST = 2 * GROUPS
         const val FEWEST_MEETINGS = 6
 
-        /** Degrees of freedom where errors are reckoned, not seen: the jitter and the slope are not wholly known. */
+        /** Degrees of freedom at most where errors are reckoned, not seen: jitter and slope are not wholly known. */
         const val KNOWN = 30
         const val SLOWEST = 0.02
         const val LEAST_APART = 0.02

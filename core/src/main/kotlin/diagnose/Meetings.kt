@@ -12,24 +12,34 @@ import kotlin.math.sqrt
  * How far the truth at two places may differ is told by how steep it is along the track: times the fixes' jitter and
  * what lies between the two across the way. Jitter is the fixes' own roughness (second differences, of which it makes
  * the root of six times), a tenth of a step at least because the way between rows is not straight.
+ *
+ * Jitter is another at each row, but how steep the truth is across the way is not: along a leg that is gone over again
+ * to one side all meetings have the same error, as far as that slope reaches ([SlopeAcross]).
  */
 internal class Meetings(private val series: MeasuredSeries, private val truth: DoubleArray, private val apart: Double) {
     /**
      * A place passed twice: [later] s apart, [higher] the second time, sensor units, with an error of [error] in water
-     * that stays the same; the truth rose [faster] along the track then, sensor units/s.
+     * that stays the same; the truth rose [faster] along the track then, sensor units/s. The second time was [aside].
      */
-    class Meeting(val first: Double, val later: Double, val higher: Double, val error: Double, val faster: Double)
+    class Meeting(
+        val first: Double,
+        val later: Double,
+        val higher: Double,
+        val error: Double,
+        val faster: Double,
+        val aside: Aside,
+    )
+
+    /** What lies across the way: [east] and [north], m, of where the track was first, at [x] and [y], m. */
+    class Aside(val x: Double, val y: Double, val east: Double, val north: Double)
 
     private val n = series.size
     private val step = median(DoubleArray(maxOf(n - 1, 0)) { way(it, it + 1) })
-    private val steepness: Double
+    private val slope = SlopeAcross(truth, step)
     private val jitter: Double
     private val noise: Double
 
     init {
-        // Jitter makes steps longer as well as shorter: the middle step stands for the way made.
-        val steps = DoubleArray(maxOf(n - 1, 0)) { abs(truth[it + 1] - truth[it]) }
-        steepness = sqrt(squares(steps) / maxOf(steps.size, 1)) / maxOf(step, 1e-9)
         val rough = DoubleArray(maxOf(2 * (n - 2), 0)) { k ->
             val i = k / 2 + 1
             val column = if (k % 2 == 0) series.x else series.y
@@ -41,6 +51,9 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
     }
 
     private fun way(i: Int, j: Int) = hypot(series.x[j] - series.x[i], series.y[j] - series.y[i])
+
+    /** Of how many independent pieces of the track it is known how steep the truth is. */
+    val pieces: Int get() = slope.pieces
 
     /** All meetings, the earliest first visit first. */
     fun all(): List<Meeting> {
@@ -98,16 +111,47 @@ internal class Meetings(private val series: MeasuredSeries, private val truth: D
             along = along.coerceIn(-step, step)
         }
         val across = sqrt(maxOf(dx * dx + dy * dy - along * along, 0.0))
+        val way = if (length > 0) along / length else 0.0
+        val aside = Aside(
+            series.x[i],
+            series.y[i],
+            dx - way * (series.x[to] - series.x[from]),
+            dy - way * (series.y[to] - series.y[from]),
+        )
         val there = truth[i] + if (length > 0) along * (truth[to] - truth[from]) / length else 0.0
-        val place = steepness * steepness * (2 * jitter * jitter + across * across)
+        val place = slope.variance * (2 * jitter * jitter + across * across)
         return Meeting(
             series.times[i],
             series.times[j] - series.times[i],
             truth[j] - there,
             sqrt(place + 2 * noise * noise),
             series.rise(truth, j, j) - series.rise(truth, i, i),
+            aside,
         )
     }
+
+    /**
+     * Variance of the sum of what is higher at each of [meetings], times its share of [shares], in water that stays the
+     * same; sensor units squared where shares are plain numbers. It is no less than with errors that are independent.
+     */
+    fun variance(meetings: List<Meeting>, shares: DoubleArray): Double {
+        val reach = square(slope.reach)
+        var alone = 0.0
+        var common = 0.0
+        for (i in meetings.indices) {
+            val a = meetings[i].aside
+            alone += square(shares[i] * meetings[i].error)
+            for (j in 0 until i) {
+                val b = meetings[j].aside
+                val both = a.east * b.east + a.north * b.north
+                val apart = square(a.x - b.x) + square(a.y - b.y)
+                if (apart < reach) common += 2 * shares[i] * shares[j] * both * slope.alike(sqrt(apart))
+            }
+        }
+        return alone + maxOf(common, 0.0)
+    }
+
+    private fun square(number: Double) = number * number
 
     private companion object {
         const val NORMAL = 0.6745
