@@ -13,8 +13,8 @@ import kotlin.math.hypot
  * @property x metres east, length n, finite. @property y metres north, length n, finite.
  * @property values what the sensor said, sensor units, length n, finite.
  * @property reference the truth up to noise, sensor units, length n, finite; null where it is unknown.
- * @property conditions further columns by name, each of length n, NaN where unknown; a missing speed is taken from the
- *   positions.
+ * @property conditions further columns by name, each of length n, NaN where unknown, which is bridged as
+ *   [ConditionGaps] does; without a speed it is taken from the positions.
  * @property isSparse whether rows were left out because their reference is not known, so that the truth between the
  *   rows must be guessed.
  * @property isRead whether the sensor's reading in each row is known, length n; null where all are. The truth in the other
@@ -90,18 +90,17 @@ public class MeasuredSeries private constructor(
     internal val duration: Double = if (times.size < 2) 0.0 else times.last() - times.first()
 
     /** Median time between rows, s; 1 where there are fewer than two. */
-    internal val period: Double =
-        like?.period ?: if (times.size < 2) 1.0 else median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
+    internal val period: Double = like?.period ?: period(times)
 
     /** A longer step than this is a gap, over which the sensor is taken to have settled, s. */
-    internal val gap: Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
+    internal val gap: Double = gap(period)
 
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
-    public val speed: DoubleArray = like?.speed ?: conditions[Conditions.SPEED]?.let(::filled) ?: fromPositions()
+    public val speed: DoubleArray = like?.speed ?: filled(Conditions.SPEED) ?: fromPositions()
 
     /** Temperature of each row, °C, or null where there is no such condition. */
     internal val temperature: DoubleArray? =
-        if (like != null) like.temperature else conditions[Conditions.TEMPERATURE]?.let(::filled)
+        if (like != null) like.temperature else filled(Conditions.TEMPERATURE)
 
     /**
      * Heading of each row, rad: the condition of that name, by its own custom, or the way the positions go over some
@@ -109,7 +108,7 @@ public class MeasuredSeries private constructor(
      */
     public val heading: DoubleArray get() = headings.value
     private val headings: Lazy<DoubleArray> = like?.headings ?: lazy {
-        conditions[Conditions.HEADING]?.let(::filled) ?: DoubleArray(times.size) { i ->
+        filled(Conditions.HEADING) ?: DoubleArray(times.size) { i ->
             val from = maxOf(i - HEADING_ROWS, 0)
             val to = minOf(i + HEADING_ROWS, times.size - 1)
             atan2(y[to] - y[from], x[to] - x[from])
@@ -125,12 +124,9 @@ public class MeasuredSeries private constructor(
         if (span > 0) hypot(x[to] - x[from], y[to] - y[from]) / span else 0.0
     }
 
-    /** [column] with its gaps filled by its median. */
-    internal fun filled(column: DoubleArray): DoubleArray {
-        val known = column.filter { it.isFinite() }.toDoubleArray()
-        val middle = if (known.isEmpty()) 0.0 else median(known)
-        return DoubleArray(column.size) { if (column[it].isFinite()) column[it] else middle }
-    }
+    /** The condition called [name] with its gaps bridged in time; null where there is no such condition. */
+    internal fun filled(name: String): DoubleArray? =
+        conditions[name]?.let { ConditionGaps(times, it, isCircular = name == Conditions.HEADING).bridged }
 
     /** How fast [column] rises from the row before row [from] to that after row [to], its units a second. */
     internal fun rise(column: DoubleArray, from: Int, to: Int): Double {
@@ -217,6 +213,13 @@ public class MeasuredSeries private constructor(
                 isGuessed = missing.isGuessed,
             )
         }
+
+        /** Median step between [times], s; 1 where there are fewer than two. */
+        internal fun period(times: DoubleArray): Double =
+            if (times.size < 2) 1.0 else median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
+
+        /** A longer step than this is a gap where rows are usually [period] apart, s. */
+        internal fun gap(period: Double): Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
 
         private const val GAP_STEPS = 20
         private const val GAP_SECONDS = 60.0

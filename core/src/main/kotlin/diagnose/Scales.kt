@@ -32,12 +32,15 @@ internal class Scales(
     val warmth = DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
 
     /** What each condition is centred on. */
-    val middles: Map<String, Double> = series.conditions.mapValues { (_, column) -> median(series.filled(column)) }
+    val middles: Map<String, Double>
 
     /** Each condition less its middle. */
-    val centred: Map<String, DoubleArray> = series.conditions.mapValues { (name, column) ->
-        val filled = series.filled(column)
-        DoubleArray(n) { filled[it] - middles.getValue(name) }
+    val centred: Map<String, DoubleArray>
+
+    init {
+        val bridged = series.conditions.keys.associateWith { checkNotNull(series.filled(it)) }
+        middles = bridged.mapValues { (_, column) -> median(column) }
+        centred = bridged.mapValues { (name, column) -> DoubleArray(n) { column[it] - middles.getValue(name) } }
     }
 
     /** The same without most of its own noise and rounding, which a reading does not show. */

@@ -164,7 +164,7 @@ class CorrectCommand : WorkCommand("correct") {
         val shown = !quiet && bytes >= WORTH_SHOWING
         return WorkProgress(terminal, "reading", unit = "B", bytes, shown).use { progress ->
             try {
-                CorrectedLog.of(opened, spec, reference != null, conditions.map { it.first }, progress::advance)
+                CorrectedLog.of(opened, spec, reference != null, conditions.toMap(), progress::advance)
             } catch (wrong: IllegalArgumentException) {
                 if (spec == null) throw wrong
                 throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())

@@ -157,7 +157,7 @@ class MapCommand : WorkCommand("map") {
     }
 
     private fun correction(opened: SurveyLog, spec: SensorSpec): GivenCorrection = try {
-        val corrected = CorrectedLog.of(opened, spec, hasReference = false, conditions.map { it.first })
+        val corrected = CorrectedLog.of(opened, spec, hasReference = false, conditions.toMap())
         val cautions = CorrectCautions(corrected, unit?.let { " $it" }.orEmpty())
         GivenCorrection(spec.name, corrected.track.values, cautions.lines)
     } catch (wrong: IllegalArgumentException) {

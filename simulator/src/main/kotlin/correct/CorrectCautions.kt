@@ -11,7 +11,8 @@ import stillwater.survey.Wording.Companion.digits
 internal class CorrectCautions(private val result: CorrectedLog, private val unitAfter: String) {
     /** One sentence each. */
     val lines: List<String>
-        get() = listOfNotNull(outlying(), atEnd(1, "upper", "upward"), atEnd(-1, "lower", "downward"), play())
+        get() = result.bridged +
+            listOfNotNull(outlying(), atEnd(1, "upper", "upward"), atEnd(-1, "lower", "downward"), play())
 
     private fun outlying(): String? {
         val outlying = result.track.outlying.count { it }

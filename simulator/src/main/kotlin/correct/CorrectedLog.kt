@@ -1,6 +1,8 @@
 package stillwater.correct
 
+import stillwater.diagnose.ConditionGaps
 import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnosis.ConditionColumns
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.LikelyResponse
 import stillwater.estimate.Response
@@ -51,6 +53,7 @@ enum class SensorOrigin(val label: String) {
  * were widened for that; null where the sensor was not learned from one. @property unusable readings that say nothing, or one side only, of
  * the sensor's state.
  * @param conditions what the log holds beside the readings, by name.
+ * @property bridged what was done where their numbers are missing, one sentence each.
  */
 class CorrectedLog internal constructor(
     val log: SurveyLog,
@@ -68,6 +71,7 @@ class CorrectedLog internal constructor(
     internal val margin: ReferenceMargin?,
     internal val unusable: UnusableReadings,
     private val conditions: Map<String, DoubleArray> = emptyMap(),
+    internal val bridged: List<String> = emptyList(),
 ) {
     /** Where the sensor comes from. */
     val origin: SensorOrigin get() = learned.origin
@@ -140,7 +144,7 @@ class CorrectedLog internal constructor(
          * Reads [log] and corrects it.
          *
          * @param given the sensor, or null to learn it. @param hasReference whether readings carry [REFERENCE].
-         * @param conditions names of the conditions that readings carry beside it.
+         * @param conditions column of each condition that readings carry beside it, by its name.
          * @param progress told how many bytes have been read.
          * @throws LogProblem if the log cannot be used.
          * @throws IllegalArgumentException if [given] cannot be undone.
@@ -149,15 +153,12 @@ class CorrectedLog internal constructor(
             log: SurveyLog,
             given: SensorSpec?,
             hasReference: Boolean,
-            conditions: Collection<String> = emptyList(),
+            conditions: Map<String, String> = emptyMap(),
             progress: (Long) -> Unit = {},
         ): CorrectedLog {
             val undone = given?.let(UndoableSensor::of)
-            val missing = undone?.needs.orEmpty() - conditions.toSet() - Conditions.SPEED
-            require(missing.isEmpty()) {
-                "undoing it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}"
-            }
-            val names = conditions.toList()
+            undone?.let { requireConditions(it, conditions.keys) }
+            val names = conditions.keys.toList()
             val rows = Rows(names.size)
             val scan = SurveyScan()
             val pass = log.read(progress) { time, x, y, value, seen ->
@@ -169,7 +170,9 @@ class CorrectedLog internal constructor(
                 throw LogProblem(log.file, null, null, expected, "${pass.readings}")
             }
             val plain = rows.series()
-            val others = withSpeed(plain, names.mapIndexed { i, name -> name to rows.condition(i) }.toMap())
+            val measured = names.mapIndexed { i, name -> name to rows.condition(i) }.toMap()
+            val bridged = ConditionColumns(log, conditions).bridged(plain.times, measured::getValue)
+            val others = withSpeed(plain, measured)
             // Along a transect in any unit no speed is known.
             val series = if (log.oneDimensional) plain else plain.withSpeedOf(others)
             SquareReach.require(log, series.values, rows.references())
@@ -212,7 +215,16 @@ class CorrectedLog internal constructor(
                 margin,
                 unusable,
                 others,
+                bridged,
             )
+        }
+
+        /** Refuses [conditions] that lack one that undoing [sensor] takes. */
+        private fun requireConditions(sensor: UndoableSensor, conditions: Set<String>) {
+            val missing = sensor.needs - conditions - Conditions.SPEED
+            require(missing.isEmpty()) {
+                "undoing it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}"
+            }
         }
 
         /** [series] with the calibration of [stages] undone, and the response that is one of [likely]. */
@@ -230,10 +242,14 @@ class CorrectedLog internal constructor(
             return TrackCorrector(scaled, resolution / abs(sensor.gain), out).correct(likely).widenedBy(sensor.play / 2)
         }
 
-        /** [conditions] and the speed, from the positions where the log does not hold it, as the diagnosis takes it. */
+        /**
+         * [conditions], their gaps bridged, and the speed, from the positions where the log does not hold it, as the
+         * diagnosis takes them.
+         */
         private fun withSpeed(series: TrackSeries, conditions: Map<String, DoubleArray>): Map<String, DoubleArray> {
             val measured = MeasuredSeries(series.times, series.xs, series.ys, series.values, null, conditions)
-            return conditions + (Conditions.SPEED to measured.speed)
+            val bridged = conditions.mapValues { (_, numbers) -> ConditionGaps(series.times, numbers).bridged }
+            return bridged + (Conditions.SPEED to measured.speed)
         }
 
         private fun TrackSeries.withSpeedOf(conditions: Map<String, DoubleArray>): TrackSeries {

@@ -52,7 +52,7 @@ class Diagnosed(
         // What was taken for what in a log that is not written plainly is not to be found in the report alone.
         if (',' in log.format) add("The log was read as ${log.format}.")
         for ((reason, count) in log.pass.skipped) add("${counted(count, "row")} left out: $reason.")
-        for (warning in log.pass.warnings) add("${warning.replaceFirstChar { it.uppercase() }}.")
+        for (warning in log.pass.warnings + log.bridged) add("${warning.replaceFirstChar { it.uppercase() }}.")
         if (log.steps.missing > 0) {
             add("${counted(log.steps.missing, "row")} left out: no number in the column ${log.reference}.")
         }

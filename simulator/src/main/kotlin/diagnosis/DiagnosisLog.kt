@@ -4,6 +4,7 @@ import stillwater.diagnose.ChannelLags
 import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.MeasuredSeries
 import stillwater.io.LogPass
+import stillwater.io.LogProblem
 import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
@@ -15,7 +16,8 @@ import java.nio.file.Path
  *
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
  * truth, or null. @property series its columns. @property pass what was read. @property steps rows with a
- * reference among all. @property cut rows at the end that were not looked at. @property frame frame of its places, or null
+ * reference among all. @property bridged what was done where numbers of conditions are missing, one sentence each.
+ * @property cut rows at the end that were not looked at. @property frame frame of its places, or null
  * where the log has metres. @property heading what its headings are in, or null where none were given.
  */
 class DiagnosisLog private constructor(
@@ -30,6 +32,7 @@ class DiagnosisLog private constructor(
     val cut: Long,
     val frame: LocalFrame?,
     internal val heading: HeadingUnit?,
+    internal val bridged: List<String>,
     private val compare: List<String> = emptyList(),
 ) {
     /** Whether there are columns to compare. */
@@ -60,6 +63,7 @@ class DiagnosisLog private constructor(
          * Reads [log], whose conditions hold the [reference] under [REFERENCE] where there is one.
          *
          * @param conditions column of each further quantity, by its name.
+         * @throws LogProblem if the log cannot be used, or a condition has too few numbers.
          */
         fun of(
             log: SurveyLog,
@@ -108,6 +112,7 @@ class DiagnosisLog private constructor(
                 cut,
                 log.frame,
                 heading,
+                ConditionColumns(log, conditions).bridged(columns.times) { checkNotNull(columns.condition(it)) },
                 compare,
             )
         }

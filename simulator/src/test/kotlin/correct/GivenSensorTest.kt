@@ -123,6 +123,45 @@ class GivenSensorTest {
     }
 
     @Test
+    fun missingNumbersOfAConditionAreBridgedAndToldOrRefused() {
+        val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
+        val whole = survey(stage).lines()
+        fun without(isMissing: (Int) -> Boolean) = whole.mapIndexed { line, text ->
+            val cells = text.split(',')
+            if (line == 0 || cells.size < 2 || !isMissing(line)) {
+                text
+            } else {
+                (cells.take(4) + "" + cells.drop(5)).joinToString(",")
+            }
+        }.joinToString("\n")
+        val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }
+        fun result(command: String, log: String) = run(
+            command,
+            file("log.csv", log),
+            "--value",
+            "do_mg_l",
+            "--sensor",
+            spec(stage),
+            "--condition",
+            "temperature=temp_c",
+        )
+        assertEquals(0, result("correct", whole.joinToString("\n")).statusCode)
+        val measured = error(rows("corrected.csv"), "corrected", truth)
+        for (command in listOf("correct", "map")) {
+            val some = result(command, without { it % 5 != 0 && it % 2 == 0 })
+            assertEquals(0, some.statusCode, some.output)
+            assertContains(some.stderr, "the column temp_c has no number in 240 of 600 rows: temperature was taken")
+            if (command == "correct") {
+                assertEquals(measured, error(rows("corrected.csv"), "corrected", truth), 0.001 * measured)
+            }
+            val most = result(command, without { it > 20 })
+            assertEquals(2, most.statusCode, most.output)
+            assertContains(most.stderr, "column temp_c: expected a number for temperature in at least half of the rows")
+            assertContains(most.stderr, "found numbers in 20 of 600 rows")
+        }
+    }
+
+    @Test
     fun aConditionThatTheSensorDoesNotDependOnIsRefused() {
         val warm = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
         val log = file("log.csv", survey(warm))
