@@ -1,11 +1,24 @@
 package stillwater.diagnose
 
-/** Logs without a reference that nothing can be told from, however they are looked at. */
+/** Logs that nothing can be told from, however they are looked at. */
 internal object TooLittle {
     private const val FEWEST_ROWS = 60
     private const val SMALLEST_RANGE = 1e-100
 
-    /** Why [series] cannot show anything, or null where it may. */
+    /** Why [series], whose readings never change beside a reference, cannot show anything; null where they do. */
+    fun still(series: MeasuredSeries): String? {
+        val truth = series.reference ?: return null
+        val readings = series.shown(series.values)
+        return when {
+            readings.size < FEWEST_ROWS || !isFlat(readings) -> null
+            isFlat(truth) -> "neither the readings nor the truth ever change"
+            else ->
+                "the readings never change, though the reference does: the sensor or the logger hung, or what the " +
+                    "reference does is beyond the sensor's range"
+        }
+    }
+
+    /** Why [series], which has no reference, cannot show anything, or null where it may. */
     fun why(series: MeasuredSeries): String? = when {
         series.size < FEWEST_ROWS -> "there are ${series.size} rows only"
         isFlat(series.values) -> "the readings never change"

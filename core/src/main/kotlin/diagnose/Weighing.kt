@@ -221,9 +221,6 @@ internal class Weighing(
     private fun insufficient(): Verdict? {
         val rows = series.readRows().count { it }
         if (rows < FEWEST_ROWS) return Verdict.InsufficientData("there are $rows rows only")
-        if (isFlat(series.shown(series.values)) && isFlat(truth)) {
-            return Verdict.InsufficientData("neither the readings nor the truth ever change")
-        }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&
             base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2
         if (seen && report.timeConstantError(base) > 1) {

@@ -48,6 +48,15 @@ class StillReadingsTest {
     }
 
     @Test
+    fun readingsThatNeverChangeAreNoEndOfARange() {
+        val found = diagnosed(DoubleArray(n) { 8.0 })
+        assertContains(assertIs<Verdict.InsufficientData>(found.verdict).why, "the readings never change, though the")
+        assertEquals(emptyList(), found.spikes)
+        assertEquals(emptyList(), found.warnings)
+        assertEquals(emptyList(), found.baseline.parameters)
+    }
+
+    @Test
     fun readingsThatStandStillOfThemselvesAreNotFrozen() {
         val coarse = diagnosed(rounded(normal(), 0.06))
         assertEquals(Verdict.Named(listOf(Cause.QUANTISATION)), coarse.verdict)
