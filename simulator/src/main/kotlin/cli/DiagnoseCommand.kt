@@ -94,9 +94,6 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         }
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
-            if (read.columns.size < FEWEST_ROWS) {
-                throw failure("$log: expected at least $FEWEST_ROWS usable rows, found ${read.columns.size}")
-            }
             val shown = !quiet && !json
             val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
                 diagnosis(read, given) { progress.advance((it * WHOLE).toLong()) }.run()
@@ -148,8 +145,5 @@ class DiagnoseCommand : WorkCommand("diagnose") {
     private companion object {
         /** Progress is told in per cent. */
         const val WHOLE = 100L
-
-        /** Fewer are no log. */
-        const val FEWEST_ROWS = 5
     }
 }

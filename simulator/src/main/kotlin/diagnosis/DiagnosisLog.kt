@@ -9,6 +9,7 @@ import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
 import stillwater.model.Conditions
 import stillwater.model.LocalFrame
+import stillwater.report.counted
 import java.nio.file.Path
 
 /**
@@ -59,6 +60,16 @@ class DiagnosisLog private constructor(
         /** More rows than this are not looked at. */
         const val MOST_ROWS = 20_000
 
+        /** Fewer rows are no log. */
+        private const val FEWEST_ROWS = 5
+
+        private fun tooFew(log: SurveyLog, rows: Int, reference: String?, left: Map<String, Long>): LogProblem {
+            val columns = listOfNotNull(log.quantity, reference).joinToString(" and ")
+            val why = left.map { (reason, count) -> "${counted(count, "row")} left out: $reason" }
+            val found = (listOf("$rows") + why).joinToString("; ")
+            return LogProblem(log.file, null, null, "at least $FEWEST_ROWS usable rows, with $columns", found)
+        }
+
         /**
          * Reads [log], whose conditions hold the [reference] under [REFERENCE] where there is one.
          *
@@ -88,6 +99,10 @@ class DiagnosisLog private constructor(
                         columns.add(time.seconds, x, y, value, others)
                     }
                 }
+            }
+            if (columns.size < FEWEST_ROWS) {
+                val unknown = mapOf("no number in the column $reference" to steps.missing.toLong())
+                throw tooFew(log, columns.size, reference, pass.skipped + unknown.filterValues { it > 0 })
             }
             val heading = conditions[Conditions.HEADING]?.let { column ->
                 HeadingUnit(column, checkNotNull(columns.condition(Conditions.HEADING)))

@@ -111,6 +111,9 @@ internal data class CsvColumns(
             val date = date(time)
             val place = place()
             val conditions = choice.conditions.mapValues { (_, name) -> named(name) }
+            choice.conditions.values.firstOrNull { named(it) == time || named(it) == date }?.let { name ->
+                throw problem(name, "another column than the time's as reference or condition", "the time's")
+            }
             val used = place.columns.toSet() + time + date + conditions.values
             val value = choice.value?.let(::named) ?: onlyCandidate(used)
             usedTwice(place.columns + time + date + value)?.let { (column, uses) ->

@@ -67,6 +67,11 @@ internal class TimeOrder(
                 pass(second, row)
             }
             second == null && row.seconds > before -> challenger = row
+            // Both lie before the one that waits, and this one before the other: the first of them is told first.
+            second != null && row.seconds < second.seconds && row.seconds > before -> {
+                back(second, held)
+                challenger = row
+            }
             else -> back(row, held)
         }
     }

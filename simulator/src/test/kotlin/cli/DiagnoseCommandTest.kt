@@ -70,6 +70,19 @@ class DiagnoseCommandTest {
         return file.toString()
     }
 
+    /** The bench log with no sample at all. */
+    private fun emptied() = changed("emptied.csv") { it.substringBeforeLast(',') + "," }
+
+    /** The bench log of a clock that stands. */
+    private fun stopped() = changed("stopped.csv") { "7," + it.substringAfter(',') }
+
+    private fun changed(name: String, row: (String) -> String): String {
+        val lines = Files.readAllLines(Path.of(bench()))
+        val file = directory.resolve(name)
+        Files.write(file, lines.take(1) + lines.drop(1).map(row))
+        return file.toString()
+    }
+
     @Test
     fun aBenchLogNeedsNoPlaces() {
         val placed = Path.of(bench())
@@ -291,6 +304,13 @@ class DiagnoseCommandTest {
             listOf(log, "--value", "probe", "--reference", "probe") to "another column",
             listOf(log, "--value", "probe", "--condition", "speed") to "expected NAME=COLUMN, found 'speed'",
             listOf(log, "--value", "probe", "--sensor", "nowhere.json") to "no such file",
+            listOf(log, "--value", "probe", "--reference", "time_s") to "column time_s: expected another column than",
+            listOf(log, "--value", "probe", "--condition", "speed=time_s") to "column time_s: expected another column",
+            listOf(log, "--value", "time_s", "--reference", "sample") to "column time_s: expected one use of it",
+            listOf(emptied(), "--value", "probe", "--reference", "sample") to
+                "usable rows, with probe and sample, found 0; 400 rows left out: no number in the column sample",
+            listOf(stopped(), "--value", "probe", "--reference", "sample", "--skip-bad-rows") to
+                "usable rows, with probe and sample, found 1; 399 rows left out: duplicate times",
             listOf(huge(), "--value", "probe") to "found 1.0E90",
             listOf("nowhere.csv") to "no such file",
         )

@@ -61,6 +61,17 @@ class TimeOrderTest {
     }
 
     @Test
+    fun timesThatRunBackwardsAreToldOfTheFirstRowThatDoes() {
+        val problem = assertFailsWith<LogProblem> { csv(listOf(9, 8, 7, 6, 5), skip = false) }
+        assertContains(problem.message.orEmpty(), "log.txt:3: column time_s: expected a time after 9 s")
+        val later = assertFailsWith<LogProblem> { csv(listOf(1, 2, 9, 8, 7, 6), skip = false) }
+        assertContains(later.message.orEmpty(), "log.txt:5: column time_s: expected a time after 9 s")
+        // A stamp ahead of rows in disorder is still the one that is wrong.
+        assertEquals(listOf(2.0, 11.0, 12.0), csv(listOf(2, 900, 10, 9, 11, 12)).times - listOf(9.0, 10.0))
+        assertEquals(listOf(9.0), csv(listOf(9, 8, 7, 6, 5)).times)
+    }
+
+    @Test
     fun clockThatWasSetBackIsToldWithItsLine() {
         // The week rolls over behind row 20, which stands in line 21.
         val found = csv((604_780 until 604_800).toList() + (0 until 30).toList())
