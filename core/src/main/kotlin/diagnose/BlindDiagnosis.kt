@@ -33,12 +33,11 @@ internal class BlindDiagnosis(
         if (why != null) return BlindAnswer.none(series, why)
         var base = search.best()
         val wave = base.modes.shortest
-        if (Passes.share(search.track.x, search.track.y, wave) < LEAST_PASSES) {
-            val near = "%.2g".format(Locale.ROOT, wave / Passes.NEAR)
+        val share = Passes.share(search.track.x, search.track.y, wave)
+        if (share < LEAST_PASSES) {
             return BlindAnswer.none(
                 series,
-                "no pass comes within $near ${series.placeUnit} of another, so that nothing tells the water's own " +
-                    "changes from what the sensor makes of them",
+                Passes.tooFew(share, LEAST_PASSES, "%.2g".format(Locale.ROOT, wave / Passes.NEAR), series.placeUnit),
                 // Single readings stick out of those beside them, whether or not the boat comes back.
                 BlindOutliers(base).rows,
             )

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.floor
 import kotlin.math.hypot
@@ -32,5 +33,17 @@ internal object Passes {
             }
         }
         return near.toDouble() / x.size
+    }
+
+    /** Why a [share] of the rows, of which [least] is enough, within [near] [unit] of another pass shows nothing. */
+    fun tooFew(share: Double, least: Double, near: String, unit: String): String {
+        fun percent(part: Double) = "%.2g".format(Locale.ROOT, 100 * part)
+        return if (share == 0.0) {
+            "no pass comes within $near $unit of another, so that nothing tells the water's own changes from what " +
+                "the sensor makes of them"
+        } else {
+            "only ${percent(share)} % of the rows come within $near $unit of another pass, where ${percent(least)} % " +
+                "are needed to tell the water's own changes from what the sensor makes of them"
+        }
     }
 }
