@@ -225,6 +225,9 @@ internal class BlindAnswer(
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
             .map { i -> estimate(model.parameters[i], numbers[i], errors[i]) }
 
+    /** The numbers of [term] in the last model. */
+    private fun numbers(term: Term) = estimates(last.model, last.numbers, BlindErrors.of(search, last), listOf(term))
+
     private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
         val reach = REACH * error
         if (!reach.isFinite()) return Estimate(parameter.name, parameter.unit, value, null)
@@ -291,7 +294,9 @@ internal class BlindAnswer(
             Candidate(
                 term.cause,
                 term.condition,
-                estimates(model, point.numbers, errors, listOf(model.terms.last())),
+                // What was chosen may be right only beside others, and with steps that are held otherwise.
+                last.model.terms.firstOrNull { it.key == term.key }?.let(::numbers)
+                    ?: estimates(model, point.numbers, errors, listOf(model.terms.last())),
                 rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
                 Double.NaN,
                 Double.NaN,

@@ -1,7 +1,6 @@
 package stillwater.diagnose
 
 import java.util.Locale
-import kotlin.math.abs
 
 /**
  * The diagnosis of a log without a reference: the water is inferred with the sensor, from passes over the same place.
@@ -49,8 +48,12 @@ internal class BlindDiagnosis(
             // Wild readings hide that steps are held; they do not make them look so.
             if (!search.steps.isHeld) base = search.stepped(base)
         }
-        deeper = search.deeper(base)
-        return answer(base)
+        // Before finer waves, which look like half a row's delay.
+        val held = BlindHalfRow(search, base).held()
+        if (held != null) base = held
+        val finer = search.deeper(base)
+        if (finer != null && MissingWaves(search, base).areClear(finer)) base = search.begun(finer) else deeper = finer
+        return answer(base, isTurned = held != null)
     }
 
     /** The model of a lag alone with finer waves, where those found at first may have been too few; it is asked once. */
@@ -116,10 +119,8 @@ internal class BlindDiagnosis(
      */
     private fun halfRowLate(base: BlindState, first: BlindRound): BlindState? {
         val dead = first.causes.firstOrNull { it.term?.cause == Cause.DEAD_TIME }?.state
-        return listOfNotNull(first.state, dead).firstOrNull { other ->
-            val slot = other.model.slotOrNull(Term(Cause.DEAD_TIME))
-            val rows = slot?.let { other.numbers[it] / series.period } ?: 0.0
-            abs(rows + Steps.UNTIL_NEXT.lead) < SmallShifts.NEARLY && other.score > base.score + BlindLag.MUCH
+        return listOfNotNull(first.state, dead).firstOrNull {
+            BlindHalfRow.isHalfARow(it) && it.score > base.score + BlindLag.MUCH
         }
     }
 
@@ -128,10 +129,10 @@ internal class BlindDiagnosis(
      * what is held half a row sooner or later, so that two have it a row.
      */
     private fun heldInstead(chosen: List<BlindStep>): List<BlindStep>? {
-        val rest = chosen.filter { it.trial.term?.cause !in SHIFTS }
+        val rest = chosen.filter { it.trial.term?.cause !in SmallShifts.WHOLE }
         val last = chosen.lastOrNull()?.state
         if (last == null || rest.isEmpty() || rest.size == chosen.size || search.steps.isHeld) return null
-        val (shifts, others) = last.model.terms.partition { it.cause in SHIFTS }
+        val (shifts, others) = last.model.terms.partition { it.cause in SmallShifts.WHOLE }
         val rows = shifts.sumOf { SmallShifts.late(it, last.model, last.numbers) ?: 0.0 } / series.period
         val steps = Steps.entries.firstOrNull { it.isHeld && -rows / it.lead in HALVES } ?: return null
         val state = search.turned(last, steps, last.score - ONE_NUMBER, others) ?: return null
@@ -286,10 +287,7 @@ internal class BlindDiagnosis(
         private const val NEEDLESS = 8.0
 
         /** Twice a gain in log-likelihood that one number has by chance in one log of twenty. */
-        private const val ONE_NUMBER = 3.84
-
-        /** Shifts of the whole log. */
-        private val SHIFTS = setOf(Cause.DEAD_TIME, Cause.POSITION_OFFSET)
+        const val ONE_NUMBER = 3.84
 
         /** Half rows of a shift that held steps are tried for. */
         private val HALVES = 0.5..2.5

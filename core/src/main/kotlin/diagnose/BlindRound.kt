@@ -217,26 +217,16 @@ internal class BlindRound(
     /** The model of [trial] on top of [without] with the water and the noise that suit it. */
     private fun found(without: BlindState, trial: BlindTrial): BlindState {
         val term = checkNotNull(trial.term)
-        val begun = when {
-            term.cause == Cause.SATURATION -> tries.ended(term, trial, without)
-            isFar(term) -> begun(without, term, trial)
-            else -> search.with(without, trial)
-        }
-        return search.improved(search.requieted(if (isFar(term)) search.improved(begun) else begun))
+        if (term.cause == Cause.SATURATION) return suited(tries.ended(term, trial, without))
+        if (!isFar(term)) return suited(search.with(without, trial))
+        val begun = search.improved(tries.begun(trial, without))
+        return if (begun.score < without.score + HOPELESS) begun else suited(begun)
     }
+
+    private fun suited(begun: BlindState) = search.improved(search.requieted(begun))
 
     /** Whether a fit of [term] may have to begin far from what the water makes of it: a slow path is like long waves. */
     private fun isFar(term: Term) = isBlurred || term.cause == Cause.TWO_PATH_RESPONSE
-
-    /** The likeliest of [trial] and of other beginnings of [term], far from what the wrong water makes of it. */
-    private fun begun(without: BlindState, term: Term, trial: BlindTrial): BlindState {
-        val model = checkNotNull(trial.model)
-        val starts = if (term.cause in BlindSearch.LINEAR) tries.starts(model, term) else emptyList()
-        val others = starts.map {
-            search.settled(model.terms, it, without.fit.design.noise, without.variances, before = without)
-        }
-        return (others + search.with(without, trial)).maxBy { it.score }
-    }
 
     /**
      * The score of [other] with the noise of [found], or from where [found] is with all of it but what is new there.
@@ -357,6 +347,9 @@ internal class BlindRound(
 
         /** Twice the gain in log-likelihood over inflation from which a cause is given water and noise of its own. */
         const val LIKELY = 4.0
+
+        /** The same below which what was begun in many places is no cause, whatever noise suits it. */
+        const val HOPELESS = 3.0
 
         const val MOST_LIKELY = 5
 

@@ -44,7 +44,12 @@ internal class BlindSearch private constructor(
     /** The same search in readings that are less by [change], length n. */
     fun less(change: DoubleArray): BlindSearch {
         val values = DoubleArray(n) { series.values[it] - change[it] }
-        val other = BlindSearch(series.withReadings(values), loops, {}, ground)
+        return copy(series.withReadings(values))
+    }
+
+    /** The same search in [readings]; what is found there changes nothing here. */
+    fun copy(readings: MeasuredSeries = series): BlindSearch {
+        val other = BlindSearch(readings, loops, {}, ground)
         used.copyInto(other.used)
         other.fine = fine
         other.steps = steps
@@ -119,7 +124,8 @@ internal class BlindSearch private constructor(
     /** [state], or the same with steps held that were not, or the other way round, as the log says. */
     fun stepped(state: BlindState): BlindState {
         val least = state.score + if (steps.isHeld) -HELD else HELD
-        return within(steps.other, least) { improved(again(state, state.fit.design.noise)) } ?: state
+        val later = SmallShifts.kept(state.model, state.numbers, steps.other)
+        return within(steps.other, least) { improved(again(state, state.fit.design.noise, later)) } ?: state
     }
 
     /**
@@ -196,9 +202,9 @@ internal class BlindSearch private constructor(
         return best
     }
 
-    /** [state] under [noise], and the water for that. */
-    fun again(state: BlindState, noise: BlindNoise) =
-        settled(state.model.terms, state.numbers, noise, state.variances, before = state)
+    /** [state] under [noise], with [numbers], and the water for that. */
+    fun again(state: BlindState, noise: BlindNoise, numbers: DoubleArray = state.numbers) =
+        settled(state.model.terms, numbers, noise, state.variances, before = state)
 
     /**
      * [state] with those of its [free] numbers that fit better, in at most [steps] steps, and the water for them.

@@ -50,8 +50,16 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return weighed(Weighed(term, term.key, model, best), columns, best.left, change, searched)
     }
 
-    /** Places, far from each other, where a fit of [model] may begin, of which [term] is new. */
-    fun starts(model: ResponseModel, term: Term): List<DoubleArray> = Starts(asFit, model, term).all()
+    /** The likeliest of [trial] on top of [without] and of its other beginnings, far from what the wrong water makes of it. */
+    fun begun(trial: BlindTrial, without: BlindState): BlindState {
+        val term = checkNotNull(trial.term)
+        val model = checkNotNull(trial.model)
+        val starts = if (term.cause in BlindSearch.LINEAR) Starts(asFit, model, term).all() else emptyList()
+        val others = starts.map {
+            search.settled(model.terms, it, without.fit.design.noise, without.variances, before = without)
+        }
+        return (others + search.with(without, trial)).maxBy { it.score }
+    }
 
     /** Places where the range may end: beyond ever fewer of the readings. */
     private fun ends(model: ResponseModel, term: Term, start: DoubleArray): List<DoubleArray> {

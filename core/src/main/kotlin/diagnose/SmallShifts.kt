@@ -113,6 +113,21 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
             }
         }
 
+        /**
+         * [numbers] of [model] with which readings are as late as now where its steps are [to]: the first shift of the whole
+         * log, within its bounds, makes up for what the truth is sooner or later then.
+         */
+        fun kept(model: ResponseModel, numbers: DoubleArray, to: Steps): DoubleArray {
+            val out = numbers.copyOf()
+            val term = model.terms.firstOrNull { it.cause in WHOLE } ?: return out
+            val slot = model.slotOrNull(term) ?: return out
+            val later = (to.lead - model.steps.lead) * model.series.period
+            val more = if (term.cause == Cause.POSITION_OFFSET) later * model.scales.ordinarySpeed else later
+            val bounds = model.parameters[slot]
+            out[slot] = (numbers[slot] + more).coerceIn(bounds.lower, bounds.upper)
+            return out
+        }
+
         /** Of [term] of [model] with [numbers], which is fitted and not named, for the reader. */
         fun words(term: Term, model: ResponseModel, numbers: DoubleArray, why: String): String {
             val slot = model.slot(term)
@@ -120,6 +135,9 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
             val size = "$number ${model.parameters[slot].unit}"
             return "A ${term.cause.label} of $size was fitted beside and is not named: $why"
         }
+
+        /** Shifts of the whole log. */
+        val WHOLE = setOf(Cause.DEAD_TIME, Cause.POSITION_OFFSET)
 
         /** What is to be said of readings that are as late as a truth held until the next row makes them. */
         const val UNTIL_NEXT =

@@ -1,0 +1,40 @@
+package stillwater.diagnose
+
+import kotlin.math.abs
+
+/**
+ * Whether the readings are half a row late because the truth is held from each row until the next, asked before all causes
+ * are weighed: a log that is sampled so shows it in the lag alone, and all that is found before that is known is for
+ * nothing.
+ */
+internal class BlindHalfRow(private val search: BlindSearch, private val base: BlindState) {
+    /**
+     * [base], a lag alone, with the truth held until the next row, from which on all that follows begins, where that is
+     * clear; else null.
+     */
+    fun held(): BlindState? {
+        if (search.steps.isHeld) return null
+        val least = base.score + BlindLag.MUCH
+        val held = search.copy().turned(base, Steps.UNTIL_NEXT, least) ?: return null
+        val tries = BlindTrials(search, base)
+        val terms = BlindTerms.of(search, hasShape = true).filter { it.cause in BlindTerms.OF_LAG }
+        val shapes = search.loops.all(terms) { shape(tries, it) }
+        val isDelay = shapes.any { it.score > least && isHalfARow(it) }
+        if (!isDelay || held.score < shapes.maxOf { it.score } - BlindDiagnosis.ONE_NUMBER) return null
+        return search.turned(base, Steps.UNTIL_NEXT, least)
+    }
+
+    private fun shape(tries: BlindTrials, term: Term): BlindState {
+        val begun = search.improved(tries.begun(tries.attempt(term), base))
+        return search.improved(search.requieted(begun))
+    }
+
+    companion object {
+        /** Whether [state] has a dead time of about half a row. */
+        fun isHalfARow(state: BlindState): Boolean {
+            val slot = state.model.slotOrNull(Term(Cause.DEAD_TIME)) ?: return false
+            val rows = state.numbers[slot] / state.model.series.period
+            return abs(rows + Steps.UNTIL_NEXT.lead) < SmallShifts.NEARLY
+        }
+    }
+}
