@@ -225,9 +225,6 @@ internal class BlindAnswer(
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
             .map { i -> estimate(model.parameters[i], numbers[i], errors[i]) }
 
-    /** The numbers of [term] in the last model. */
-    private fun numbers(term: Term) = estimates(last.model, last.numbers, BlindErrors.of(search, last), listOf(term))
-
     private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
         val reach = REACH * error
         if (!reach.isFinite()) return Estimate(parameter.name, parameter.unit, value, null)
@@ -288,15 +285,20 @@ internal class BlindAnswer(
             val model = checkNotNull(trial.model)
             val point = checkNotNull(trial.point)
             val term = checkNotNull(trial.term)
-            val fit = trial.state?.fit ?: state.fit
-            val z = trial.state?.whitened ?: fit.residual(point.residuals)
-            val errors = BlindErrors.of(search, fit, model, point.numbers, z)
+            // What was chosen may be right only beside others, and with steps that are held otherwise.
+            val kept = last.model.terms.firstOrNull { it.key == term.key }
+            val numbers = if (kept != null) {
+                estimates(last.model, last.numbers, BlindErrors.of(search, last), listOf(kept))
+            } else {
+                val fit = trial.state?.fit ?: state.fit
+                val z = trial.state?.whitened ?: fit.residual(point.residuals)
+                val errors = BlindErrors.of(search, fit, model, point.numbers, z)
+                estimates(model, point.numbers, errors, listOf(model.terms.last()))
+            }
             Candidate(
                 term.cause,
                 term.condition,
-                // What was chosen may be right only beside others, and with steps that are held otherwise.
-                last.model.terms.firstOrNull { it.key == term.key }?.let(::numbers)
-                    ?: estimates(model, point.numbers, errors, listOf(model.terms.last())),
+                numbers,
                 rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
                 Double.NaN,
                 Double.NaN,

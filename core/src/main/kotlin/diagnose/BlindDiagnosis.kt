@@ -207,7 +207,7 @@ internal class BlindDiagnosis(
         if (chosen.size < 2) return chosen
         val full = chosen.last().state
         for (i in 0 until chosen.size - 1) {
-            val others = search.improved(search.requieted(without(chosen.first().round.state, chosen, i)))
+            val others = search.suited(without(chosen.first().round.state, chosen, i))
             val without = if (search.isStill(full)) search.still(others) else search.opened(others)
             val lost = (full.score - without.score) / chosen[i].trial.inflation
             if (lost > NEEDLESS) continue

@@ -18,15 +18,10 @@ internal class BlindHalfRow(private val search: BlindSearch, private val base: B
         val held = search.copy().turned(base, Steps.UNTIL_NEXT, least) ?: return null
         val tries = BlindTrials(search, base)
         val terms = BlindTerms.of(search, hasShape = true).filter { it.cause in BlindTerms.OF_LAG }
-        val shapes = search.loops.all(terms) { shape(tries, it) }
+        val shapes = search.loops.all(terms) { search.suited(search.improved(tries.begun(tries.attempt(it), base))) }
         val isDelay = shapes.any { it.score > least && isHalfARow(it) }
         if (!isDelay || held.score < shapes.maxOf { it.score } - BlindDiagnosis.ONE_NUMBER) return null
         return search.turned(base, Steps.UNTIL_NEXT, least)
-    }
-
-    private fun shape(tries: BlindTrials, term: Term): BlindState {
-        val begun = search.improved(tries.begun(tries.attempt(term), base))
-        return search.improved(search.requieted(begun))
     }
 
     companion object {

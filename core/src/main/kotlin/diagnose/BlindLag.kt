@@ -70,7 +70,7 @@ internal class BlindLag(
      */
     val isNeitherAlone: Boolean by lazy {
         if (both === timeConstant) return@lazy false
-        val better = search.improved(search.requieted(both))
+        val better = search.suited(both)
         val worse = if (timeConstant.score > deadTime.score) timeConstant else deadTime
         (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE / 2
     }

@@ -154,7 +154,7 @@ internal class BlindRound(
         val before = trial.state ?: return trial
         val term = checkNotNull(trial.term)
         val more = BlindTrials(search, before).oneMoreJump(term) ?: return trial
-        val after = search.improved(search.requieted(search.with(before, more)))
+        val after = search.suited(search.with(before, more))
         val gain = after.score - before.score - 2 * (tries.searched(2) - tries.searched(1))
         if (gain < LIKELY) return trial
         val base = if (search.isStill(after)) still else state
@@ -217,13 +217,11 @@ internal class BlindRound(
     /** The model of [trial] on top of [without] with the water and the noise that suit it. */
     private fun found(without: BlindState, trial: BlindTrial): BlindState {
         val term = checkNotNull(trial.term)
-        if (term.cause == Cause.SATURATION) return suited(tries.ended(term, trial, without))
-        if (!isFar(term)) return suited(search.with(without, trial))
+        if (term.cause == Cause.SATURATION) return search.suited(tries.ended(term, trial, without))
+        if (!isFar(term)) return search.suited(search.with(without, trial))
         val begun = search.improved(tries.begun(trial, without))
-        return if (begun.score < without.score + HOPELESS) begun else suited(begun)
+        return if (begun.score < without.score + HOPELESS) begun else search.suited(begun)
     }
-
-    private fun suited(begun: BlindState) = search.improved(search.requieted(begun))
 
     /** Whether a fit of [term] may have to begin far from what the water makes of it: a slow path is like long waves. */
     private fun isFar(term: Term) = isBlurred || term.cause == Cause.TWO_PATH_RESPONSE

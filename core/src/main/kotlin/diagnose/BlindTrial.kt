@@ -83,3 +83,6 @@ internal fun BlindSearch.with(state: BlindState, trial: BlindTrial): BlindState 
     val numbers = checkNotNull(trial.point).numbers
     return settled(model.terms, numbers, state.fit.design.noise, state.variances, before = state)
 }
+
+/** [state] with the noise that suits it, and then the numbers that fit better. */
+internal fun BlindSearch.suited(state: BlindState): BlindState = improved(requieted(state))

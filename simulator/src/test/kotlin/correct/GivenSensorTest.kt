@@ -64,6 +64,17 @@ class GivenSensorTest {
         }
     }
 
+    private fun withTemperature(command: String, log: String, stage: SensorStage) = run(
+        command,
+        log,
+        "--value",
+        "do_mg_l",
+        "--sensor",
+        spec(stage),
+        "--condition",
+        "temperature=temp_c",
+    )
+
     private fun error(rows: List<Map<String, Double>>, column: String, truth: (Map<String, Double>) -> Double) =
         rows.map { abs(it.getValue(column) - truth(it)) }.filter { it.isFinite() }.average()
 
@@ -71,16 +82,7 @@ class GivenSensorTest {
     fun lagThatFollowsTheTemperatureIsUndoneWithIt() {
         val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
         val log = file("log.csv", survey(stage))
-        val told = run(
-            "correct",
-            log,
-            "--value",
-            "do_mg_l",
-            "--sensor",
-            spec(stage),
-            "--condition",
-            "temperature=temp_c",
-        )
+        val told = withTemperature("correct", log, stage)
         assertEquals(0, told.statusCode, told.output)
         val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }
         val measured = error(rows("corrected.csv"), "do_mg_l", truth)
@@ -135,16 +137,7 @@ class GivenSensorTest {
             }
         }.joinToString("\n")
         val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }
-        fun result(command: String, log: String) = run(
-            command,
-            file("log.csv", log),
-            "--value",
-            "do_mg_l",
-            "--sensor",
-            spec(stage),
-            "--condition",
-            "temperature=temp_c",
-        )
+        fun result(command: String, log: String) = withTemperature(command, file("log.csv", log), stage)
         assertEquals(0, result("correct", whole.joinToString("\n")).statusCode)
         val measured = error(rows("corrected.csv"), "corrected", truth)
         for (command in listOf("correct", "map")) {
