@@ -52,7 +52,10 @@ internal class BlindAnswer(
         val certain = if (end.isOfTime(strongest)) CERTAIN_OF_TIME else CERTAIN
         val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
             (chosen.isEmpty() && (end.isOfBoat(strongest) || left.first().adjusted < certain))
-        val verdict = verdict(all, left.first(), looks[strongest].sureness, isOthers, chosen)
+        // Who gives one number for many readings shows nothing else; what hides in noise shows where nothing was found.
+        val unlisted = StillReadings(asFit(last)).words(settings.level / (first.causes.size + 1))
+            ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
+        val verdict = verdict(all, left.first(), looks[strongest].sureness, isOthers, chosen, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
@@ -75,7 +78,8 @@ internal class BlindAnswer(
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
-            warnings(left.first(), isNamed) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
+            BlindWarnings(series, settings, search, last, lag, outliers, given)
+                .of(left.first(), isNamed, rounding.takeIf { isCoarse }) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
                 little(chosen) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
@@ -93,7 +97,7 @@ internal class BlindAnswer(
 
     /**
      * Where [left] is the strongest of what is left, with [sureness], which [isOthers] if a lag that may be of either
-     * kind is not enough for it.
+     * kind is not enough for it; [unlisted] is what hides all else, in words.
      */
     private fun verdict(
         all: List<List<Cause>>,
@@ -101,6 +105,7 @@ internal class BlindAnswer(
         sureness: Double,
         isOthers: Boolean,
         chosen: List<BlindStep>,
+        unlisted: String?,
     ): Verdict {
         val isOpen = lag.isOpen(settings.separation)
         // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
@@ -115,6 +120,7 @@ internal class BlindAnswer(
         val contradicted = chosen.map { it.trial }
             .firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
         return when {
+            unlisted != null -> Verdict.Unexplained(unlisted, listOfNotNull(openLag(isOpen)))
             contradicted != null -> Verdict.Unexplained(
                 "the halves of the log contradict each other about the ${contradicted.name}",
                 listOfNotNull(openLag(isOpen)),
@@ -158,68 +164,7 @@ internal class BlindAnswer(
             }
         }
 
-    private fun warnings(left: Dependence, isNamed: Boolean) = buildList {
-        if (given?.isPartial == true) {
-            val what = if (given.state == null) {
-                "was not used: without a reference a lag is fitted in its place"
-            } else {
-                "was looked at for its time constant alone, because there is no reference"
-            }
-            add("The sensor given $what.")
-        }
-        add(
-            "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
-                "${three(search.modes.finest)} ${series.placeUnit}; a gain or an offset cannot be seen. Errors on " +
-                "held-out blocks are those of a forecast from other passes and the rows before.",
-        )
-        if (lag.isSeen) {
-            add(
-                "The readings lag the water by ${three(lag.timeConstant.timeConstant)} s as a first-order lag, or by " +
-                    "${three(lag.delay)} s as a dead time" +
-                    when {
-                        lag.isDeadTime -> ", which explains more."
-                        lag.isOpen(settings.separation) || lag.preference <= 0 -> "."
-                        else -> ", which explains less."
-                    },
-            )
-            add(
-                "The correction of a track (correct) compares passes over the same place alone, without a model of " +
-                    "the water between them: its lag may differ, and where it is outside of the interval here, " +
-                    "neither should be relied on.",
-            )
-        }
-        if (search.steps == Steps.UNTIL_NEXT) add(SmallShifts.UNTIL_NEXT)
-        if (!last.isResolved) {
-            add(
-                "The water has finer structure than these numbers show, or the response another shape: the interval " +
-                    "of the lag may be too narrow.",
-            )
-        }
-        if (isNamed && left.adjusted < settings.structureLevel) {
-            add("Structure is left beside what was named: the residuals depend on ${left.description}.")
-        }
-        last.model.terms.filter { it.cause == Cause.CROSS_SENSITIVITY && BlindRivals.mayBeWaters(it) }.forEach {
-            add(
-                "The ${it.condition} may go with the value in the water itself: water that changed between two " +
-                    "passes looks like a sensor that also shows it.",
-            )
-        }
-        if (isCoarse) {
-            add("Rounding to steps of ${three(rounding.step)} is most of what the readings scatter from row to row.")
-        }
-        val off = outliers.rows.size
-        if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
-    }
-
-    private fun asFit(state: BlindState) = ModelFit(
-        state.model,
-        state.numbers,
-        search.free(state.model),
-        state.fit.design.noise.noise,
-        state.residuals,
-        state.whitened,
-        state.score,
-    )
+    private fun asFit(state: BlindState) = state.asFit(search.free(state.model))
 
     private fun estimates(model: ResponseModel, numbers: DoubleArray, errors: DoubleArray, terms: List<Term>) =
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })

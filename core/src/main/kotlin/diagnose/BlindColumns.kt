@@ -27,7 +27,7 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
          * log. Whenever some columns are there, [then] is told the first of them and the one behind the last.
          */
         fun write(out: List<DoubleArray>, then: (Int, Int) -> Unit) {
-            response(terms, numbers, modes.columns, steps).of(modes.columns, loops, out, bends(modes), then)
+            response(terms, numbers, modes.columns, steps, modes.behind).of(modes.columns, loops, out, bends(modes), then)
             val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
             for (i in 0 until n) out[size - 1][i] = exp(-(series.times[i] - series.times[0]) / timeConstant)
             then(size - 1, size)
@@ -103,22 +103,31 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> =
         Combination.of(modes.columns.asList(), heights, n, loops)
 
-    /** [waters] along the track as the linear parts of the sensor show them; their [bends] where they are kept. */
+    /**
+     * [waters], so far [behind] the fixes, m, as the linear parts of the sensor show them; their [bends] where they are
+     * kept.
+     */
     fun seen(
         terms: List<Term>,
         numbers: DoubleArray,
         waters: Array<DoubleArray>,
         steps: Steps,
+        behind: Double,
         bends: LinearResponse.Bends?,
     ): Array<DoubleArray> {
         val (linear, own) = linear(terms, numbers)
         val out = Array(waters.size) { DoubleArray(n) }
-        response(linear, own, waters, steps).of(waters, loops, out.asList(), bends)
+        response(linear, own, waters, steps, behind).of(waters, loops, out.asList(), bends)
         return out
     }
 
-    private fun response(linear: List<Term>, numbers: List<Double>, waters: Array<DoubleArray>, steps: Steps) =
-        ResponseModel(series.withReference(waters[0]), linear, steps, scales).linear(numbers.toDoubleArray())
+    private fun response(
+        linear: List<Term>,
+        numbers: List<Double>,
+        waters: Array<DoubleArray>,
+        steps: Steps,
+        behind: Double,
+    ) = ResponseModel(series.withReference(waters[0]), linear, steps, scales, behind).linear(numbers.toDoubleArray())
 
     /** Those of [terms] that are linear in the water, and what of [numbers] tells what the sensor shows of it. */
     private fun linear(terms: List<Term>, numbers: DoubleArray): Pair<List<Term>, List<Double>> {

@@ -250,7 +250,7 @@ internal class BlindDiagnosis(
         val full = chosen.last().state
         val dropped = chosen[left].trial.name
         val terms = full.model.terms.filter { it.key != dropped }
-        val model = ResponseModel(series.withReference(full.water), terms, search.steps, search.scales)
+        val model = search.model(terms, full.modes, full.water)
         val numbers = model.carried(full.model, full.numbers)
         return search.improved(search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full))
     }

@@ -175,12 +175,13 @@ internal class BlindRound(
             return heldAgainstChange(checkNotNull(other), onStill)
         }
         val quieter = onQuiet[trial.name]?.let { search.climbed(found(checkNotNull(quiet), it)) }
-        val found = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, quieter).maxBy { it.score }
+        val onWay = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, quieter).maxBy { it.score }
         val searched = searched(trial)
-        val first = tries.settled(trial, found, state.score, searched)
+        val first = tries.settled(trial, onWay, state.score, searched)
         if (first.pValue > settings.level) {
             return if (isSlow && onStill != null) heldAgainstChange(checkNotNull(other), onStill) else first
         }
+        val found = search.onArm(onWay)
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, found)) }
         return tries.settled(trial, found, best, searched)

@@ -13,10 +13,10 @@ internal class BlindSearch private constructor(
     private val series: MeasuredSeries,
     val loops: Loops,
     private val progress: (Double) -> Unit,
-    private val ground: Ground,
+    private val ground: BlindGround,
 ) {
     constructor(series: MeasuredSeries, loops: Loops = Loops.IN_TURN, progress: (Double) -> Unit = {}) :
-        this(series, loops, progress, Ground(series, loops))
+        this(series, loops, progress, BlindGround(series, loops))
 
     private val n = series.size
 
@@ -125,7 +125,9 @@ internal class BlindSearch private constructor(
     fun stepped(state: BlindState): BlindState {
         val least = state.score + if (steps.isHeld) -HELD else HELD
         val later = SmallShifts.kept(state.model, state.numbers, steps.other)
-        return within(steps.other, least) { improved(again(state, state.fit.design.noise, later)) } ?: state
+        return within(steps.other, least) {
+            onArmOrWay(improved(again(state, state.fit.design.noise, later)))
+        } ?: state
     }
 
     /**
@@ -133,7 +135,7 @@ internal class BlindSearch private constructor(
      * below [least].
      */
     fun turned(state: BlindState, to: Steps, least: Double, terms: List<Term> = emptyList()) = within(to, least) {
-        val own = ResponseModel(state.model.series, terms, to, scales).carried(state.model, state.numbers)
+        val own = ResponseModel(state.model.series, terms, to, scales, state.modes.behind).carried(state.model, state.numbers)
         climbed(requieted(climbed(settled(terms, own, state.fit.design.noise, state.variances, before = state))))
     }
 
@@ -285,7 +287,7 @@ internal class BlindSearch private constructor(
         var heights = before?.fit?.heights?.takeIf { it.size == columns.size } ?: DoubleArray(columns.size)
         var bands = variances.takeIf { it.size == waves.bands } ?: waves.first
         var at = numbers.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
-        var model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
+        var model = model(terms, waves, designs.along(waves, heights))
         var residuals = residuals(model, at)
         fun fit() =
             BlindFit(designs.designed(columns, RangeEnd.beyond(model, at), noise), precisions(bands, waves), heights)
@@ -300,7 +302,7 @@ internal class BlindSearch private constructor(
             }
             val change = fit.change(residuals)
             heights = DoubleArray(heights.size) { heights[it] + change[it] }
-            model = ResponseModel(series.withReference(designs.along(waves, heights)), terms, steps, scales)
+            model = model(terms, waves, designs.along(waves, heights))
             at = at.copyOf().also { it[ResponseModel.FIRST] = heights.last() }
             fit = fit.at(heights)
             residuals = residuals(model, at)
@@ -310,6 +312,10 @@ internal class BlindSearch private constructor(
         return BlindState(model, at, fit, bands, residuals, left, waves, before?.behind.orEmpty(), gained)
     }
 
+    /** The sensor with [terms] in [water], whose waves are [modes]. */
+    fun model(terms: List<Term>, modes: WaterModes, water: DoubleArray) =
+        ResponseModel(series.withReference(water), terms, steps, scales, modes.behind)
+
     private fun residuals(model: ResponseModel, numbers: DoubleArray): DoubleArray {
         val out = DoubleArray(n)
         model.predict(numbers, out)
@@ -317,13 +323,17 @@ internal class BlindSearch private constructor(
         return out
     }
 
-    /** [waters] along the track as the linear parts of the sensor show them; their [bends] where they are kept. */
+    /**
+     * [waters], those of places so far [behind] the fixes, m, as the linear parts of the sensor show them; their [bends]
+     * where they are kept.
+     */
     fun seen(
         terms: List<Term>,
         numbers: DoubleArray,
         waters: Array<DoubleArray>,
+        behind: Double,
         bends: LinearResponse.Bends? = null,
-    ): Array<DoubleArray> = designs.seen(terms, numbers, waters, steps, bends)
+    ): Array<DoubleArray> = designs.seen(terms, numbers, waters, steps, behind, bends)
 
     /** The waters of [modes] with [heights] along the track. */
     fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> = designs.along(modes, heights)
@@ -385,14 +395,5 @@ internal class BlindSearch private constructor(
         val TIMES = doubleArrayOf(3.0, 10.0, 35.0)
         const val CLIMBS = 3
         const val MOST_CLIMBS = 5
-    }
-
-    /** What a log has whatever its readings are. */
-    private class Ground(series: MeasuredSeries, loops: Loops) {
-        val track = SmoothTrack.of(series)
-        val scales = Scales(series)
-        val designs = BlindColumns(series, scales, loops)
-        private val few = (series.size / 5).coerceIn(FEWEST_WAVES, MOST_WAVES / 2)
-        val rough = WaterModes.flat(series, track, few, loops = loops)
     }
 }

@@ -75,6 +75,10 @@ internal class BlindState(
         return squares(found) / found.size
     }
 
+    /** The model as a fit, of which the numbers [free] were fitted. */
+    fun asFit(free: BooleanArray) =
+        ModelFit(model, numbers, free, fit.design.noise.noise, residuals, whitened, score)
+
     /** How fast what the model shows goes down with parameter [i] on the scale it is fitted on, length n. */
     fun derivative(i: Int): DoubleArray = BlindDescent.derivative(model, BlindDescent.apart(model, numbers), i)
 

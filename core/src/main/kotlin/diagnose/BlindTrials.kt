@@ -34,7 +34,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
 
     private fun fitted(term: Term, searched: Double): BlindTrial {
         val kept = state.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, kept + term, search.steps, scales)
+        val model = ResponseModel(series, kept + term, search.steps, scales, state.model.behind)
         val free = search.free(model)
         val starts = Starts(asFit, model, term, small = true).all()
         val places = if (term.cause == Cause.SATURATION) ends(model, term, starts[0]) else starts
@@ -116,7 +116,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val p = pValue(term, ratio, trial.degrees, between(unlike, without), unlike, change)
+        val agreed = pValue(term, ratio, trial.degrees, between(unlike, without), unlike, change)
+        // Few stretches may be at an end of the range, but to the last digit.
+        val isEnd = term.cause == Cause.SATURATION && ratio > 0
+        val p = if (isEnd) minOf(agreed, StillReadings(found.asFit(search.free(found.model))).atEnd) else agreed
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
@@ -181,7 +184,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     /** What [term] adds to what [found] shows, all else the same. */
     private fun added(term: Term, found: BlindState): DoubleArray {
         val kept = found.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(found.model.series, kept, search.steps, scales)
+        val model = ResponseModel(found.model.series, kept, search.steps, scales, found.model.behind)
         val out = DoubleArray(n)
         model.predict(model.carried(found.model, found.numbers), out)
         // What the model with it shows = reading − residual.

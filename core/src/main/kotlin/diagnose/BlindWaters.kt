@@ -24,7 +24,7 @@ internal class BlindWaters(private val search: BlindSearch, private val state: B
 
     /** What the sensor with [numbers] of [model] shows of each, sensor units over the noise's spread; new. */
     fun seen(model: ResponseModel, numbers: DoubleArray): Array<DoubleArray> {
-        val seen = search.seen(model.terms, numbers, waters, bends)
+        val seen = search.seen(model.terms, numbers, waters, state.modes.behind, bends)
         val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
         // What was before the log, the same of all waters but for its height.
         val fading = DoubleArray(times.size) { exp(-(times[it] - times[0]) / timeConstant) }

@@ -59,10 +59,11 @@ internal object FinerWaves {
     private fun waves(state: BlindState, search: BlindSearch, longest: Double, shortest: Double): List<DoubleArray> {
         val waves = (0 until WAVES).flatMap { k ->
             val length = longest - (longest - shortest) * (k + 0.5) / WAVES
-            val phase = phases(search.track, 2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
+            val phase = phases(state.modes.track, 2 * PI / length * cos(k * TURN), 2 * PI / length * sin(k * TURN))
             listOf(DoubleArray(phase.size) { cos(phase[it]) }, DoubleArray(phase.size) { sin(phase[it]) })
         }
-        return search.seen(state.model.terms, state.numbers, waves.toTypedArray()).asList()
+        val model = state.model
+        return search.seen(model.terms, state.numbers, waves.toTypedArray(), model.behind).asList()
     }
 
     /** The phase along [track] of a wave with [east] and [north] radians per metre. */

@@ -15,9 +15,16 @@ import kotlin.math.sqrt
  * that, but one with a limit where that begins or ends to act within the step.
  *
  * @property series the log; its reference must be there. @property terms what acts beside the base. @property steps how
- *   the truth goes on between the rows.
+ *   the truth goes on between the rows. @property behind how far behind the fixes the place is that the truth is that
+ *   of, m.
  */
-internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, val steps: Steps, val scales: Scales) {
+internal class ResponseModel(
+    val series: MeasuredSeries,
+    val terms: List<Term>,
+    val steps: Steps,
+    val scales: Scales,
+    val behind: Double = 0.0,
+) {
     private val held = steps.isHeld
     private val n = series.size
     private val truth = requireNotNull(series.reference) { "a response model needs a reference" }
@@ -107,7 +114,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     @Synchronized
     fun linear(p: DoubleArray): LinearResponse {
         val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
-        val distance = if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0
+        val distance = distance(p)
         val isLate = deadTime != 0.0 || distance != 0.0
         val delay = if (isLate) NeighbourSums(series.times, isBent = true) else null
         if (delay != null) late(deadTime, distance) { i, from, time -> delay.read(i, from, time) }
@@ -144,7 +151,7 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
     /** The truth at each row, as late as the model says, into [work]. */
     private fun delay(p: DoubleArray) {
         val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
-        val distance = if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0
+        val distance = distance(p)
         isDelayed = deadTime != 0.0 || distance != 0.0
         if (!isDelayed) {
             truth.copyInto(work)
@@ -153,6 +160,10 @@ internal class ResponseModel(val series: MeasuredSeries, val terms: List<Term>, 
         val curve = truthCurve()
         late(deadTime, distance) { i, from, time -> work[i] = curve.at(from, time) }
     }
+
+    /** How far the sensor is behind the place that the truth is that of, m. */
+    private fun distance(p: DoubleArray) =
+        (if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0) - behind
 
     /** Has [see] told for each row after which row and at what time the sensor has what it shows there. */
     private inline fun late(deadTime: Double, distance: Double, see: (Int, Int, Double) -> Unit) {

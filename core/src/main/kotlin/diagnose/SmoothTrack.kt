@@ -1,6 +1,10 @@
 package stillwater.diagnose
 
 import stillwater.estimate.TrackSeries
+import kotlin.math.atan2
+import kotlin.math.cos
+import kotlin.math.hypot
+import kotlin.math.sin
 
 /**
  * Where the boat was, from fixes that jitter: through the rows about each one goes a parabola of time, as wide as it
@@ -9,10 +13,54 @@ import stillwater.estimate.TrackSeries
  *
  * A fix that is repeated until the receiver has a new one is put on the way between the two first.
  *
- * @property x metres east, length n. @property y metres north, length n.
+ * @property x metres east, length n. @property y metres north, length n. @property behind how far behind the fixes these
+ *   places are, m.
  */
-internal class SmoothTrack private constructor(val x: DoubleArray, val y: DoubleArray) {
+internal class SmoothTrack private constructor(
+    private val series: MeasuredSeries,
+    val x: DoubleArray,
+    val y: DoubleArray,
+    val behind: Double = 0.0,
+    boat: SmoothTrack? = null,
+) {
+    /** Where the boat was. */
+    private val boat = boat ?: this
+
+
+    /**
+     * The places of a probe on a rigid arm, [distance] m behind the boat, which points along its way: in turns the arm's end
+     * leaves that. The course is that from the row before to the row behind; where the boat hardly moves, the last one.
+     */
+    fun onArm(distance: Double): SmoothTrack = boat.moved(distance)
+
+    private fun moved(distance: Double): SmoothTrack {
+        val n = series.size
+        val times = series.times
+        val ways = DoubleArray(n - 1) { hypot(x[it + 1] - x[it], y[it + 1] - y[it]) }
+        val least = LEAST_WAY * median(ways)
+        val east = x.copyOf()
+        val north = y.copyOf()
+        var course = Double.NaN
+        fun moved(i: Int) {
+            east[i] -= distance * cos(course)
+            north[i] -= distance * sin(course)
+        }
+        for (i in 0 until n) {
+            val from = if (i > 0 && times[i] - times[i - 1] <= series.gap) i - 1 else i
+            val to = if (i < n - 1 && times[i + 1] - times[i] <= series.gap) i + 1 else i
+            val way = hypot(x[to] - x[from], y[to] - y[from])
+            val isFirst = course.isNaN()
+            if (way > least * (to - from)) course = atan2(y[to] - y[from], x[to] - x[from])
+            if (course.isNaN()) continue
+            if (isFirst) for (k in 0 until i) moved(k)
+            moved(i)
+        }
+        return SmoothTrack(series, east, north, distance, this)
+    }
+
     companion object {
+        /** Share of the ordinary way between rows that tells no course. */
+        private const val LEAST_WAY = 0.2
         private val REACHES = intArrayOf(2, 3, 5, 8, 12)
         private val LONG_REACHES = intArrayOf(5, 12, 25, 50, 100)
 
@@ -21,12 +69,13 @@ internal class SmoothTrack private constructor(val x: DoubleArray, val y: Double
             val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
             val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, it) }
             val best = fits.minBy { it.missed }
-            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(best.x, best.y)
+            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(series, best.x, best.y)
             val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
             val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
             val other = LONG_REACHES.map { Parabolas(series, east, north, it) }.minBy { it.missed }
-            if (other.missed > best.missed) return SmoothTrack(best.x, best.y)
+            if (other.missed > best.missed) return SmoothTrack(series, best.x, best.y)
             return SmoothTrack(
+                series,
                 DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
                 DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
             )

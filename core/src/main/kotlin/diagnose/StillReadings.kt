@@ -6,46 +6,78 @@ import kotlin.math.sqrt
 
 /**
  * Stretches in which the readings stand still to the last digit: a sensor or a logger that hung, or gave one number in
- * the place of a reading.
+ * the place of a reading, or a sensor at an end of its range.
  *
  * Noise of standard deviation s, rounded to steps of q, stays on the same step with a probability of erf(q / (√8 s)) a
- * row at most, where the water does not change at all. Not where the sensor is at an end of its range or in a dead band,
- * nor where a reading is written many times throughout.
+ * row at most, where the water does not change at all. Not where the sensor is in a dead band, nor where a reading is
+ * written many times throughout.
  */
 internal class StillReadings(private val fit: ModelFit) {
     private val values = fit.model.series.shown(fit.model.series.values)
     private val residuals = fit.model.series.shown(fit.residuals)
+    private val near = NEAR * sqrt(fit.variance)
+    private val lowest = values.min()
+    private val highest = values.max()
 
-    /** Numbers of rows of the stretches, in the order of the log. */
-    private val lengths: List<Int> = if (fit.model.terms.any { it.cause == Cause.HYSTERESIS }) emptyList() else found()
+    private class Stretch(val rows: Int, val isAtEnd: Boolean)
+
+    /** The stretches in the order of the log. */
+    private val all: List<Stretch> = if (fit.model.terms.any { it.cause == Cause.HYSTERESIS }) emptyList() else found()
+
+    /** The probability that one row more shows the same. */
+    private val staying: Double by lazy {
+        val spread = Spikes.spread(fit.model.series.shown(fit.whitened))
+        Erf.erf(fit.model.scales.resolution / (sqrt(8.0) * spread))
+    }
+
+    /** By chance, that a stretch as long is somewhere in the log. */
+    private fun pValue(stretch: Stretch) = minOf(values.size * staying.pow(stretch.rows - 1), 1.0)
+
+    /** Stretches of the sensor or the logger that are no chance at [level]; none where most rows are in some. */
+    private fun hung(level: Double): List<Stretch> {
+        val sure = all.filter { !it.isAtEnd && pValue(it) < level }
+        return sure.takeIf { sure.sumOf { it.rows } <= MOST * values.size }.orEmpty()
+    }
 
     /** What is to be said; null where no stretch is more than chance at [level]. */
     fun words(level: Double): String? {
-        val spread = Spikes.spread(fit.model.series.shown(fit.whitened))
-        val staying = Erf.erf(fit.model.scales.resolution / (sqrt(8.0) * spread))
-        val sure = lengths.filter { values.size * staying.pow(it - 1) < level }
-        if (sure.isEmpty() || sure.sum() > MOST * values.size) return null
+        val sure = hung(level).map { it.rows }
+        if (sure.isEmpty()) return null
         val rows = if (sure.min() == sure.max()) "${sure.min()}" else "${sure.min()} to ${sure.max()}"
         val often = if (sure.size == 1) "once" else "${sure.size} times"
         return "the readings stand still to the last digit for $rows rows, $often: the sensor or the logger hung"
     }
 
-    private fun found(): List<Int> = buildList {
+    /**
+     * By chance, that the readings stand as still as they do at the highest or the lowest of them, and nowhere else: a
+     * sensor that hangs, or sticks, does so anywhere.
+     */
+    val atEnd: Double by lazy {
+        val elsewhere = all.filter { !it.isAtEnd }.minOfOrNull(::pValue) ?: 1.0
+        val there = all.filter { it.isAtEnd }.minOfOrNull(::pValue) ?: 1.0
+        if (elsewhere < ELSEWHERE) 1.0 else there
+    }
+
+    private fun found(): List<Stretch> = buildList {
         var from = 0
         for (i in 1..values.size) {
             if (i < values.size && values[i] == values[from]) continue
             // What a delayed sensor shows first has not changed yet.
-            if (from > 0 && i - from >= FEWEST && !isAtEnd(from, i)) add(i - from)
+            if (from > 0 && i - from >= FEWEST) add(Stretch(i - from, isAtEnd(from, i)))
             from = i
         }
     }
 
-    /** Whether rows [from] to before [to] show the highest or the lowest reading where that is about what is foretold. */
+    /**
+     * Whether rows [from] to before [to] show the highest or the lowest reading, but for noise on few of those beside, and
+     * about what is foretold.
+     */
     private fun isAtEnd(from: Int, to: Int): Boolean {
+        val here = values[from]
         val off = (from until to).sumOf { residuals[it] } / (to - from)
-        val isHighest = values.all { it <= values[from] }
-        val isLowest = values.all { it >= values[from] }
-        val near = NEAR * sqrt(fit.variance)
+        val same = values.count { it == here }
+        val isHighest = here >= highest - near && values.count { it > here } < same
+        val isLowest = here <= lowest + near && values.count { it < here } < same
         return (isHighest && off < near) || (isLowest && off > -near)
     }
 
@@ -58,5 +90,8 @@ internal class StillReadings(private val fit: ModelFit) {
 
         /** Standard deviations. */
         const val NEAR = 3.0
+
+        /** The chance of readings that stand still elsewhere, below which an end of the range is not why they do. */
+        const val ELSEWHERE = 0.01
     }
 }

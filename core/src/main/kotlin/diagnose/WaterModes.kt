@@ -15,14 +15,14 @@ import kotlin.math.sqrt
  * process are F β with β of one variance and F a [PivotedCholesky] factor, which has as many columns as the track needs,
  * wherever it goes.
  *
- * @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
+ * @property track the places that the water is told at. @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
  *   ring over the noise's, or over each other's where nothing is known. @param left variance, in the same measure, that
  *   may be left anywhere. @param known variances of the level and of what changes over the noise's; null where nothing
  *   is known.
  */
 internal class WaterModes private constructor(
     private val series: MeasuredSeries,
-    private val track: SmoothTrack,
+    val track: SmoothTrack,
     private val most: Int,
     private val rings: WaterRings?,
     private val spectrum: DoubleArray,
@@ -37,6 +37,9 @@ internal class WaterModes private constructor(
     private val found = ArrayList<DoubleArray>()
     private val bandOf = ArrayList<Int>()
     private val ringOf = ArrayList<Int>()
+
+    /** How far behind the fixes the water is that these tell, m. */
+    val behind: Double get() = track.behind
 
     /** Length of the shortest process or wave, m. */
     var finest: Double = extent
@@ -103,6 +106,16 @@ internal class WaterModes private constructor(
      */
     fun refined(variances: DoubleArray, most: Int, offered: Set<Double> = emptySet()): WaterModes {
         if (rings == null) return this
+        return refined(variances, most, offered, track, rings)
+    }
+
+    private fun refined(
+        variances: DoubleArray,
+        most: Int,
+        offered: Set<Double>,
+        track: SmoothTrack,
+        rings: WaterRings,
+    ): WaterModes {
         val own = ringOf.withIndex().associate { (i, ring) -> ring to variances[moving.last + 1 + i] }
         val next = DoubleArray(spectrum.size) { ring ->
             // A ring without columns of its own is as strong as the next one, where nothing is known of it.
@@ -112,6 +125,15 @@ internal class WaterModes private constructor(
         // The kernel itself is interpolated.
         val left = maxOf(UNSEEN, LEAST_SHARE * next.sum())
         return WaterModes(series, track, most, rings, next, left, variances.copyOf(moving.last + 1))
+    }
+
+    /**
+     * These at the end of a rigid arm, [behind] m behind the fixes, as strong as [variances] of their processes have been
+     * found to be; null where the track is a line, which the arm never leaves.
+     */
+    fun onArm(behind: Double, variances: DoubleArray): WaterModes? {
+        val moved = track.onArm(behind)
+        return rings?.let { refined(variances, most, emptySet(), moved, it.at(moved.x, moved.y)) }
     }
 
     /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */

@@ -19,16 +19,16 @@ import kotlin.math.sqrt
  * columns that takes.
  *
  * @param x metres east. @param y metres north. @param least the shortest length allowed, m. @param loops how columns are
- *   gone through.
+ *   gone through. @param extent how far the rings reach, m.
  */
 internal class WaterRings(
     private val x: DoubleArray,
     private val y: DoubleArray,
-    least: Double,
+    private val least: Double,
     private val loops: Loops = Loops.IN_TURN,
+    private val extent: Double = hypot(x.max() - x.min(), y.max() - y.min()),
 ) {
     private val n = x.size
-    private val extent = hypot(x.max() - x.min(), y.max() - y.min())
     private val kernel = DiscKernel()
 
     /** The wave numbers that end each ring, 1/m, the longest waves first. */
@@ -37,6 +37,9 @@ internal class WaterRings(
         generateSequence(first) { it * FACTOR }.takeWhile { it <= 2 * PI / least || it == first }.toList()
             .toDoubleArray()
     }
+
+    /** The same rings at the places [x], [y]. */
+    fun at(x: DoubleArray, y: DoubleArray) = WaterRings(x, y, least, loops, extent)
 
     /** Number of rings. */
     val size: Int get() = edges.size

@@ -158,8 +158,10 @@ internal class Weighing(
     private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
         val all = sets + certain.map { listOf(it) }
         val structured = left.adjusted < settings.structureLevel
-        // A truth that is guessed between rows swings beyond both ends of what it does.
-        val isTiming = structured || sets.flatten().any { it.isTiming || it == Cause.SATURATION }
+        // A truth that is guessed between rows swings beyond both ends of what it does; readings that stand still at one end
+        // do so whatever it does.
+        val isAtEnd by lazy { StillReadings(last).atEnd < settings.level / tried }
+        val isTiming = structured || sets.flatten().any { it.isTiming || (it == Cause.SATURATION && !isAtEnd) }
         return when {
             isTiming && base.model.scales.unknown?.isMostly == true -> Verdict.InsufficientData(
                 "the truth often moves within a row or two, and how it went in between might explain what is left",

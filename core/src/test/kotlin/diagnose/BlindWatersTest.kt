@@ -31,7 +31,7 @@ class BlindWatersTest {
                 if (band < 0 || band in model.modes.moving) 0.0 else sqrt(variances[band]) * random.nextGaussian()
             }
             val water = search.along(model.modes, arrayOf(heights))
-            val shown = search.seen(emptyList(), numbers, water).single()
+            val shown = search.seen(emptyList(), numbers, water, model.modes.behind).single()
             val noise = noise(random)
             val own = BlindSearch(log(DoubleArray(n) { i -> shown[i] + noise[i] }))
             val state = own.settled(emptyList(), numbers, white, variances, rounds = 0)

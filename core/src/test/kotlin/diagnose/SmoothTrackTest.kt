@@ -8,6 +8,7 @@ import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
+import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
 /** Where the boat was, from fixes that jitter by half a metre. */
@@ -42,6 +43,22 @@ class SmoothTrackTest {
         // Four rests of ten minutes, over each of which the boat is carried off.
         val reckoned = error(headed = { course[it] }, rests = 4)
         assertTrue(reckoned < 0.6 * error(headed = null, rests = 4), "$reckoned, seed $SEED")
+    }
+
+    /** On a circle the end of an arm goes on another one, and back where the boat was when the arm is taken off. */
+    @Test
+    fun theEndOfARigidArmLeavesTheWayInTurns() {
+        val x = DoubleArray(n) { 8 * cos(it / 10.0) }
+        val y = DoubleArray(n) { 8 * sin(it / 10.0) }
+        val boat = SmoothTrack.of(MeasuredSeries(times, x, y, DoubleArray(n), null))
+        val probe = boat.onArm(6.0)
+        for (i in 1 until n - 1) {
+            assertEquals(10.0, hypot(probe.x[i], probe.y[i]), 0.01, "row $i")
+            // Behind the boat: the way it came from.
+            assertTrue(probe.x[i] * y[i] > probe.y[i] * x[i], "row $i")
+        }
+        val taken = probe.onArm(0.0)
+        assertTrue(taken.x.contentEquals(boat.x) && taken.y.contentEquals(boat.y))
     }
 
     /** Root mean square of how far the smoothed way is off the true one, m. */

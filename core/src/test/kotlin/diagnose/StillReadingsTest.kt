@@ -47,6 +47,35 @@ class StillReadingsTest {
         assertContains(assertIs<Verdict.Unexplained>(diagnosed(values).verdict).what, "8 rows, 3 times")
     }
 
+    /** A range that ends before the noise: some readings beside the end are beyond it, by the noise. */
+    @Test
+    fun readingsThatStandStillWhereTheRangeEndsAreSaturated() {
+        val values = normal()
+        val ended = DoubleArray(n) { if (values[it] > 6.2) 6.2 else values[it] }
+        ended[ended.indexOfFirst { it == 6.2 } - 1] = 6.21
+        assertEquals(Verdict.Named(listOf(Cause.SATURATION)), diagnosed(ended).verdict)
+    }
+
+    @Test
+    fun standingStillAtBothAnEndAndElsewhereIsNoEnd() {
+        val ended = normal().map { minOf(it, 6.2) }.toDoubleArray()
+        val fit = fit(ended)
+        assertTrue(StillReadings(fit).atEnd < 1e-9, "${StillReadings(fit).atEnd}")
+        ended.fill(ended[300], 300, 330)
+        assertEquals(1.0, StillReadings(fit(ended)).atEnd)
+    }
+
+    /** The true model, without its end, of readings [values]. */
+    private fun fit(values: DoubleArray): ModelFit {
+        val series = MeasuredSeries(DoubleArray(n) { it.toDouble() }, DoubleArray(n), DoubleArray(n), values, truth)
+        val model = ResponseModel(series, emptyList(), Steps.HELD, Scales(series))
+        val numbers = doubleArrayOf(8.0, 1.0, 0.0, 0.0)
+        val shown = DoubleArray(n).also { model.predict(numbers, it) }
+        val left = DoubleArray(n) { values[it] - minOf(shown[it], 6.2) }
+        val noise = CorrelatedNoise(series.times, 0.0, 1.0, BooleanArray(n) { true })
+        return ModelFit(model, numbers, BooleanArray(4) { true }, noise, left, left, 0.0)
+    }
+
     @Test
     fun readingsThatNeverChangeAreNoEndOfARange() {
         val found = diagnosed(DoubleArray(n) { 8.0 })

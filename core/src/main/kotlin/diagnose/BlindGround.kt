@@ -1,0 +1,10 @@
+package stillwater.diagnose
+
+/** What a log has whatever its readings are. */
+internal class BlindGround(series: MeasuredSeries, loops: Loops) {
+    val track = SmoothTrack.of(series)
+    val scales = Scales(series)
+    val designs = BlindColumns(series, scales, loops)
+    private val few = (series.size / 5).coerceIn(BlindSearch.FEWEST_WAVES, BlindSearch.MOST_WAVES / 2)
+    val rough = WaterModes.flat(series, track, few, loops = loops)
+}
