@@ -57,8 +57,11 @@ internal class Survey(val grid: Grid, moves: Int) {
         FilterKind.entries.first { it.label == label }
             .estimator(grid, Interval.UNIT, Preset.NOISY.settings().boundedFilter)
 
-    /** Hands all readings to [estimator]. */
+    /** Hands all readings to [estimator]. Its calls write to memory: fields would be read anew for each. */
     fun read(estimator: FieldEstimator) {
+        val xs = xs
+        val ys = ys
+        val values = values
         for (i in 0 until size) estimator.update(BoatTime(i.toDouble()), xs[i], ys[i], values[i], Conditions.NONE)
     }
 

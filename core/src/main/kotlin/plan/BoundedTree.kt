@@ -46,6 +46,13 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     /** Polls that come next: of counted children that are worth more than all that waits in the queue. */
     private var due = 0
 
+    /**
+     * Of the neighbours of a node that teach something, one after the other: what the path to each is worth, and those
+     * that teach nothing and came before it, packed.
+     */
+    private val totals = DoubleArray(NeighbourOrder.ALL)
+    private val alikes = IntArray(NeighbourOrder.ALL)
+
     private var pathPlaces = IntArray(FIRST_DEPTH)
 
     /** Nodes in the tree. */
@@ -168,7 +175,12 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private fun leaving(sensor: Double, middle: Double): Double =
         sensor + maxOf(-settings.maxChange, minOf(settings.maxChange, middle - sensor))
 
-    /** Makes the neighbours of [node] its children, of [depth], in the order [packed]. */
+    /**
+     * Makes the neighbours of [node] its children, of [depth], in the order [packed].
+     *
+     * Which of them teach something is anybody's guess, the processor's too: they are told apart without a jump, and
+     * queued when it is known how many they are.
+     */
     private fun branch(node: Int, place: Int, depth: Int, value: Double, sensor: Double, packed: Int) {
         val one = ones[node]
         val two = twos[node]
@@ -181,36 +193,53 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         var alike = 0
         if (isDull(place, sensor)) {
             order.forEach(packed) { direction ->
-                // All bits set where there is a cell, none in the rim, whose widths are less than 0.
-                val isCell = (widths[place + steps[direction]].toRawBits() ushr Long.SIZE_BITS - 1).toInt() - 1
+                val isCell = cellMask(widths[place + steps[direction]])
                 alike = (alike shl (isCell and BITS)) or (direction + 1 and isCell)
             }
             if (alike != 0) push(node, alike, value, flat)
             return
         }
+        val totals = totals
+        val alikes = alikes
+        var teaching = 0
+        var found = 0
         order.forEach(packed) { direction ->
             val next = place + steps[direction]
             val width = widths[next]
-            if (width >= 0) {
-                val promise = width - abs(middles[next] - sensor)
-                var total = value
-                if (promise > 0) total += discounted(promise, node, next, one, two, four)
-                if (total > value) {
-                    if (total > bestValue) best(total, node, next)
-                    val priority = if (perMove) total / depth else total
-                    if (priority == flat && alike != 0) {
-                        // Rounding queues this one among them: those that came before it are a family of their own.
-                        push(node, alike, value, flat)
-                        alike = 0
-                    }
-                    push(node, direction + 1, total, priority)
-                } else {
-                    alike = (alike shl BITS) or (direction + 1)
-                }
+            // Below the value where it promises less than nothing, as the rim does.
+            val total = value + discounted(width - abs(middles[next] - sensor), node, next, one, two, four)
+            totals[found] = total
+            alikes[found] = alike
+            val teaches = if (total > value) ALL_BITS else 0
+            teaching = teaching or ((direction + 1 and teaches) shl BITS * found)
+            found -= teaches
+            val isAlike = cellMask(width) and teaches.inv()
+            alike = (alike shl (isAlike and BITS)) or (direction + 1 and isAlike)
+        }
+        val length = length(alike)
+        for (i in 0 until found) {
+            val total = totals[i]
+            val direction = (teaching and MASK) - 1
+            teaching = teaching ushr BITS
+            if (total > bestValue) best(total, node, place + steps[direction])
+            val priority = if (perMove) total / depth else total
+            if (priority == flat) {
+                // Rounding queues this one among them: those that came before it are a family of their own.
+                val later = length - length(alikes[i])
+                val before = alike ushr later
+                if (before != 0) push(node, before, value, flat)
+                alike = alike and (1 shl later) - 1
             }
+            push(node, direction + 1, total, priority)
         }
         if (alike != 0) push(node, alike, value, flat)
     }
+
+    /** All bits set where a [width] is that of a cell, none in the rim, where it is less than 0. */
+    private fun cellMask(width: Double): Int = (width.toRawBits() ushr Long.SIZE_BITS - 1).toInt() - 1
+
+    /** The bits that the directions in [packed] take, each with one added. */
+    private fun length(packed: Int): Int = Int.SIZE_BITS - packed.countLeadingZeroBits() / BITS * BITS
 
     /**
      * Counts the neighbours of [node] as its children, of [depth], which is one move before the horizon, where none of
@@ -248,7 +277,7 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
 
     /**
      * Looks whether a neighbour of [node], in the order [packed], ends the best path; at the horizon that is all it can
-     * do.
+     * do. None that teaches nothing does: the path to [node] itself is worth no more than the best.
      */
     private fun finish(node: Int, place: Int, value: Double, sensor: Double, packed: Int) {
         val one = ones[node]
@@ -260,10 +289,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
         order.forEach(packed) { direction ->
             val next = place + steps[direction]
             val promise = widths[next] - abs(middles[next] - sensor)
-            if (promise > 0) {
-                val total = value + discounted(promise, node, next, one, two, four)
-                if (total > bestValue) best(total, node, next)
-            }
+            val total = value + discounted(promise, node, next, one, two, four)
+            if (total > bestValue) best(total, node, next)
         }
     }
 
@@ -283,16 +310,17 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     }
 
     /**
-     * What is left of [promise] for a boat that goes to [place] from [node], when its visits on the path are taken into
-     * account, of which [one], [two] and [four] are the node's bits.
+     * What is left of [promise], which may be below 0, for a boat that goes to [place] from [node], when its visits on the
+     * path are taken into account, of which [one], [two] and [four] are the node's bits.
      *
      * The path is gone through only where the boat was there very often, or where another place on the path may have the
-     * same slot.
+     * same slot; and not for a promise below 0, which stays below 0 whatever it is divided by.
      */
     private fun discounted(promise: Double, node: Int, place: Int, one: Long, two: Long, four: Long): Double {
         val slot = place ushr cells.slotShift
         val count = ((one ushr slot) and 1L) + 2 * ((two ushr slot) and 1L) + 4 * ((four ushr slot) and 1L)
-        return promise / (1 + if (count < cells.uncertainVisits) count.toInt() else visits(node, place))
+        val isCertain = count < cells.uncertainVisits || promise <= 0
+        return promise / (1 + if (isCertain) count.toInt() else visits(node, place))
     }
 
     /** How often [place] occurs on the path to the node [last]. O(moves). */
@@ -350,6 +378,8 @@ internal class BoundedTree(private val settings: BoundedPlannerSettings, private
     private companion object {
         const val NONE = -1
         const val ROOT = 0
+
+        const val ALL_BITS = -1
 
         /** Instead of a family's node: its children are only counted. */
         const val COUNTED = -2
