@@ -79,7 +79,8 @@ internal class BlindAnswer(
             left,
             outliers.rows,
             BlindWarnings(series, settings, search, last, lag, outliers, given)
-                .of(left.first(), isNamed, rounding.takeIf { isCoarse }) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
+                .of(left.first(), isNamed, rounding.takeIf { isCoarse }) +
+                listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
                 little(chosen) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),

@@ -3,7 +3,10 @@ package stillwater.diagnose
 import kotlin.math.abs
 
 /** Steps in which the end of the arm is found. */
-private const val ARM_STEPS = 4
+private const val ARM_STEPS = 5
+
+/** Part of a step, over the one before it, of which no end is foretold. */
+private const val MOST_LEFT = 0.8
 
 /** Rows' way within which the end of the arm is found. */
 private const val NEAR = 0.05
@@ -16,15 +19,33 @@ private const val NEAR = 0.05
  */
 internal fun BlindSearch.onArm(state: BlindState): BlindState {
     var best = state
+    var before: BlindState? = null
     repeat(ARM_STEPS) {
         val behind = behind(best) ?: return best
         if (abs(behind - best.modes.behind) < NEAR * scales.ordinarySpeed * best.model.series.period) return best
-        val next = movedTo(behind, best) ?: return best
-        if (next.score <= best.score) return best
+        val farther = before?.let { farther(it, best) }
+        val next = farther?.let { movedTo(it, best) }?.takeIf { it.score > best.score } ?: movedTo(behind, best)
+        if (next == null || next.score <= best.score) return best
+        before = best
         best = next
     }
     return best
 }
+
+/**
+ * Where the arm ends by the secant through what it lacked in [before] and in [now], m: the water at hand holds the sensor
+ * back, so that each step is but a part of the way. Null where that is no way on.
+ */
+private fun farther(before: BlindState, now: BlindState): Double? {
+    val lacked = checkNotNull(behind(before)) - before.modes.behind
+    val lacks = checkNotNull(behind(now)) - now.modes.behind
+    val part = lacks / lacked
+    return (now.modes.behind + lacks / (1 - part)).takeIf { part in 0.0..MOST_LEFT }
+}
+
+/** Whether the sensor of [state] is on an arm for certain: by [gain] of twice the log-likelihood more than on the way. */
+internal fun BlindSearch.isOnArm(state: BlindState, gain: Double): Boolean =
+    state.modes.behind != 0.0 && movedTo(0.0, state)?.let { state.score > it.score + gain } == true
 
 /** [state], whose sensor is on a rigid arm, or the same with one that follows the boat's way, if that is likelier. */
 internal fun BlindSearch.onArmOrWay(state: BlindState): BlindState {

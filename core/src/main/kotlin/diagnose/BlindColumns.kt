@@ -27,7 +27,8 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
          * log. Whenever some columns are there, [then] is told the first of them and the one behind the last.
          */
         fun write(out: List<DoubleArray>, then: (Int, Int) -> Unit) {
-            response(terms, numbers, modes.columns, steps, modes.behind).of(modes.columns, loops, out, bends(modes), then)
+            val response = response(terms, numbers, modes.columns, steps, modes.behind)
+            response.of(modes.columns, loops, out, bends(modes), then)
             val timeConstant = numbers[ResponseModel.TIME_CONSTANT]
             for (i in 0 until n) out[size - 1][i] = exp(-(series.times[i] - series.times[0]) / timeConstant)
             then(size - 1, size)

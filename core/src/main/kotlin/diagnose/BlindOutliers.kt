@@ -93,11 +93,12 @@ internal class BlindOutliers(state: BlindState) {
     private val isTailed = both.sumOf { it.ratio } < columns.sumOf(Spikes::tails) - TAILED
 
     /**
-     * The two in one; null where the noise has heavy tails, or where the far ones are gathered where it is larger.
+     * The two in one; null where the noise has heavy tails, as that of coarse rounding, or where the far ones are gathered
+     * where it is larger.
      * The rows beside say less of each reading, what the model leaves holds what the model gets wrong: the ratio is the
      * geometric mean of both, and half as much again as the less at most.
      */
-    private val mixture: Mixture? = if (isTailed || isGathered(state)) {
+    private val mixture: Mixture? = if (isTailed || resolution > spread || isGathered(state)) {
         null
     } else {
         val (less, more) = both.sortedBy { it.ratio }

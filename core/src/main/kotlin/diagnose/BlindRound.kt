@@ -128,12 +128,14 @@ internal class BlindRound(
     /**
      * [trial] on top of a model whose finest waves are strong. It counts where no finer ones are missing beside it:
      * what they would do, passes over the same water that contradict each other, a wrong response does, too. Else
-     * it counts where it explains more than missing waves could be taken for.
+     * it counts where it explains more than missing waves could be taken for, as an arm does that leaves the way in turns.
      */
     private fun resolved(trial: BlindTrial, other: BlindTrial?): BlindTrial {
         val settled = settled(trial, other)
         val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
-        val isClear = goesWithMore || settled.state?.let { it.isResolved || FinerWaves.isNone(it, search) } == true
+        val isClear = goesWithMore || settled.state?.let {
+            it.isResolved || FinerWaves.isNone(it, search) || search.isOnArm(it, BEYOND_WAVES * settled.inflation)
+        } == true
         return if (isClear) settled else settled.atMost(0.0)
     }
 

@@ -135,7 +135,7 @@ internal class BlindSearch private constructor(
      * below [least].
      */
     fun turned(state: BlindState, to: Steps, least: Double, terms: List<Term> = emptyList()) = within(to, least) {
-        val own = ResponseModel(state.model.series, terms, to, scales, state.modes.behind).carried(state.model, state.numbers)
+        val own = model(terms, state.modes, state.water).carried(state.model, state.numbers)
         climbed(requieted(climbed(settled(terms, own, state.fit.design.noise, state.variances, before = state))))
     }
 

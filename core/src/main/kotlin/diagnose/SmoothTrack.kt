@@ -26,7 +26,6 @@ internal class SmoothTrack private constructor(
     /** Where the boat was. */
     private val boat = boat ?: this
 
-
     /**
      * The places of a probe on a rigid arm, [distance] m behind the boat, which points along its way: in turns the arm's end
      * leaves that. The course is that from the row before to the row behind; where the boat hardly moves, the last one.
@@ -36,8 +35,7 @@ internal class SmoothTrack private constructor(
     private fun moved(distance: Double): SmoothTrack {
         val n = series.size
         val times = series.times
-        val ways = DoubleArray(n - 1) { hypot(x[it + 1] - x[it], y[it + 1] - y[it]) }
-        val least = LEAST_WAY * median(ways)
+        val least = LEAST_WAY * (1 until n).sumOf { hypot(x[it] - x[it - 1], y[it] - y[it - 1]) } / (n - 1)
         val east = x.copyOf()
         val north = y.copyOf()
         var course = Double.NaN
@@ -59,7 +57,7 @@ internal class SmoothTrack private constructor(
     }
 
     companion object {
-        /** Share of the ordinary way between rows that tells no course. */
+        /** Share of the mean way between rows that tells no course. */
         private const val LEAST_WAY = 0.2
         private val REACHES = intArrayOf(2, 3, 5, 8, 12)
         private val LONG_REACHES = intArrayOf(5, 12, 25, 50, 100)
