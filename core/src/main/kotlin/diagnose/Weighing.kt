@@ -68,12 +68,13 @@ internal class Weighing(
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
         val shifts = SmallShifts(last, base)
-        val (small, clear) = chosen.zip(forward.alike(chosen)).partition { (trial, set) -> shifts.isSmall(trial, set) }
+        val (equal, others) = chosen.zip(forward.alike(chosen)).partition { (trial, _) -> mayBeEqual(trial.term) }
+        val (small, clear) = others.partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
             still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
-        val sensor = ExtendedSensor(last, size, rounded, leftOut = small.map { (trial, _) -> trial.term.cause }.toSet())
+        val sensor = ExtendedSensor(last, size, rounded, leftOut = (equal + small).map { (trial, _) -> trial.term.cause }.toSet())
         val extended = if (named) sensor.spec("extended") else null
         val candidates = candidates(size, loose.pValue)
         val baseline = report.assessment(base, baseHeldOut)
@@ -91,13 +92,18 @@ internal class Weighing(
             left,
             (spikes + series.wild.keys).sorted(),
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
+                listOfNotNull(EQUAL.takeIf { equal.isNotEmpty() }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
-                listOfNotNull(BESIDE.takeIf { named && small.isNotEmpty() }) +
+                listOfNotNull(BESIDE.takeIf { named && (equal + small).isNotEmpty() }) +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),
         )
     }
+
+    /** Whether [term] is two paths that may as well be one: how much slower the second is has an interval that holds 1. */
+    private fun mayBeEqual(term: Term): Boolean = term.cause == Cause.TWO_PATH_RESPONSE &&
+        report.estimates(last, listOf(term)).any { it.name == "slow_ratio" && (it.interval?.lower ?: 2.0) <= 1 }
 
     /** Whether rounding makes a quarter of the noise: it need not show in what the model foretells of single readings. */
     private val isRounded: Boolean get() = scales.resolution * scales.resolution / 12 > ROUNDED * last.variance
@@ -277,6 +283,10 @@ internal class Weighing(
 
     private companion object {
         const val FEWEST_ROWS = 60
+
+        /** Of two paths that may be one. */
+        const val EQUAL =
+            "A second path was fitted beside and is not named: it may be as fast as the first, and then there is one."
 
         /** Of what was too small to be named. */
         const val BESIDE =

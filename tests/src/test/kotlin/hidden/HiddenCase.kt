@@ -47,6 +47,9 @@ internal class HiddenCase(
     private val kind = kinds().let { it[random.nextInt(it.size)] }
     private val period = listOf(0.5, 1.0, 1.0, 2.0)[random.nextInt(4)]
     private val rows = 900 + random.nextInt(600)
+
+    /** By dice of its own: what else a seed draws does not go by it. */
+    private val isAhead = Random(seed * 7919 + SIDE).nextBoolean()
     private val timeConstant = period * exp(ln(3.0) + random.nextDouble() * ln(5.0))
 
     /** The dead time in place of the lag, s: short enough beside the waves that a lag is like it at first. */
@@ -124,9 +127,9 @@ internal class HiddenCase(
     }
 
     private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant) = if (isDelay) {
-        HiddenSensor(world, period / per, gain, offset, mapOf(HiddenEffect.DEAD_TIME to delay), stepShares)
+        HiddenSensor(world, period / per, gain, offset, mapOf(HiddenEffect.DEAD_TIME to delay), stepShares, isAhead)
     } else {
-        HiddenSensor(world, tau, gain, offset, effects, stepShares)
+        HiddenSensor(world, tau, gain, offset, effects, stepShares, isAhead)
     }
 
     private fun draw(): Map<HiddenEffect, Pair<Double, Double>> {
@@ -242,6 +245,9 @@ internal class HiddenCase(
 
     private companion object {
         const val GIVEN_SHARE = 0.15
+
+        /** The dice for which side a probe is on. */
+        const val SIDE = 3
         const val REFERENCE_NOISE = 0.1
 
         /** Stronger changes of the water than this, in its own spread, are not hidden. */

@@ -65,6 +65,7 @@ internal class HiddenWorld(
  * The readings without noise of a sensor with hidden effects: the midpoint rule in fine time, 20 steps to a row.
  *
  * @property timeConstant s. @property effects each with its strength, in the unit that [strength] says.
+ * @param isAhead whether a probe that is off the fixes is ahead of them; else it is behind.
  */
 internal class HiddenSensor(
     private val world: HiddenWorld,
@@ -73,11 +74,14 @@ internal class HiddenSensor(
     private val offset: Double,
     private val effects: Map<HiddenEffect, Double>,
     private val stepShares: List<Double>,
+    isAhead: Boolean,
 ) {
+    private val behind = if (isAhead) -strength(HiddenEffect.POSITION) else strength(HiddenEffect.POSITION)
+
     private fun strength(effect: HiddenEffect) = effects[effect] ?: 0.0
 
     private val truth = DoubleArray(world.size) {
-        world.truth(it, -strength(HiddenEffect.POSITION), strength(HiddenEffect.TIME_VARYING))
+        world.truth(it, -behind, strength(HiddenEffect.TIME_VARYING))
     }
     private val middle = truth.average()
     private val spread = kotlin.math.sqrt(truth.sumOf { (it - middle) * (it - middle) } / truth.size)
@@ -144,6 +148,7 @@ internal class HiddenSensor(
             HiddenEffect.SATURATION -> end()
             HiddenEffect.TIME_CONSTANT -> timeConstant
             HiddenEffect.GAIN_OFFSET -> gain
+            HiddenEffect.POSITION -> behind
             HiddenEffect.TIME_VARYING -> world.amplitude * strength / world.duration
             HiddenEffect.QUANTISATION, HiddenEffect.OUTLIERS -> Double.NaN
             else -> strength
