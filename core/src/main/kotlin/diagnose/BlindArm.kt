@@ -11,6 +11,12 @@ private const val MOST_LEFT = 0.8
 /** Rows' way within which the end of the arm is found. */
 private const val NEAR = 0.05
 
+/** Lengths of arms over that of the shortest wave. */
+private val FAR_ARMS = doubleArrayOf(0.25, 0.5, 0.75, 1.0, 1.5).toList()
+
+/** Rows of a log in which ten arms are fitted in about a second. */
+private const val MOST_ROWS = 2000
+
 /**
  * [state], whose sensor is off the fixes by a way, with the sensor on a rigid arm, whose end leaves the way in turns; the
  * same where that is no likelier.
@@ -33,6 +39,13 @@ internal fun BlindSearch.onArm(state: BlindState): BlindState {
 }
 
 /**
+ * What a model gains by waves that are found anew, and not by where they are: twice a log-likelihood, 0 at least, that
+ * [arm] has over [way], the same sensor on the boat's way, for nothing.
+ */
+internal fun BlindSearch.anew(way: BlindState, arm: BlindState): Double =
+    if (arm === way) 0.0 else maxOf((movedTo(0.0, way)?.score ?: way.score) - way.score, 0.0)
+
+/**
  * Where the arm ends by the secant through what it lacked in [before] and in [now], m: the water at hand holds the sensor
  * back, so that each step is but a part of the way. Null where that is no way on.
  */
@@ -42,6 +55,42 @@ private fun farther(before: BlindState, now: BlindState): Double? {
     val part = lacks / lacked
     return (now.modes.behind + lacks / (1 - part)).takeIf { part in 0.0..MOST_LEFT }
 }
+
+/**
+ * A sensor on an arm, whose end turns may take so far off the boat's way that nothing of it shows along that.
+ *
+ * @property state the model with it. @property anew what finding the waves anew is worth by itself.
+ * @property gain what the arm is worth beyond that. Both are twice log-likelihoods.
+ */
+internal class FarArm(val state: BlindState, val anew: Double, val gain: Double)
+
+/**
+ * The likeliest of some arms under [state]; null where none is likelier.
+ *
+ * Of an arm that nobody knows of passes contradict each other everywhere, and only noise that wanders as much as any may
+ * explains that; so it is asked only where there is such. How good an arm is shows once the lag and the noise suit it:
+ * all are fitted. Not in long logs, where that takes too long.
+ */
+internal fun BlindSearch.farArm(state: BlindState): FarArm? {
+    val isWandering = state.fit.design.noise.noise.share >= BlindSearch.SHARES.last()
+    if (state.modes.lengths.isEmpty() || !isWandering || state.residuals.size > MOST_ROWS) return null
+    val term = Term(Cause.POSITION_OFFSET)
+    val lengths = listOf(0.0) + FAR_ARMS.flatMap { listOf(it, -it) }.map { it * state.modes.shortest }
+    val found = loops.all(lengths) { behind ->
+        val modes = checkNotNull(state.modes.onArm(behind, state.variances))
+        val model = model(state.model.terms + term, modes, state.water)
+        val numbers = model.carried(state.model, state.numbers).also { it[model.slot(term)] = behind }
+        val noise = state.fit.design.noise
+        climbed(requieted(climbed(settled(model.terms, numbers, noise, modes.first, BlindSearch.FIRST_ROUNDS, modes))))
+    }
+    val best = found.maxBy { it.score }
+    if (best === found[0]) return null
+    val anew = maxOf(found[0].score - state.score, 0.0)
+    return onArm(best).let { FarArm(it, anew, it.score - state.score - anew) }
+}
+
+/** How many arms [farArm] chooses from. */
+internal val FAR_ARMS_TRIED: Int get() = 2 * FAR_ARMS.size
 
 /** Whether the sensor of [state] is on an arm for certain: by [gain] of twice the log-likelihood more than on the way. */
 internal fun BlindSearch.isOnArm(state: BlindState, gain: Double): Boolean =

@@ -99,8 +99,18 @@ internal class BlindRound(
                 it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
                 else -> it
             }
-            if (isOfLag(settled)) doubted(settled) else settled.atMost(0.0)
+            val placed = if (it.term?.cause == Cause.POSITION_OFFSET) far(settled) else settled
+            if (isOfLag(placed)) doubted(placed) else placed.atMost(0.0)
         }
+    }
+
+    /** [trial], an offset of place, or the same on an arm that turns hide, if that explains more. */
+    private fun far(trial: BlindTrial): BlindTrial {
+        val arm = search.farArm(state) ?: return trial
+        val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, arm.state)) } + arm.anew
+        val found = tries.settled(trial, arm.state, best, searched(trial) + 2 * ln(FAR_ARMS_TRIED.toDouble()))
+        val isSure = found.likelier > trial.likelier && arm.gain > BEYOND_WAVES * found.inflation
+        return if (isSure) found else trial
     }
 
     /** [trial], of which, if a drift, waves that are missing do as much: passes then differ by when they were. */
@@ -183,10 +193,13 @@ internal class BlindRound(
         if (first.pValue > settings.level) {
             return if (isSlow && onStill != null) heldAgainstChange(checkNotNull(other), onStill) else first
         }
-        val found = search.onArm(onWay)
+        val arm = if (trial.term?.cause == Cause.POSITION_OFFSET) search.onArm(onWay) else onWay
+        val anew = search.anew(onWay, arm)
+        val isArm = arm.score > onWay.score + anew
+        val found = if (isArm) arm else onWay
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, found)) }
-        return tries.settled(trial, found, best, searched)
+        return tries.settled(trial, found, if (isArm) best + anew else best, searched)
     }
 
     private fun better(one: BlindState, other: BlindState) = if (other.score > one.score) other else one

@@ -74,7 +74,8 @@ internal class Weighing(
             still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
-        val sensor = ExtendedSensor(last, size, rounded, leftOut = (equal + small).map { (trial, _) -> trial.term.cause }.toSet())
+        val unnamed = (equal + small).map { (trial, _) -> trial.term.cause }.toSet()
+        val sensor = ExtendedSensor(last, size, rounded, leftOut = unnamed)
         val extended = if (named) sensor.spec("extended") else null
         val candidates = candidates(size, loose.pValue)
         val baseline = report.assessment(base, baseHeldOut)
@@ -94,7 +95,7 @@ internal class Weighing(
             warnings(left.first(), named) + shifts.words(small.map { it.first }) +
                 listOfNotNull(EQUAL.takeIf { equal.isNotEmpty() }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
-                listOfNotNull(BESIDE.takeIf { named && (equal + small).isNotEmpty() }) +
+                listOfNotNull(BESIDE.takeIf { named && unnamed.isNotEmpty() }) +
                 if (named) sensor.losses + lost(changing) else emptyList(),
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),
