@@ -21,13 +21,30 @@ internal class StillReadings(private val fit: ModelFit) {
 
     private class Stretch(val rows: Int, val isAtEnd: Boolean)
 
+    /** For how many rows each reading stands still. */
+    private val runs: List<Int> = buildList {
+        var from = 0
+        for (i in 1..values.size) {
+            if (i < values.size && values[i] == values[from]) continue
+            add(i - from)
+            from = i
+        }
+    }
+
     /** The stretches in the order of the log. */
     private val all: List<Stretch> = if (fit.model.terms.any { it.cause == Cause.HYSTERESIS }) emptyList() else found()
 
-    /** The probability that one row more shows the same. */
+    /**
+     * The probability that one row more shows the same: what noise makes of it at most, or as often as readings that did so
+     * for two to four rows go on in this log. Its noise need not be normal: an instrument's own filter has it stand still.
+     */
     private val staying: Double by lazy {
         val spread = Spikes.spread(fit.model.series.shown(fit.whitened))
-        Erf.erf(fit.model.scales.resolution / (sqrt(8.0) * spread))
+        val short = runs.filter { it >= 2 }
+        val before = (2 until FEWEST).sumOf { rows -> short.count { it >= rows } }
+        val after = (2 until FEWEST).sumOf { rows -> short.count { it > rows } }
+        val usual = if (short.size >= MANY) after.toDouble() / before else 0.0
+        maxOf(Erf.erf(fit.model.scales.resolution / (sqrt(8.0) * spread)), usual)
     }
 
     /** By chance, that a stretch as long is somewhere in the log. */
@@ -60,11 +77,10 @@ internal class StillReadings(private val fit: ModelFit) {
 
     private fun found(): List<Stretch> = buildList {
         var from = 0
-        for (i in 1..values.size) {
-            if (i < values.size && values[i] == values[from]) continue
+        for (rows in runs) {
             // What a delayed sensor shows first has not changed yet.
-            if (from > 0 && i - from >= FEWEST) add(Stretch(i - from, isAtEnd(from, i)))
-            from = i
+            if (from > 0 && rows >= FEWEST) add(Stretch(rows, isAtEnd(from, from + rows)))
+            from += rows
         }
     }
 
@@ -84,6 +100,9 @@ internal class StillReadings(private val fit: ModelFit) {
     private companion object {
         /** Rows; fewer are no stretch. */
         const val FEWEST = 5
+
+        /** Readings that stand still for two rows or more by which it is told how often they go on. */
+        const val MANY = 30
 
         /** Of all rows. */
         const val MOST = 0.3

@@ -8,6 +8,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertIs
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 /** What the digits of readings say, beside a reference: that a logger hung, and how much of the noise is rounding. */
@@ -45,6 +46,16 @@ class StillReadingsTest {
         val values = normal()
         for (from in listOf(100, 300, 450)) values.fill(-9.0, from, from + 8)
         assertContains(assertIs<Verdict.Unexplained>(diagnosed(values).verdict).what, "8 rows, 3 times")
+    }
+
+    /** A sonde's own filter shows a new number only now and then, for longer than noise would let it stand still. */
+    @Test
+    fun anInstrumentThatShowsItsReadingForRowsHasNotHung() {
+        val values = rounded(normal(), 0.002)
+        for (i in 1 until n) if (random.nextDouble() < 0.6) values[i] = values[i - 1]
+        assertNull(StillReadings(fit(values)).words(1e-3))
+        values.fill(values[300], 300, 350)
+        assertContains(checkNotNull(StillReadings(fit(values)).words(1e-3)), "rows, once")
     }
 
     /** A range that ends before the noise: some readings beside the end are beyond it, by the noise. */
