@@ -99,10 +99,14 @@ internal class BlindRound(
                 it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
                 else -> it
             }
-            val placed = if (it.term?.cause == Cause.POSITION_OFFSET) far(settled) else settled
+            val placed = if (mayBeOnArm(it)) far(settled) else settled
             if (isOfLag(placed)) doubted(placed) else placed.atMost(0.0)
         }
     }
+
+    /** Whether [trial] is an offset of place; coarse rounding makes a likelihood so rugged that other waves gain by chance. */
+    private fun mayBeOnArm(trial: BlindTrial): Boolean = trial.term?.cause == Cause.POSITION_OFFSET &&
+        state.model.terms.none { it.cause == Cause.QUANTISATION }
 
     /** [trial], an offset of place, or the same on an arm that turns hide, if that explains more. */
     private fun far(trial: BlindTrial): BlindTrial {
@@ -193,7 +197,7 @@ internal class BlindRound(
         if (first.pValue > settings.level) {
             return if (isSlow && onStill != null) heldAgainstChange(checkNotNull(other), onStill) else first
         }
-        val arm = if (trial.term?.cause == Cause.POSITION_OFFSET) search.onArm(onWay) else onWay
+        val arm = if (mayBeOnArm(trial)) search.onArm(onWay) else onWay
         val anew = search.anew(onWay, arm)
         val isArm = arm.score > onWay.score + anew
         val found = if (isArm) arm else onWay
