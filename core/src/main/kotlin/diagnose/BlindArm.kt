@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import kotlin.math.abs
+import kotlin.math.ln
 
 /** Steps in which the end of the arm is found. */
 private const val ARM_STEPS = 5
@@ -60,9 +61,9 @@ private fun farther(before: BlindState, now: BlindState): Double? {
  * A sensor on an arm, whose end turns may take so far off the boat's way that nothing of it shows along that.
  *
  * @property state the model with it. @property anew what finding the waves anew is worth by itself.
- * @property gain what the arm is worth beyond that. Both are twice log-likelihoods.
+ * @property searched what the best of so many arms gains by chance. Both are twice log-likelihoods.
  */
-internal class FarArm(val state: BlindState, val anew: Double, val gain: Double)
+internal class FarArm(val state: BlindState, val anew: Double, val searched: Double)
 
 /**
  * The likeliest of some arms under [state]; null where none is likelier.
@@ -75,22 +76,16 @@ internal fun BlindSearch.farArm(state: BlindState): FarArm? {
     val isWandering = state.fit.design.noise.noise.share >= BlindSearch.SHARES.last()
     if (state.modes.lengths.isEmpty() || !isWandering || state.residuals.size > MOST_ROWS) return null
     val term = Term(Cause.POSITION_OFFSET)
-    val lengths = listOf(0.0) + FAR_ARMS.flatMap { listOf(it, -it) }.map { it * state.modes.shortest }
-    val found = loops.all(lengths) { behind ->
-        val modes = checkNotNull(state.modes.onArm(behind, state.variances))
-        val model = model(state.model.terms + term, modes, state.water)
+    val model = model(state.model.terms + term, state.modes, state.water)
+    val arms = FAR_ARMS.flatMap { listOf(it, -it) }.map { it * state.modes.shortest }
+    val found = loops.all(listOf(0.0) + arms) { behind ->
         val numbers = model.carried(state.model, state.numbers).also { it[model.slot(term)] = behind }
-        val noise = state.fit.design.noise
-        climbed(requieted(climbed(settled(model.terms, numbers, noise, modes.first, BlindSearch.FIRST_ROUNDS, modes))))
+        checkNotNull(movedTo(behind, state, model.terms, numbers))
     }
     val best = found.maxBy { it.score }
     if (best === found[0]) return null
-    val anew = maxOf(found[0].score - state.score, 0.0)
-    return onArm(best).let { FarArm(it, anew, it.score - state.score - anew) }
+    return FarArm(onArm(best), maxOf(found[0].score - state.score, 0.0), 2 * ln(arms.size.toDouble()))
 }
-
-/** How many arms [farArm] chooses from. */
-internal val FAR_ARMS_TRIED: Int get() = 2 * FAR_ARMS.size
 
 /** Whether the sensor of [state] is on an arm for certain: by [gain] of twice the log-likelihood more than on the way. */
 internal fun BlindSearch.isOnArm(state: BlindState, gain: Double): Boolean =
@@ -107,10 +102,17 @@ internal fun BlindSearch.onArmOrWay(state: BlindState): BlindState {
 private fun behind(state: BlindState): Double? =
     state.model.terms.firstOrNull { it.cause == Cause.POSITION_OFFSET }?.let { state.numbers[state.model.slot(it)] }
 
-/** [state] with the water told so far [behind] the fixes, m, and what suits that; null where the track is a line. */
-private fun BlindSearch.movedTo(behind: Double, state: BlindState): BlindState? {
+/**
+ * [state], or what it is begun from with other [terms] and [numbers], with the water told so far [behind] the fixes, m, and
+ * what suits that; null where the track is a line.
+ */
+private fun BlindSearch.movedTo(
+    behind: Double,
+    state: BlindState,
+    terms: List<Term> = state.model.terms,
+    numbers: DoubleArray = state.numbers,
+): BlindState? {
     val modes = state.modes.onArm(behind, state.variances) ?: return null
     val noise = state.fit.design.noise
-    val begun = settled(state.model.terms, state.numbers, noise, modes.first, BlindSearch.FIRST_ROUNDS, modes)
-    return climbed(requieted(climbed(begun)))
+    return fullySuited(settled(terms, numbers, noise, modes.first, BlindSearch.FIRST_ROUNDS, modes))
 }

@@ -60,7 +60,7 @@ internal class BlindLag(
     private fun parted(state: BlindState): BlindState {
         val half = state.timeConstant / 2
         val begun = settled(listOf(Term(Cause.DEAD_TIME)), half, half, state)
-        return search.opened(search.climbed(search.requieted(search.climbed(begun))))
+        return search.opened(search.fullySuited(begun))
     }
 
     /**

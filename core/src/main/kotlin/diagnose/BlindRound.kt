@@ -112,8 +112,9 @@ internal class BlindRound(
     private fun far(trial: BlindTrial): BlindTrial {
         val arm = search.farArm(state) ?: return trial
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, arm.state)) } + arm.anew
-        val found = tries.settled(trial, arm.state, best, searched(trial) + 2 * ln(FAR_ARMS_TRIED.toDouble()))
-        val isSure = found.likelier > trial.likelier && arm.gain > BEYOND_WAVES * found.inflation
+        val found = tries.settled(trial, arm.state, best, searched(trial) + arm.searched)
+        val gain = arm.state.score - state.score - arm.anew
+        val isSure = found.likelier > trial.likelier && gain > BEYOND_WAVES * found.inflation
         return if (isSure) found else trial
     }
 

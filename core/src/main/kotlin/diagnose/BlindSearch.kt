@@ -136,7 +136,7 @@ internal class BlindSearch private constructor(
      */
     fun turned(state: BlindState, to: Steps, least: Double, terms: List<Term> = emptyList()) = within(to, least) {
         val own = model(terms, state.modes, state.water).carried(state.model, state.numbers)
-        climbed(requieted(climbed(settled(terms, own, state.fit.design.noise, state.variances, before = state))))
+        fullySuited(settled(terms, own, state.fit.design.noise, state.variances, before = state))
     }
 
     private fun within(to: Steps, least: Double, fitted: () -> BlindState): BlindState? {
@@ -245,7 +245,7 @@ internal class BlindSearch private constructor(
 
     /** [state] with water that does not change in time, and with what suits that. */
     fun still(state: BlindState): BlindState =
-        if (isStill(state)) state else climbed(requieted(climbed(held(state))))
+        if (isStill(state)) state else fullySuited(held(state))
 
     /** [state] with water that does not change in time, all else the same. */
     fun held(state: BlindState): BlindState {
@@ -259,7 +259,7 @@ internal class BlindSearch private constructor(
         val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
         val open =
             settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
-        return climbed(requieted(climbed(open)))
+        return fullySuited(open)
     }
 
     /** Which numbers of [model] are fitted: the lag's and the terms'. */

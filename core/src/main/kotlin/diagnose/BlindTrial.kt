@@ -86,3 +86,6 @@ internal fun BlindSearch.with(state: BlindState, trial: BlindTrial): BlindState 
 
 /** [state] with the noise that suits it, and then the numbers that fit better. */
 internal fun BlindSearch.suited(state: BlindState): BlindState = improved(requieted(state))
+
+/** [state] with the numbers that fit better, the noise that suits these, and numbers again, each as long as that is likelier. */
+internal fun BlindSearch.fullySuited(state: BlindState): BlindState = climbed(requieted(climbed(state)))

@@ -291,7 +291,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             val less = search.less(found.change)
             val was = found.state
             val begun = less.settled(was.model.terms, was.numbers, was.fit.design.noise, was.variances, before = was)
-            val next = less.climbed(less.requieted(less.climbed(begun)))
+            val next = less.fullySuited(begun)
             val own = less.free(next.model).let { free -> free.indices.filter { free[it] } }.map(next::derivative)
             val at = LookedAt(look, next, own, BlindWaters(search, next, DRAWS))
             val whole = DoubleArray(n) { next.residuals[it] + found.change[it] }

@@ -1,6 +1,6 @@
 package stillwater.diagnose
 
-import java.util.Locale
+import stillwater.diagnose.BlindAnswer.Companion.three
 
 /** What a reader must know beside the verdict of a log without a reference. */
 internal class BlindWarnings(
@@ -65,6 +65,4 @@ internal class BlindWarnings(
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }
-
-    private fun three(value: Double) = "%.3g".format(Locale.ROOT, value)
 }

@@ -39,7 +39,7 @@ internal class SmoothTrack private constructor(
         val east = x.copyOf()
         val north = y.copyOf()
         var course = Double.NaN
-        fun moved(i: Int) {
+        fun put(i: Int) {
             east[i] -= distance * cos(course)
             north[i] -= distance * sin(course)
         }
@@ -50,8 +50,8 @@ internal class SmoothTrack private constructor(
             val isFirst = course.isNaN()
             if (way > least * (to - from)) course = atan2(y[to] - y[from], x[to] - x[from])
             if (course.isNaN()) continue
-            if (isFirst) for (k in 0 until i) moved(k)
-            moved(i)
+            if (isFirst) for (k in 0 until i) put(k)
+            put(i)
         }
         return SmoothTrack(series, east, north, distance, this)
     }

@@ -15,10 +15,10 @@ import kotlin.math.sqrt
  * process are F β with β of one variance and F a [PivotedCholesky] factor, which has as many columns as the track needs,
  * wherever it goes.
  *
- * @property track the places that the water is told at. @param most columns at most. @param rings the rings; null where the track is a line. @param spectrum variance of each
- *   ring over the noise's, or over each other's where nothing is known. @param left variance, in the same measure, that
- *   may be left anywhere. @param known variances of the level and of what changes over the noise's; null where nothing
- *   is known.
+ * @property track the places that the water is told at. @param most columns at most. @param rings the rings; null where the
+ *   track is a line. @param spectrum variance of each ring over the noise's, or over each other's where nothing is known.
+ *   @param left variance, in the same measure, that may be left anywhere. @param known variances of the level and of what
+ *   changes over the noise's; null where nothing is known.
  */
 internal class WaterModes private constructor(
     private val series: MeasuredSeries,

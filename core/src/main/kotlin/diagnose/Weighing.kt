@@ -47,6 +47,7 @@ internal class Weighing(
     /** Twice the log-likelihood of [last], less what its numbers would gain by chance. */
     val explained: Double get() = last.score - chosen.sumOf { it.cost }
 
+    private val still by lazy { StillReadings(last) }
     private val faults by lazy { ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level) }
 
     /**
@@ -71,7 +72,7 @@ internal class Weighing(
         val (equal, others) = chosen.zip(forward.alike(chosen)).partition { (trial, _) -> mayBeEqual(trial.term) }
         val (small, clear) = others.partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
-            still() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
+            hung() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
         val unnamed = (equal + small).map { (trial, _) -> trial.term.cause }.toSet()
@@ -167,7 +168,7 @@ internal class Weighing(
         val structured = left.adjusted < settings.structureLevel
         // A truth that is guessed between rows swings beyond both ends of what it does; readings that stand still at one end
         // do so whatever it does.
-        val isAtEnd by lazy { StillReadings(last).atEnd < settings.level / tried }
+        val isAtEnd by lazy { still.atEnd < settings.level / tried }
         val isTiming = structured || sets.flatten().any { it.isTiming || (it == Cause.SATURATION && !isAtEnd) }
         return when {
             isTiming && base.model.scales.unknown?.isMostly == true -> Verdict.InsufficientData(
@@ -212,7 +213,7 @@ internal class Weighing(
     }
 
     /** What hides all else: who gives one number for many readings shows no lag. */
-    private fun still(): Verdict? = StillReadings(last).words(settings.level / tried)?.let(Verdict::Unexplained)
+    private fun hung(): Verdict? = still.words(settings.level / tried)?.let(Verdict::Unexplained)
 
     /** What explains the log better than any cause of the list and is none. */
     private fun unlisted(loose: LooseReadings): Verdict? {
