@@ -9,8 +9,8 @@ import kotlin.math.PI
  *
  * Only short gaps can be bridged so. A row farther from the nearest number than [reach] is as far from it as the middle
  * of a gap in the log itself over which the diagnosis takes nothing to be known of the sensor ([MeasuredSeries.gap], 20
- * usual steps or a minute, whichever is longer): what the condition was there is a guess as well. And where more than
- * half of the rows have none, most of what a cause would be weighed by is not measured.
+ * usual steps or a minute, whichever is longer): what the condition was there is a guess as well ([isFar]). And where
+ * more than half of the rows have none, most of what a cause would be weighed by is not measured.
  *
  * @param times when each row was taken, s, strictly ascending. Not modified.
  * @param column the condition in each of them, NaN where it is missing. Not modified.
@@ -46,18 +46,18 @@ public class ConditionGaps(
     /** Number of rows without a number. */
     public val missing: Int = column.count { !it.isFinite() }
 
-    /** How far in time the row that is farthest from any number is from the nearest, s; infinite where there is none. */
-    public val farthest: Double = (0 until rows).maxOfOrNull { i ->
+    /** Whether at least half of the rows have a number. */
+    public val isMostlyKnown: Boolean get() = 2 * missing <= rows
+
+    /** How far a row may be from the nearest number for it to be bridged, s. */
+    public val reach: Double = MeasuredSeries.gap(MeasuredSeries.period(times)) / 2
+
+    /** Whether each row is farther than [reach] from the nearest number, in time. */
+    public val isFar: BooleanArray = BooleanArray(rows) { i ->
         val back = if (before[i] < 0) Double.POSITIVE_INFINITY else times[i] - times[before[i]]
         val ahead = if (after[i] == rows) Double.POSITIVE_INFINITY else times[after[i]] - times[i]
-        minOf(back, ahead)
-    } ?: 0.0
-
-    /** How far a row may be from the nearest number, s. */
-    public val reach: Double get() = MeasuredSeries.gap(MeasuredSeries.period(times)) / 2
-
-    /** Whether the gaps are few and short enough to be bridged. */
-    public val isBridged: Boolean get() = 2 * missing <= rows && farthest <= reach
+        minOf(back, ahead) > reach
+    }
 
     /** The condition with its gaps bridged, however long they are; 0 where there is no number at all. */
     public val bridged: DoubleArray

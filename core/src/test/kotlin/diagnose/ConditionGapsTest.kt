@@ -10,7 +10,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** What stands in for the numbers of a condition that are missing, and how many may be. */
+/** What stands in for the numbers of a condition that are missing, where nothing can, and how many may be. */
 class ConditionGapsTest {
     private val none = Double.NaN
 
@@ -45,33 +45,35 @@ class ConditionGapsTest {
     fun moreThanHalfMissingIsTooMuch() {
         val times = seconds(100)
         fun every(rows: Int) = ConditionGaps(times, DoubleArray(100) { if (it % rows == 0) 1.0 else none })
-        assertTrue(every(1).isBridged)
-        assertTrue(every(2).isBridged)
-        assertFalse(every(3).isBridged)
+        assertTrue(every(1).isMostlyKnown)
+        assertTrue(every(2).isMostlyKnown)
+        assertFalse(every(3).isMostlyKnown)
         val nothing = ConditionGaps(times, DoubleArray(100) { none })
-        assertFalse(nothing.isBridged)
-        assertEquals(Double.POSITIVE_INFINITY, nothing.farthest)
+        assertFalse(nothing.isMostlyKnown)
+        assertTrue(nothing.isFar.all { it })
         assertContentEquals(DoubleArray(100), nothing.bridged)
     }
 
     @Test
-    fun aGapAsLongAsOneOfTheLogIsTooLong() {
-        fun without(rows: IntRange) = ConditionGaps(seconds(1000), DoubleArray(1000) { if (it in rows) none else 1.0 })
-        assertTrue(without(100..158).isBridged)
-        assertEquals(30.0, without(100..158).farthest)
-        assertFalse(without(100..161).isBridged)
-        assertTrue(without(970..999).isBridged)
-        assertFalse(without(969..999).isBridged)
+    fun rowsInTheMiddleOfAGapAsLongAsOneOfTheLogAreFar() {
+        fun far(rows: IntRange): List<Int> {
+            val gaps = ConditionGaps(seconds(1000), DoubleArray(1000) { if (it in rows) none else 1.0 })
+            return gaps.isFar.indices.filter { gaps.isFar[it] }
+        }
+        assertEquals(emptyList(), far(100..158))
+        assertEquals(listOf(130, 131), far(100..161))
+        assertEquals(emptyList(), far(970..999))
+        assertEquals(listOf(999), far(969..999))
+        assertEquals(listOf(0), far(0..30))
         // A row every minute: as many rows more.
         val minutes = DoubleArray(1000) { 60.0 * it }
-        assertTrue(ConditionGaps(minutes, DoubleArray(1000) { if (it in 100..118) none else 1.0 }).isBridged)
+        assertFalse(ConditionGaps(minutes, DoubleArray(1000) { if (it in 100..118) none else 1.0 }).isFar.any { it })
     }
 
     @Test
     fun aStopOfTheLogItselfIsNoGapOfTheCondition() {
         val times = DoubleArray(200) { if (it < 100) it.toDouble() else it + 3600.0 }
         val gaps = ConditionGaps(times, DoubleArray(200) { if (it == 100) none else it.toDouble() })
-        assertEquals(1.0, gaps.farthest)
-        assertTrue(gaps.isBridged)
+        assertFalse(gaps.isFar.any { it })
     }
 }

@@ -136,6 +136,9 @@ class CorrectedLog internal constructor(
 
         private const val FEWEST = 30
 
+        /** What is said of rows whose condition is not known for long: every row is corrected. */
+        private const val BRIDGED_FAR = "guessed in the same way"
+
         /** Parts of a metre per second to which the reference speed is rounded. */
         private const val ROUND = 100.0
         private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
@@ -171,7 +174,7 @@ class CorrectedLog internal constructor(
             }
             val plain = rows.series()
             val measured = names.mapIndexed { i, name -> name to rows.condition(i) }.toMap()
-            val bridged = ConditionColumns(log, conditions).bridged(plain.times, measured::getValue)
+            val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
             // Along a transect in any unit no speed is known.
             val series = if (log.oneDimensional) plain else plain.withSpeedOf(others)

@@ -16,8 +16,9 @@ import java.nio.file.Path
  * A log as the diagnosis takes it.
  *
  * @property file the log. @property quantity the column that is diagnosed. @property reference the column with the
- * truth, or null. @property series its columns. @property pass what was read. @property steps rows with a
- * reference among all. @property bridged what was done where numbers of conditions are missing, one sentence each.
+ * truth, or null. @property series its columns. @property columns the rows that were used. @property pass what was read.
+ * @property steps rows with a reference among all. @property bridged what was done where numbers of conditions are
+ * missing, one sentence each.
  * @property cut rows at the end that were not looked at. @property frame frame of its places, or null
  * where the log has metres. @property heading what its headings are in, or null where none were given.
  */
@@ -83,31 +84,37 @@ class DiagnosisLog private constructor(
             compare: List<String> = emptyList(),
         ): DiagnosisLog {
             val names = conditions.keys + compare.map { compared(it) }
-            val columns = LogColumns(names)
+            val read = LogColumns(names)
             // With the rows whose readings or references are missing: what the sensor has seen there shows later.
             val all = LogColumns(names)
             val steps = ReferenceSteps()
             var cut = 0L
             val pass = log.read { time, x, y, value, others ->
-                if (columns.size < MOST_ROWS) all.add(time.seconds, x, y, value, others)
+                if (read.size < MOST_ROWS) all.add(time.seconds, x, y, value, others)
                 when {
                     value.isNaN() -> Unit
-                    columns.size >= MOST_ROWS -> cut++
+                    read.size >= MOST_ROWS -> cut++
                     reference != null && others[REFERENCE].isNaN() -> steps.add(time.seconds, isKnown = false)
                     else -> {
                         if (reference != null) steps.add(time.seconds, isKnown = true)
-                        columns.add(time.seconds, x, y, value, others)
+                        read.add(time.seconds, x, y, value, others)
                     }
                 }
             }
+            val heading = conditions[Conditions.HEADING]?.let { column ->
+                HeadingUnit(column, checkNotNull(read.condition(Conditions.HEADING)))
+            }
+            if (heading?.inDegrees == true) listOf(read, all).forEach { it.toRadians(Conditions.HEADING) }
+            val asked = ConditionColumns(log, conditions, read.times) { checkNotNull(read.condition(it)) }
+            val columns = read.without(asked.unknown)
             if (columns.size < FEWEST_ROWS) {
-                val unknown = mapOf("no number in the column $reference" to steps.missing.toLong())
+                val unknown = mapOf(
+                    "no number in the column $reference" to steps.missing.toLong(),
+                    "a condition that is not known" to (read.size - columns.size).toLong(),
+                )
                 throw tooFew(log, columns.size, reference, pass.skipped + unknown.filterValues { it > 0 })
             }
-            val heading = conditions[Conditions.HEADING]?.let { column ->
-                HeadingUnit(column, checkNotNull(columns.condition(Conditions.HEADING)))
-            }
-            if (heading?.inDegrees == true) listOf(columns, all).forEach { it.toRadians(Conditions.HEADING) }
+            all.unread(read.times.filterIndexed { i, _ -> asked.unknown[i] }.toSet())
             val others = names.mapNotNull { columns.condition(it) }.toTypedArray()
             SquareReach.require(log, columns.values, columns.reference, *others)
             return DiagnosisLog(
@@ -116,7 +123,7 @@ class DiagnosisLog private constructor(
                 log.quantity,
                 reference,
                 // Where most references are missing how the truth went is not to be guessed.
-                if (all.size == columns.size || steps.isSparse || compare.isNotEmpty()) {
+                if (all.size == columns.size || reference == null || steps.isSparse || compare.isNotEmpty()) {
                     columns.series(reference != null, steps.isSparse, conditions.keys)
                 } else {
                     all.missing(conditions.keys)
@@ -127,7 +134,7 @@ class DiagnosisLog private constructor(
                 cut,
                 log.frame,
                 heading,
-                ConditionColumns(log, conditions).bridged(columns.times) { checkNotNull(columns.condition(it)) },
+                asked.bridged("left out"),
                 compare,
             )
         }

@@ -23,6 +23,18 @@ class LogColumns(private val conditions: Collection<String>) {
         rows += row
     }
 
+    /** These columns without the rows that are [leftOut]. */
+    internal fun without(leftOut: BooleanArray): LogColumns {
+        val kept = LogColumns(conditions)
+        rows.filterIndexedTo(kept.rows) { i, _ -> !leftOut[i] }
+        return kept
+    }
+
+    /** Takes the readings at [times], s, for not known; before any column is taken. */
+    internal fun unread(times: Set<Double>) {
+        for (row in rows) if (row[0] in times) row[3] = Double.NaN
+    }
+
     private fun column(i: Int) = DoubleArray(rows.size) { rows[it][i] }
 
     /** Makes radians of the degrees of the condition [name]; before any column is taken. */

@@ -13,20 +13,21 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** Numbers of conditions that are missing are told, and too many are refused: the user asked for the condition. */
+/** Rows of which a condition is not known are told, and too many are refused: the user asked for the condition. */
 class ConditionColumnsTest {
     @TempDir
     private lateinit var directory: Path
 
     /** A bench log of a row a second whose temperature is known in the rows that [isKnown]. */
-    private fun read(rows: Int = 400, isKnown: (Int) -> Boolean): DiagnosisLog {
+    private fun read(rows: Int = 400, isBlind: Boolean = false, isKnown: (Int) -> Boolean): DiagnosisLog {
         val text = "time_s,probe,sample,temp_c\n" + (0 until rows).joinToString("") { i ->
             "$i,${sin(i / 9.0)},${sin(i / 9.0)},${if (isKnown(i)) "${15 + i / 100.0}" else ""}\n"
         }
-        val wanted = mapOf(DiagnosisLog.REFERENCE to "sample", Conditions.TEMPERATURE to "temp_c")
-        val choice = LogChoice(value = "probe", conditions = wanted, needsPlace = false, keepsUnread = true)
+        val temperature = mapOf(Conditions.TEMPERATURE to "temp_c")
+        val wanted = if (isBlind) temperature else temperature + (DiagnosisLog.REFERENCE to "sample")
+        val choice = LogChoice(value = "probe", conditions = wanted, needsPlace = false, keepsUnread = !isBlind)
         val log = SurveyLog.open(directory.resolve("log.csv").apply { writeText(text) }, choice)
-        return DiagnosisLog.of(log, mapOf(Conditions.TEMPERATURE to "temp_c"), "sample")
+        return DiagnosisLog.of(log, temperature, "sample".takeUnless { isBlind })
     }
 
     private fun refused(isKnown: (Int) -> Boolean) = assertFailsWith<LogProblem> { read(isKnown = isKnown) }.message
@@ -42,14 +43,30 @@ class ConditionColumnsTest {
     fun aConditionThatIsMostlyMissingIsRefusedWithItsColumn() {
         val most = refused { it < 4 }
         assertContains(most.orEmpty(), "log.csv: column temp_c: expected a number for temperature in at least half")
-        assertContains(most.orEmpty(), "found numbers in 4 of 400 rows, the farthest row 396 s from one")
+        assertContains(most.orEmpty(), "found numbers in 4 of 400 rows")
         assertContains(refused { false }.orEmpty(), "found numbers in 0 of 400 rows")
     }
 
     @Test
-    fun aLongGapIsRefusedWithItsLength() {
-        val message = refused { it !in 100..199 }.orEmpty()
-        assertContains(message, "none of the others more than 30.0 s from one")
-        assertContains(message, "found numbers in 300 of 400 rows, the farthest row 50.0 s from one")
+    fun rowsOfALongGapAreLeftOutAndCounted() {
+        val log = read { it !in 100..199 }
+        assertEquals(
+            "the column temp_c has no number in 100 of 400 rows: in 60 of them temperature was taken from the " +
+                "numbers before and after, in proportion to time; 40 rows left out: more than 30.0 s from a number",
+            log.bridged.single(),
+        )
+        val left = (130..169).map { it.toDouble() }
+        assertEquals((0 until 400).map { it.toDouble() } - left.toSet(), log.columns.times.toList())
+        // What the sensor saw in these rows shows in the readings after them.
+        assertEquals(400, log.series.size)
+    }
+
+    @Test
+    fun withoutAReferenceTheRowsOfALongGapAreAGapOfTheLog() {
+        val log = read(isBlind = true) { it >= 100 }
+        assertContains(log.bridged.single(), "in 30 of them temperature was taken")
+        assertContains(log.bridged.single(), "; 70 rows left out: more than 30.0 s from a number")
+        assertEquals(330, log.series.size)
+        assertEquals(70.0, log.columns.times.first())
     }
 }
