@@ -49,11 +49,12 @@ internal class BlindDiagnosis(
             if (!search.steps.isHeld) base = search.stepped(base)
         }
         // Before finer waves, which look like half a row's delay.
-        val held = BlindHalfRow(search, base).held()
-        if (held != null) base = held
+        val halfRow = BlindHalfRow(search, base)
+        val turned = halfRow.held() ?: halfRow.ahead()
+        if (turned != null) base = turned
         val finer = search.deeper(base)
         if (finer != null && MissingWaves(search, base).areClear(finer)) base = search.begun(finer) else deeper = finer
-        return answer(base, isTurned = held != null)
+        return answer(base, isTurned = turned != null)
     }
 
     /** The model of a lag alone with finer waves, where those found at first may have been too few; it is asked once. */

@@ -3,9 +3,8 @@ package stillwater.diagnose
 import kotlin.math.abs
 
 /**
- * Whether the readings are half a row late because the truth is held from each row until the next, asked before all causes
- * are weighed: a log that is sampled so shows it in the lag alone, and all that is found before that is known is for
- * nothing.
+ * Whether the readings are half a row late, or ahead, because the truth is held over each row, asked before all causes are
+ * weighed: a log that is sampled so shows it in the lag alone, and all that is found before that is known is for nothing.
  */
 internal class BlindHalfRow(private val search: BlindSearch, private val base: BlindState) {
     /**
@@ -22,6 +21,22 @@ internal class BlindHalfRow(private val search: BlindSearch, private val base: B
         val isDelay = shapes.any { it.score > least && isHalfARow(it) }
         if (!isDelay || held.score < shapes.maxOf { it.score } - BlindDiagnosis.ONE_NUMBER) return null
         return search.turned(base, Steps.UNTIL_NEXT, least)
+    }
+
+    /**
+     * [base], a lag alone, with the truth going on evenly, where it was held over each row for a sensor that is as far ahead
+     * of the boat as that goes in half a row, which is much likelier where speeds differ and in turns; else null.
+     */
+    fun ahead(): BlindState? {
+        if (search.steps != Steps.HELD) return null
+        val evenly = search.copy()
+        val even = evenly.turned(base, Steps.EVEN, Double.NEGATIVE_INFINITY) ?: return null
+        val tries = BlindTrials(evenly, even)
+        val onWay = evenly.suited(evenly.improved(tries.begun(tries.attempt(Term(Cause.POSITION_OFFSET)), even)))
+        val arm = evenly.onArm(onWay)
+        val likeliest = maxOf(onWay.score, arm.score - evenly.anew(onWay, arm))
+        if (likeliest < base.score + BlindLag.MUCH) return null
+        return search.turned(base, Steps.EVEN, Double.NEGATIVE_INFINITY)
     }
 
     companion object {

@@ -31,12 +31,12 @@ class RigidArmTest {
         return water(east(time) + ahead * dx / way, north(time) + ahead * dy / way)
     }
 
-    private fun diagnosed(ahead: Double): DiagnosisResult {
+    private fun diagnosed(ahead: Double, isHeld: Boolean = false): DiagnosisResult {
         val random = Random(SEED)
         var state = truth(0.0, ahead)
         val values = DoubleArray(rows) { row ->
             for (k in 0 until if (row > 0) STEPS else 0) {
-                val time = row - 1 + (k + 0.5) / STEPS
+                val time = if (isHeld) row.toDouble() else row - 1 + (k + 0.5) / STEPS
                 state += (1 - exp(-1 / (STEPS * LAG))) * (truth(time, ahead) - state)
             }
             state + NOISE * random.nextGaussian()
@@ -52,6 +52,18 @@ class RigidArmTest {
 
     @Test
     fun aProbeBehindTheSternIsFoundWhereItIs() = assertFound(ahead = -1.5)
+
+    /** A truth that is held over each row is ahead by half a row, too, but in time: where speeds differ that is not the same. */
+    @Test
+    fun aProbeThatIsAheadByHalfARowsWayIsNoHeldTruth() = assertFound(ahead = 0.45)
+
+    @Test
+    fun aHeldTruthIsNoProbeAhead() {
+        val found = diagnosed(ahead = 0.0, isHeld = true)
+        assertEquals(Verdict.Consistent, found.verdict, "seed $SEED")
+        val lag = found.baseline.parameters.first { it.name == "time_constant_s" }.value
+        assertTrue(abs(lag - LAG) < 0.02 * LAG, "$lag, seed $SEED")
+    }
 
     /** The arm explains what is left of a way along the track alone, which a second cause would be named for. */
     private fun assertFound(ahead: Double) {
