@@ -108,7 +108,7 @@ public class Diagnosis private constructor(
     }
 
     private fun weighed(): Weighing {
-        val first = weighing(null)
+        val first = weighing(null).let { if (isAhead(it)) better(it, -HELD, Steps.EVEN) else it }
         // Whether steps are held shows only once the response is right: the other way is tried with what was named, and
         // with each beginning of it, because what came after may make up for the wrong way.
         // Where it moves in sharp steps a row's delay goes with the one way and half of it with the other, too much for
@@ -127,6 +127,12 @@ public class Diagnosis private constructor(
             weighed.last.model.steps == Steps.UNTIL_NEXT && weighed.chosen.any { it.term.cause == Cause.DEAD_TIME }
         if (isLate) return better(weighed, HELD, Steps.HELD)
         return led(weighed) ?: untilNext(weighed) ?: weighed
+    }
+
+    /** Whether a sensor ahead of the boat may explain more than the truth held over each step that [weighing] has. */
+    private fun isAhead(weighing: Weighing): Boolean {
+        if (weighing.base.model.steps != Steps.HELD || !weighing.hasPlace || unknown.isSharp) return false
+        return isProbeAhead(weighing.base, base(Steps.EVEN, weighing.base), used, longest, HELD)
     }
 
     /**

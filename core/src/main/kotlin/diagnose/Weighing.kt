@@ -47,6 +47,9 @@ internal class Weighing(
     /** Twice the log-likelihood of [last], less what its numbers would gain by chance. */
     val explained: Double get() = last.score - chosen.sumOf { it.cost }
 
+    /** Whether the log's speeds differ enough to tell an offset of place. */
+    val hasPlace: Boolean get() = terms.any { it.cause == Cause.POSITION_OFFSET }
+
     private val still by lazy { StillReadings(last) }
     private val faults by lazy { ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level) }
 

@@ -10,7 +10,7 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** A probe on a rigid arm, without a reference: where the boat turns, the probe is not where the boat was or will be. */
+/** A probe on a rigid arm: where the boat turns, the probe is not where the boat was or will be. */
 class RigidArmTest {
     private val rows = 900
 
@@ -31,7 +31,7 @@ class RigidArmTest {
         return water(east(time) + ahead * dx / way, north(time) + ahead * dy / way)
     }
 
-    private fun diagnosed(ahead: Double, isHeld: Boolean = false): DiagnosisResult {
+    private fun diagnosed(ahead: Double, hasReference: Boolean, isHeld: Boolean = false): DiagnosisResult {
         val random = Random(SEED)
         var state = truth(0.0, ahead)
         val values = DoubleArray(rows) { row ->
@@ -39,12 +39,13 @@ class RigidArmTest {
                 val time = if (isHeld) row.toDouble() else row - 1 + (k + 0.5) / STEPS
                 state += (1 - exp(-1 / (STEPS * LAG))) * (truth(time, ahead) - state)
             }
-            state + NOISE * random.nextGaussian()
+            state + (if (hasReference) HIDING else NOISE) * random.nextGaussian()
         }
         val times = DoubleArray(rows) { it.toDouble() }
         val x = DoubleArray(rows) { east(times[it]) }
         val y = DoubleArray(rows) { north(times[it]) }
-        return Diagnosis(MeasuredSeries(times, x, y, values, null)).run()
+        val reference = if (hasReference) DoubleArray(rows) { truth(times[it], 0.0) } else null
+        return Diagnosis(MeasuredSeries(times, x, y, values, reference)).run()
     }
 
     @Test
@@ -58,16 +59,21 @@ class RigidArmTest {
     fun aProbeThatIsAheadByHalfARowsWayIsNoHeldTruth() = assertFound(ahead = 0.45)
 
     @Test
+    fun norIsItBesideAReference() = assertFound(ahead = 0.45, hasReference = true)
+
+    @Test
     fun aHeldTruthIsNoProbeAhead() {
-        val found = diagnosed(ahead = 0.0, isHeld = true)
-        assertEquals(Verdict.Consistent, found.verdict, "seed $SEED")
-        val lag = found.baseline.parameters.first { it.name == "time_constant_s" }.value
-        assertTrue(abs(lag - LAG) < 0.02 * LAG, "$lag, seed $SEED")
+        for (hasReference in listOf(false, true)) {
+            val found = diagnosed(ahead = 0.0, hasReference, isHeld = true)
+            assertEquals(Verdict.Consistent, found.verdict, "seed $SEED")
+            val lag = found.baseline.parameters.first { it.name == "time_constant_s" }.value
+            assertTrue(abs(lag - LAG) < 0.02 * LAG, "$lag, seed $SEED")
+        }
     }
 
     /** The arm explains what is left of a way along the track alone, which a second cause would be named for. */
-    private fun assertFound(ahead: Double) {
-        val found = diagnosed(ahead)
+    private fun assertFound(ahead: Double, hasReference: Boolean = false) {
+        val found = diagnosed(ahead, hasReference)
         assertEquals(Verdict.Named(listOf(Cause.POSITION_OFFSET)), found.verdict, "seed $SEED")
         val numbers = checkNotNull(found.extended).parameters.associate { it.name to it.value }
         assertTrue(abs(numbers.getValue("behind_m") + ahead) < 0.05 * abs(ahead), "$numbers, seed $SEED")
@@ -77,6 +83,9 @@ class RigidArmTest {
     private companion object {
         const val SEED = 20261126L
         const val NOISE = 0.004
+
+        /** What hides by how much an arm of half a row's way leaves the way: of the water there a reference says nothing. */
+        const val HIDING = 0.02
         const val LAG = 5.0
         const val TURN = 16.0
         const val STEPS = 100
