@@ -141,11 +141,13 @@ internal class BlindDiagnosis(
         return rest.dropLast(1) + BlindStep(rest.last().trial, rest.last().round, state)
     }
 
+    private val arms by lazy { FarArms(search) }
+
     /** What the log says of a lag alone. */
     private lateinit var lag: BlindLag
 
     private fun round(model: BlindState, still: BlindState = search.still(model)) =
-        BlindRound(search, settings, lag, model, still, ::tell).also { rounds++ }
+        BlindRound(search, settings, lag, arms, model, still, ::tell).also { rounds++ }
 
     private fun forward(first: BlindRound): List<BlindStep> {
         val chosen = ArrayList<BlindStep>()

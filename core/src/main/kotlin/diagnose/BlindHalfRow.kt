@@ -30,9 +30,11 @@ internal class BlindHalfRow(private val search: BlindSearch, private val base: B
     fun ahead(): BlindState? {
         if (search.steps != Steps.HELD) return null
         val evenly = search.copy()
-        val even = evenly.turned(base, Steps.EVEN, Double.NEGATIVE_INFINITY) ?: return null
-        val tries = BlindTrials(evenly, even)
-        val onWay = evenly.suited(evenly.improved(tries.begun(tries.attempt(Term(Cause.POSITION_OFFSET)), even)))
+        val place = listOf(Term(Cause.POSITION_OFFSET))
+        val numbers = evenly.model(place, base.modes, base.water).carried(base.model, base.numbers)
+        val held = evenly.settled(place, numbers, base.fit.design.noise, base.variances, before = base)
+        val even = evenly.stepped(held).takeIf { it !== held } ?: return null
+        val onWay = evenly.fullySuited(even)
         val arm = evenly.onArm(onWay)
         val likeliest = maxOf(onWay.score, arm.score - evenly.anew(onWay, arm))
         if (likeliest < base.score + BlindLag.MUCH) return null

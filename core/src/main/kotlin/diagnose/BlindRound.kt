@@ -6,13 +6,14 @@ import kotlin.math.ln
  * All causes and looks on top of one model of a log without a reference.
  *
  * @param lag what the log says of a lag alone: where not even a time constant and a dead time can be told apart nothing
- *   between them can be named. @param settledStill the model on water that does not change. @param tell told how much of
- *   the round is done, 0..1.
+ *   between them can be named. @param arms looks for far arms. @param settledStill the model on water that does not
+ *   change. @param tell told how much of the round is done, 0..1.
  */
 internal class BlindRound(
     private val search: BlindSearch,
     private val settings: DiagnosisSettings,
     private val lag: BlindLag,
+    private val arms: FarArms,
     model: BlindState,
     private val settledStill: BlindState = search.still(model),
     private val tell: (Double) -> Unit,
@@ -110,12 +111,11 @@ internal class BlindRound(
 
     /** [trial], an offset of place, or the same on an arm that turns hide, if that explains more. */
     private fun far(trial: BlindTrial): BlindTrial {
-        val arm = search.farArm(state) ?: return trial
+        val arm = arms.likeliest(state) ?: return trial
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, arm.state)) } + arm.anew
         val found = tries.settled(trial, arm.state, best, searched(trial) + arm.searched)
         val gain = arm.state.score - state.score - arm.anew
-        val isSure = found.likelier > trial.likelier && gain > BEYOND_WAVES * found.inflation
-        return if (isSure) found else trial
+        return if (found.likelier > trial.likelier && gain > BEYOND_WAVES * found.inflation) found else trial
     }
 
     /** [trial], of which, if a drift, waves that are missing do as much: passes then differ by when they were. */

@@ -9,7 +9,13 @@ package stillwater.diagnose
  * @param even the same model as [held] with a truth that goes on evenly. @param used rows that are fitted.
  * @param longest the noise may be correlated over, s. @param margin twice the log-likelihood by which it must be better.
  */
-internal fun isProbeAhead(held: ModelFit, even: ModelFit, used: BooleanArray, longest: Double, margin: Double): Boolean {
+internal fun isProbeAhead(
+    held: ModelFit,
+    even: ModelFit,
+    used: BooleanArray,
+    longest: Double,
+    margin: Double,
+): Boolean {
     val term = Term(Cause.POSITION_OFFSET)
     if (even.model.slotOrNull(term) != null) return false
     val scales = even.model.scales
