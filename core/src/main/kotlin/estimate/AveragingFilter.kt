@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.field.FieldMap
 import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -16,9 +17,24 @@ import stillwater.model.Interval
 public class AveragingFilter(grid: Grid, prior: Interval) : CellEstimator(grid, prior) {
     private val sums = DoubleArray(grid.size)
 
+    /** The boat's cell, the sum of its readings, and how many of them the map has not been told of. */
+    private var stayCell = Grid.OUTSIDE
+    private var sum = 0.0
+    private var untold = 0
+
+    override val map: FieldMap get() {
+        settle()
+        return written
+    }
+
+    override fun count(cell: Int) {
+        // Together, when the map is told.
+    }
+
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
-        sums[cell] += value
-        map.setValue(cell, sums[cell] / map.readings(cell))
+        if (entered) enter(cell)
+        sum += value
+        untold++
     }
 
     override fun takeAll(
@@ -29,11 +45,27 @@ public class AveragingFilter(grid: Grid, prior: Interval) : CellEstimator(grid, 
         count: Int,
         step: Double,
     ) {
-        var sum = sums[cell]
+        if (entered) enter(cell)
+        var sum = sum
         for (i in 0 until count) sum += values[i]
+        this.sum = sum
+        untold += count
+    }
+
+    private fun enter(cell: Int) {
+        settle()
+        stayCell = cell
+        sum = sums[cell]
+    }
+
+    /** Tells the map what it was not told. */
+    private fun settle() {
+        if (untold == 0) return
+        val cell = stayCell
         sums[cell] = sum
-        map.countReadings(cell, count)
-        map.setValue(cell, sum / map.readings(cell))
+        written.countReadings(cell, untold)
+        written.setValue(cell, sum / written.readings(cell))
+        untold = 0
     }
 }
 

@@ -150,14 +150,17 @@ public class BayesianMap(
         }
         believed.countReading(cell)
         if (source.visits(cell) > believed.visits(cell)) believed.countVisit(cell)
-        if (source.conflicts(cell) > believed.conflicts(cell)) believed.countConflict(cell)
     }
 
     private fun refresh() {
         // Asked for, so that it is up to date.
         cells.map
         explain()
-        for (k in 0 until visitedCount) read(visited[k])
+        for (k in 0 until visitedCount) {
+            val cell = visited[k]
+            read(cell)
+            while (source.conflicts(cell) > believed.conflicts(cell)) believed.countConflict(cell)
+        }
         val most = work * maxOf(1, fresh)
         fresh = 0
         var done = learn(most / 2)

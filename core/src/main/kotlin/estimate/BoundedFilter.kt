@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.field.FieldMap
 import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
@@ -59,7 +60,8 @@ public data class BoundedFilterSettings(
  *
  * Source: the report, section 5, Algorithm 1. Differs: both branches there read "gradient < ε"; the first is taken as
  * gradient > ε, the second as gradient < −ε. Crossing policies and clearing are not in the report. O(windows), no
- * allocation.
+ * allocation. Readings of a
+ * stay wait until the boat leaves the cell or [map] is asked for.
  *
  * @param grid the cells.
  * @param prior bounds of a cell before any evidence, sensor units.
@@ -82,13 +84,33 @@ public class BoundedFilter(
         null
     }
 
+    /** The cell of the readings that the [stay] holds. */
+    private var stayCell = Grid.OUTSIDE
+
+    override val map: FieldMap get() {
+        settle()
+        return written
+    }
+
     override fun pace(step: Double, largest: Double) {
+        settle()
         stay?.pace(step, largest)
     }
 
+    override fun count(cell: Int) {
+        // Of a stay's readings those that are held are counted together.
+        if (stay == null) super.count(cell)
+    }
+
     override fun take(cell: Int, entered: Boolean, seconds: Double, value: Double, conditions: Conditions) {
-        if (entered && clearsOnEntry) clear()
-        learn(cell, value, if (stay != null) stay.add(seconds, value) else direction(seconds, value))
+        if (entered) enter(cell)
+        if (stay == null) return takeByWindows(cell, seconds, value)
+        if (stay.isFull) settle()
+        stay.hold(seconds, value)
+    }
+
+    private fun takeByWindows(cell: Int, seconds: Double, value: Double) {
+        learn(cell, value, direction(seconds, value))
     }
 
     override fun takeAll(
@@ -99,13 +121,20 @@ public class BoundedFilter(
         count: Int,
         step: Double,
     ) {
-        map.countReadings(cell, count)
-        if (stay != null && entered && clearsOnEntry && stay.addAll(times, values, count, step, largest)) {
-            learnAll(stay, cell, values, count)
+        settle()
+        if (stay != null && entered && clearsOnEntry && stay.holdAll(times, values, count, step, largest)) {
+            stayCell = cell
+            settle(stay)
         } else {
             stay?.pace(Double.NaN, 0.0)
-            for (i in 0 until count) take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
+            super.takeAll(cell, entered, times, values, count, step)
         }
+    }
+
+    private fun enter(cell: Int) {
+        settle()
+        stayCell = cell
+        if (clearsOnEntry) clear()
     }
 
     private fun clear() {
@@ -123,30 +152,33 @@ public class BoundedFilter(
         return StayWindow.direction(slopes.slope(), epsilon)
     }
 
-    /** Learns from the first [count] readings of the boat's [stay] in [cell], as from one after the other. */
-    private fun learnAll(stay: StayWindow, cell: Int, values: DoubleArray, count: Int) {
-        val lower = map.lower(cell)
-        val upper = map.upper(cell)
-        var highest = lower
-        var lowest = upper
-        for (i in StayWindow.FIRST until count) {
-            val direction = stay.direction(i)
-            val value = values[i]
-            if (direction > 0) {
-                if (value > highest) highest = value
-            } else if (direction < 0) {
-                if (value < lowest) lowest = value
-            }
-        }
+    private fun settle() {
+        if (stay != null && stay.holds) settle(stay)
+    }
+
+    /**
+     * Counts the readings that [stay] holds and learns from them, as from one after the other. Too big, by what is inline,
+     * to be compiled into who calls it, see [CellEstimator]: so [take] is short.
+     */
+    private fun settle(stay: StayWindow) {
+        val cell = stayCell
+        written.countReadings(cell, stay.size - stay.seen)
+        val lower = written.lower(cell)
+        val upper = written.upper(cell)
+        stay.look(lower, upper)
+        val highest = stay.highest
+        val lowest = stay.lowest
         if (highest > lowest) {
             // Bounds cross on the way, or did before: what comes of it depends on the order.
-            for (i in StayWindow.FIRST until count) learn(cell, values[i], stay.direction(i))
+            for (n in stay.seen until stay.size) learn(cell, stay.value(n), stay.direction(n))
         } else if (highest != lower || lowest != upper) {
             believe(cell, highest, lowest)
         }
+        stay.release()
     }
 
-    private fun learn(cell: Int, value: Double, direction: Int) {
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun learn(cell: Int, value: Double, direction: Int) {
         if (direction > 0) {
             raiseLower(cell, value)
         } else if (direction < 0) {
@@ -154,36 +186,39 @@ public class BoundedFilter(
         }
     }
 
-    private fun raiseLower(cell: Int, value: Double) {
-        if (value <= map.lower(cell)) return
-        var upper = map.upper(cell)
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun raiseLower(cell: Int, value: Double) {
+        if (value <= written.lower(cell)) return
+        var upper = written.upper(cell)
         if (value > upper) {
-            map.countConflict(cell)
+            written.countConflict(cell)
             upper = when (settings.crossing) {
                 CrossingPolicy.PLAIN -> upper
                 CrossingPolicy.SOFT -> value
-                CrossingPolicy.RESET -> maxOf(value, map.prior.upper)
+                CrossingPolicy.RESET -> maxOf(value, written.prior.upper)
             }
         }
         believe(cell, value, upper)
     }
 
-    private fun lowerUpper(cell: Int, value: Double) {
-        if (value >= map.upper(cell)) return
-        var lower = map.lower(cell)
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun lowerUpper(cell: Int, value: Double) {
+        if (value >= written.upper(cell)) return
+        var lower = written.lower(cell)
         if (value < lower) {
-            map.countConflict(cell)
+            written.countConflict(cell)
             lower = when (settings.crossing) {
                 CrossingPolicy.PLAIN -> lower
                 CrossingPolicy.SOFT -> value
-                CrossingPolicy.RESET -> minOf(value, map.prior.lower)
+                CrossingPolicy.RESET -> minOf(value, written.prior.lower)
             }
         }
         believe(cell, lower, value)
     }
 
-    private fun believe(cell: Int, lower: Double, upper: Double) {
-        map.setBounds(cell, lower, upper)
-        map.setValue(cell, lower / 2 + upper / 2)
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun believe(cell: Int, lower: Double, upper: Double) {
+        written.setBounds(cell, lower, upper)
+        written.setValue(cell, lower / 2 + upper / 2)
     }
 }

@@ -19,8 +19,8 @@ import kotlin.math.abs
  */
 public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimator {
     /**
-     * The map as far as it is written. Its counts are current; an estimator that puts off cells which the next reading
-     * would change anyway writes them when [map] is asked for.
+     * The map as far as it is written. Visits are current; an estimator that puts off cells which the next reading would
+     * change anyway, or readings, writes them when [map] is asked for.
      */
     protected val written: FieldMap = FieldMap(grid, prior)
 
@@ -50,12 +50,17 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         }
         // Where it was, later by as much as the last one, and no larger than any: finite, in order and in the same cell.
         lastSeconds = seconds
-        written.countReading(lastCell)
+        count(lastCell)
         take(lastCell, false, seconds, value, conditions)
         return ReadingUse.USED
     }
 
-    /** Takes a reading that is not like those before, or not usable. */
+    /**
+     * Takes a reading that is not like those before, or not usable.
+     *
+     * Java's compiler puts [update] into its callers if it is short, and into that whatever it calls and has no more than
+     * 325 bytes of bytecode (`FreqInlineSize`). This has more, because what it uses is inline, and so stays outside.
+     */
     private fun updateUnlike(
         seconds: Double,
         x: Double,
@@ -83,13 +88,14 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         }
         noticePace(newStep, abs(value))
         val entered = comeTo(cell, x, y)
-        written.countReading(cell)
+        count(cell)
         take(cell, entered, seconds, value, conditions)
         return ReadingUse.USED
     }
 
     /** Notices that the boat is at ([x], [y]) in [cell]. Whether it entered that. */
-    private fun comeTo(cell: Int, x: Double, y: Double): Boolean {
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun comeTo(cell: Int, x: Double, y: Double): Boolean {
         placeX = x
         placeY = y
         val entered = cell != lastCell
@@ -99,14 +105,16 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     }
 
     /** Notices that the boat is no longer in the last cell, nor known to be in another. */
-    private fun leaveCell() {
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun leaveCell() {
         lastCell = Grid.OUTSIDE
         placeX = Double.NaN
         leave()
     }
 
     /** Notices that a reading came [newStep] s after the last one, and is [size] from 0, sensor units. */
-    private fun noticePace(newStep: Double, size: Double) {
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun noticePace(newStep: Double, size: Double) {
         if (newStep == step && size <= largest) return
         step = if (newStep <= Double.MAX_VALUE) newStep else Double.NaN
         noticeSize(size)
@@ -114,7 +122,8 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
     }
 
     /** Notices that a reading is [size] from 0, sensor units. */
-    private fun noticeSize(size: Double) {
+    @Suppress("NOTHING_TO_INLINE")
+    private inline fun noticeSize(size: Double) {
         // Twice as large, so that a value that keeps growing seldom comes here.
         if (size > largest) largest = minOf(2 * size, Double.MAX_VALUE)
     }
@@ -189,6 +198,11 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
      */
     protected open fun pace(step: Double, largest: Double) {}
 
+    /** Counts a reading of [cell], which [take] gets next; an estimator that puts off readings counts them later. */
+    protected open fun count(cell: Int) {
+        written.countReading(cell)
+    }
+
     /**
      * Takes a reading that is finite, in order and in the grid.
      *
@@ -221,7 +235,7 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         step: Double,
     ) {
         for (i in 0 until count) {
-            written.countReading(cell)
+            count(cell)
             take(cell, entered && i == 0, times[i], values[i], Conditions.NONE)
         }
     }

@@ -1,7 +1,5 @@
 package stillwater.estimate
 
-import kotlin.math.abs
-
 /**
  * Which way the sensor goes by the report's windows: the slope of the last five running medians of three against ε.
  *
@@ -13,8 +11,9 @@ import kotlin.math.abs
  * underflow may add where h lies within [MOST] and its reciprocal. What is nearer, as slopes of a sensor with a coarse
  * resolution may be, and what comes in uneven steps is decided by the slope itself.
  *
- * Readings lie one after the other in arrays, those of a stay mostly from the first to the last: the slopes of a stay do
- * not wait for each other. O(1) a reading, no allocation.
+ * Readings lie one after the other in arrays, those of a stay mostly from the first to the last. They are held until
+ * somebody wants to know what they say, and then looked at together: no slope waits for another, and most are never
+ * asked for. O(1) a reading, no allocation.
  *
  * @param epsilon smallest slope that counts as one, sensor units/s, at least 0.
  */
@@ -26,12 +25,31 @@ internal class StayWindow(private val epsilon: Double) {
     private val medians = DoubleArray(CAPACITY)
 
     /** Readings since the start or the last clearing, less those that were dropped. */
-    private var size = 0
+    var size = 0
+        private set
+
+    /** The first of the readings that are held: that were not looked at yet. */
+    var seen = 0
+        private set
+
+    /** Whether a reading is held. */
+    val holds: Boolean get() = seen < size
+
+    /** Whether there is no room for another reading until those held are released. */
+    val isFull: Boolean get() = size == CAPACITY
+
+    /** What the last [look] found, sensor units. */
+    var highest = 0.0
+        private set
+
+    /** The same. */
+    var lowest = 0.0
+        private set
 
     /** The first of the readings, up to the newest, that came as [pace] was told last. */
     private var even = 0
 
-    /** A numerator nearer to 0 than this is of no slope that counts, and one farther than [steep] is of one. */
+    /** A numerator below this is of no slope above ε, and one above [steep] is; −∞ and ∞ where it tells nothing. */
     private var flat = 0.0
     private var steep = 0.0
     private val slope = SlopeWindow(SLOPES)
@@ -39,6 +57,7 @@ internal class StayWindow(private val epsilon: Double) {
     /** Forgets all readings. */
     fun clear() {
         size = 0
+        seen = 0
         even = 0
     }
 
@@ -51,52 +70,114 @@ internal class StayWindow(private val epsilon: Double) {
         val isUsable = step >= 1 / MOST && step <= MOST && largest <= MOST
         val threshold = 2 * SLOPES * step * epsilon
         val margin = MARGIN * largest + TINY
-        flat = if (isUsable) threshold - margin else 0.0
+        flat = if (isUsable) threshold - margin else Double.NEGATIVE_INFINITY
         steep = if (isUsable) threshold + margin else Double.POSITIVE_INFINITY
     }
 
-    /** Adds the reading [value], sensor units, taken at [seconds] s; both finite. The [direction] at it. */
-    fun add(seconds: Double, value: Double): Int {
-        if (size == CAPACITY) drop()
+    /** Adds the reading [value], sensor units, taken at [seconds] s; both finite. To be looked at later; not [isFull]. */
+    fun hold(seconds: Double, value: Double) {
         val n = size
-        size = n + 1
         times[n] = seconds
         values[n] = value
-        if (n < 2) return 0
-        medians[n] = MedianWindow.middle(values[n - 2], values[n - 1], value)
-        return direction(n)
+        size = n + 1
     }
 
     /**
-     * Forgets all and takes [count] readings that come [step] s after each other, none farther from 0 than [largest]: as
-     * that many calls of [add], whose answers [direction] then gives.
+     * Forgets all and holds [count] readings that come [step] s after each other, none farther from 0 than [largest].
      *
      * @param step NaN where steps differ.
      * @return whether it did: whether there are not too few or too many, and steps are alike.
      */
-    fun addAll(newTimes: DoubleArray, newValues: DoubleArray, count: Int, step: Double, largest: Double): Boolean {
+    fun holdAll(newTimes: DoubleArray, newValues: DoubleArray, count: Int, step: Double, largest: Double): Boolean {
         if (step.isNaN() || count < FIRST || count > CAPACITY) return false
         clear()
         pace(step, largest)
         newTimes.copyInto(times, 0, 0, count)
         newValues.copyInto(values, 0, 0, count)
-        for (i in 2 until count) medians[i] = MedianWindow.middle(newValues[i - 2], newValues[i - 1], newValues[i])
         size = count
         return true
     }
 
-    /** Of the slope at the reading [n]: 1 where it is above ε, −1 where it is below −ε, else 0; 0 where there is none. */
-    fun direction(n: Int): Int {
-        if (n - even >= FIRST) {
-            val rise = 2 * (medians[n] - medians[n - 4]) + (medians[n - 1] - medians[n - 3])
-            if (abs(rise) < flat) return 0
-            if (rise > steep) return 1
-            if (rise < -steep) return -1
-        } else if (n < FIRST) {
-            return 0
+    /**
+     * Looks at the readings that are held: [highest] is then the highest of [lower] and the values at which the sensor
+     * rises, [lowest] the lowest of [upper] and those at which it falls. Most are not beyond, and their slopes not asked.
+     */
+    fun look(lower: Double, upper: Double) {
+        val values = values
+        val medians = medians
+        for (n in maxOf(seen, 2) until size) medians[n] = MedianWindow.middle(values[n - 2], values[n - 1], values[n])
+        highest = lower
+        lowest = upper
+        val first = maxOf(seen, FIRST)
+        if (first - even >= FIRST && lookByNumerators(first)) return
+        for (n in first until size) {
+            val value = values[n]
+            if (value > highest && rises(n)) highest = value
+            if (value < lowest && falls(n)) lowest = value
         }
-        return directionOfSlope(n)
     }
+
+    /** Looks at the readings from [first] on, which came in even steps. Whether no slope need be asked. */
+    private fun lookByNumerators(first: Int): Boolean {
+        val flat = flat
+        val steep = steep
+        var highest = highest
+        var lowest = lowest
+        var isDecided = true
+        for (n in first until size) {
+            val value = values[n]
+            val rise = rise(n)
+            if (value > highest && !(rise < flat)) {
+                if (rise > steep) highest = value else isDecided = false
+            }
+            if (value < lowest && !(rise > -flat)) {
+                if (rise < -steep) lowest = value else isDecided = false
+            }
+        }
+        this.highest = highest
+        this.lowest = lowest
+        return isDecided
+    }
+
+    /** Holds no reading any more: all were looked at. */
+    fun release() {
+        if (isFull) drop()
+        seen = size
+    }
+
+    /** The value of the reading [n], sensor units. */
+    fun value(n: Int): Double = values[n]
+
+    /** Of the slope at the reading [n]: 1 where it is above ε, −1 where it is below −ε, else 0; 0 where there is none. */
+    fun direction(n: Int): Int = when {
+        n < FIRST -> 0
+        rises(n) -> 1
+        falls(n) -> -1
+        else -> 0
+    }
+
+    /** Whether the slope at the reading [n], at least [FIRST], is above ε. */
+    private fun rises(n: Int): Boolean {
+        if (n - even >= FIRST) {
+            val rise = rise(n)
+            if (rise < flat) return false
+            if (rise > steep) return true
+        }
+        return directionOfSlope(n) > 0
+    }
+
+    /** Whether it is below −ε. */
+    private fun falls(n: Int): Boolean {
+        if (n - even >= FIRST) {
+            val rise = rise(n)
+            if (rise > -flat) return false
+            if (rise < -steep) return true
+        }
+        return directionOfSlope(n) < 0
+    }
+
+    /** The numerator of the slope at the reading [n] where steps are even. */
+    private fun rise(n: Int) = 2 * (medians[n] - medians[n - 4]) + (medians[n - 1] - medians[n - 3])
 
     /** The same by the slope itself; its sums have the order of a ring, whose first place each fifth median takes. */
     private fun directionOfSlope(n: Int): Int {

@@ -88,6 +88,7 @@ class StayWindowTest {
             val window = StayWindow(epsilon)
             val medians = MedianWindow(StayWindow.MEDIANS)
             val slopes = SlopeWindow(StayWindow.SLOPES)
+            val held = ArrayList<Int>()
             // A ramp and a number of last digits, back and forth for longer than the window holds.
             for (i in 0 until 150) {
                 val even = if (i / 30 % 2 == 0) i % 30 else 30 - i % 30
@@ -98,8 +99,18 @@ class StayWindowTest {
                 if (medians.full) slopes.add(medians.time, medians.median)
                 val slope = if (slopes.full) slopes.slope() else 0.0
                 val expected = (if (slope > epsilon) 1 else 0) - (if (slope < -epsilon) 1 else 0)
-                assertEquals(expected, window.add(i * step, near), "$seed, reading $i")
+                window.hold(i * step, near)
+                held.add(expected)
                 answers[expected + 1]++
+                if (!window.isFull && random.nextInt(8) > 0) continue
+                window.look(Double.NEGATIVE_INFINITY, Double.POSITIVE_INFINITY)
+                val seen = window.seen until window.size
+                assertEquals(held, seen.map(window::direction), "$seed, to reading $i")
+                val (rising, falling) = listOf(1, -1).map { way -> seen.filter { held[it - seen.first] == way } }
+                assertEquals(rising.maxOfOrNull(window::value) ?: Double.NEGATIVE_INFINITY, window.highest, "$seed, $i")
+                assertEquals(falling.minOfOrNull(window::value) ?: Double.POSITIVE_INFINITY, window.lowest, "$seed, $i")
+                window.release()
+                held.clear()
             }
         }
         assertTrue(answers.all { it > 10_000 }, answers.joinToString())
@@ -150,7 +161,11 @@ class StayWindowTest {
                 if (random.nextBoolean()) {
                     filter.updateAll(times, x, 0.5, values, count)
                 } else {
-                    for (i in 0 until count) filter.update(BoatTime(times[i]), x, 0.5, values[i], Conditions.NONE)
+                    for (i in 0 until count) {
+                        filter.update(BoatTime(times[i]), x, 0.5, values[i], Conditions.NONE)
+                        // To be asked for the map in the middle of a stay changes nothing.
+                        if (random.nextInt(16) == 0) filter.map
+                    }
                 }
             }
         }

@@ -69,9 +69,9 @@ class BoundsLawTest {
         var tightened = 0
         forEvery(cases = 2000, ::Survey) { survey ->
             val filter = BoundedFilter(survey.grid, survey.prior, survey.settings)
-            val map = filter.map
             // No tolerance: the bounds are the sensor's own outputs, and it never passes the truth.
             survey.run(filter) { cell ->
+                val map = filter.map
                 val truth = survey.truths[cell]
                 assertTrue(
                     truth in map.lower(cell)..map.upper(cell),
@@ -79,6 +79,7 @@ class BoundsLawTest {
                 )
                 assertEquals(0, map.conflicts(cell))
             }
+            val map = filter.map
             tightened += (0 until survey.grid.size).count {
                 map.lower(it) > survey.prior.lower || map.upper(it) < survey.prior.upper
             }
