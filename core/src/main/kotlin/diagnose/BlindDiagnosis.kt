@@ -173,6 +173,7 @@ internal class BlindDiagnosis(
             val isShadow = ahead > settings.separation
             if (look != null && isShadow && ahead > BlindLag.MUCH && !round.isOfWater(look)) break
             val state = added(round.state, best)
+            if (isCurved(round, best, state)) break
             val isLast = chosen.size + 1 == settings.mostCauses
             val next = if (isShadow || !isLast) round(state) else null
             if (isShadow && checkNotNull(next).strongestLook != null) break
@@ -185,6 +186,11 @@ internal class BlindDiagnosis(
         if (chosen.size == settings.mostCauses && ended?.state !== chosen.last().state) ended = null
         return needed(chosen)
     }
+
+    /** Whether a curved calibration is far likelier than [best], an asymmetric response, with which [state] is. */
+    private fun isCurved(round: BlindRound, best: BlindTrial, state: BlindState): Boolean =
+        best.term?.cause == Cause.ASYMMETRIC_RESPONSE &&
+            CurvedReadings(search, round.state).score > state.score + BlindLag.MUCH
 
     /**
      * The causes of [round] that may be meant. Where something changed, for certain, others have water that changes beside

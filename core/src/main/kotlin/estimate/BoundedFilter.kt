@@ -59,9 +59,8 @@ public data class BoundedFilterSettings(
  * then sees is conflicts.
  *
  * Source: the report, section 5, Algorithm 1. Differs: both branches there read "gradient < ε"; the first is taken as
- * gradient > ε, the second as gradient < −ε. Crossing policies and clearing are not in the report. O(windows), no
- * allocation. Readings of a
- * stay wait until the boat leaves the cell or [map] is asked for.
+ * gradient > ε, the second as gradient < −ε. Crossing policies and clearing are not in the report. Readings of a stay wait
+ * until the boat leaves the cell or [map] is asked for. O(windows), no allocation.
  *
  * @param grid the cells.
  * @param prior bounds of a cell before any evidence, sensor units.

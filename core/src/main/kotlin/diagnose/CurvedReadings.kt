@@ -1,0 +1,71 @@
+package stillwater.diagnose
+
+import kotlin.math.ln
+import kotlin.math.sqrt
+
+/**
+ * What a curved calibration, which is no cause of the list, would explain of a log without a reference.
+ *
+ * Where nobody knows the water it is nearly like a lag that is faster one way than the other: of a sensor that follows
+ * u' = (water − u)/τ and shows g(u) the reading follows g(water) by (d − g″/(2 g′²) d²)/τ, d = g(water) − reading, an
+ * asymmetric one by (d ± a |d|)/τ. So the two are held against each other, this one with the readings z made straight:
+ * (z − m)/s = v + κ v², of mean m and spread s. A density of s v is one of z by dv/dz s.
+ *
+ * @param state a model without it.
+ */
+internal class CurvedReadings(private val search: BlindSearch, private val state: BlindState) {
+    private val readings = state.model.series.values
+    private val mean = readings.average()
+    private val spread = sqrt(readings.sumOf { (it - mean) * (it - mean) } / readings.size)
+
+    /** Readings of mean 0 and spread 1. */
+    private val standard = DoubleArray(readings.size) { (readings[it] - mean) / spread }
+
+    /** Twice the log-likelihood, as [BlindState.score], with the likeliest curvature. */
+    val score: Double by lazy {
+        val shares = SHARES.flatMap { listOf(it, -it) }.sorted()
+        val straight = shares.zip(search.loops.all(shares, ::begun))
+        val tried = (straight + (0.0 to Curved(search, state, 0.0))).sortedBy { it.first }
+        val at = tried.indices.maxBy { tried[it].second.score }
+        val near = (at - 1..at + 1).mapNotNull(tried::getOrNull)
+        val finer = if (near.size == NEAR) begun(top(near.map { it.first to it.second.score })) else tried[at].second
+        val best = maxOf(finer, tried[at].second, compareBy { it.score })
+        best.search.fullySuited(best.state).score + best.gain
+    }
+
+    /** [state] in readings made straight; [gain] is what dv/dz adds. */
+    private class Curved(val search: BlindSearch, val state: BlindState, val gain: Double) {
+        val score: Double get() = state.score + gain
+    }
+
+    /** Begun with a [share] of the largest curvature with which readings rise with the water everywhere, by its sign. */
+    private fun begun(share: Double): Curved {
+        val farthest = if (share > 0) -standard.min() else standard.max()
+        val curvature = share / (4 * farthest)
+        // (dz/dv)², of standard readings.
+        val slopes = DoubleArray(standard.size) { 1 + 4 * curvature * standard[it] }
+        val change = DoubleArray(standard.size) { spread * (standard[it] - (sqrt(slopes[it]) - 1) / (2 * curvature)) }
+        val gain = -slopes.indices.filter { search.used[it] }.sumOf { ln(slopes[it]) }
+        val straight = search.less(change)
+        // Noise is of the readings as they are.
+        val noise = state.fit.design.noise
+        val spreads = DoubleArray(standard.size) { noise.spread[it] / sqrt(slopes[it]) }
+        return Curved(straight, straight.improved(straight.again(state, BlindNoise(noise.noise, spreads))), gain)
+    }
+
+    /** Where the parabola through three [points] is highest; the middle one of them is the highest. */
+    private fun top(points: List<Pair<Double, Double>>): Double {
+        val (left, middle, right) = points
+        val before = (middle.second - left.second) / (middle.first - left.first)
+        val after = (right.second - middle.second) / (right.first - middle.first)
+        val curve = (after - before) / (right.first - left.first)
+        if (!(curve < 0)) return middle.first
+        return (left.first + middle.first - before / curve) / 2
+    }
+
+    private companion object {
+        /** Shares that are tried. */
+        val SHARES = listOf(0.05, 0.1, 0.2, 0.4, 0.8)
+        const val NEAR = 3
+    }
+}
