@@ -174,7 +174,7 @@ public class Diagnosis private constructor(
         val rows = used.copyOf()
         val fewer = (listOf(shifts) + shifts.map { listOf(it) } + listOf(emptyList())).distinct()
         val (before, gone) = SHARES.flatMap { share ->
-            val before = Diagnosis(series.withQuieter(rowBefore(share)), settings, loops, share) { }
+            val before = Diagnosis(series.withQuieter(rowBefore(series, unknown.isGap, share)), settings, loops, share) { }
             fewer.map { gone -> Triple(before, gone, before.ahead(first, gone, rows)) }
         }.maxBy { it.third }.takeIf { it.third >= 0 } ?: return null
         val second = before.weighing(Steps.HELD, first.spikes)
@@ -196,15 +196,6 @@ public class Diagnosis private constructor(
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         val fit = first.last.without(gone, tau, scales(first.base, Steps.HELD), Steps.HELD, rows, longest)
         return fit.score - kept - first.explained + if (gone.isEmpty()) -HELD else SHIFT
-    }
-
-    /** [share] of the reference of the row before in that of each row, but where that is a gap away. */
-    private fun rowBefore(share: Double): DoubleArray {
-        val reference = requireNotNull(series.reference) { "the row before needs a reference" }
-        return DoubleArray(series.size) { i ->
-            val before = reference[if (i == 0 || unknown.isGap[i]) i else i - 1]
-            reference[i] + share * (before - reference[i])
-        }
     }
 
     /** This log with the truth that a reference with a lag of [rows] is late for. */

@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import stillwater.model.Conditions
+import kotlin.math.abs
 import kotlin.math.atan2
 import kotlin.math.hypot
 
@@ -94,6 +95,19 @@ public class MeasuredSeries private constructor(
 
     /** A longer step than this is a gap, over which the sensor is taken to have settled, s. */
     internal val gap: Double = gap(period)
+
+    private val ticks: Lazy<DoubleArray?> = like?.ticks ?: lazy {
+        val steps = DoubleArray(times.size) { if (it == 0) 1.0 else (times[it] - times[it - 1]) / period }
+        val whole = DoubleArray(times.size) { maxOf(Math.rint(steps[it]), 1.0) }
+        val isTicking = steps.indices.count { abs(steps[it] - whole[it]) < OFF_TICK } >= TICKING * times.size
+        whole.takeIf { isTicking && whole.any { it > 1 } }
+    }
+
+    /**
+     * How many usual steps the one before row [i] is long, 1 at least: more where rows are missing between clock ticks; 1
+     * where steps are uneven.
+     */
+    internal fun ticks(i: Int): Double = ticks.value?.get(i) ?: 1.0
 
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
     public val speed: DoubleArray = like?.speed ?: filled(Conditions.SPEED) ?: fromPositions()
@@ -221,6 +235,11 @@ public class MeasuredSeries private constructor(
         /** A longer step than this is a gap where rows are usually [period] apart, s. */
         internal fun gap(period: Double): Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
 
+        /** Of a usual step: nearer to a whole number of them is one. */
+        private const val OFF_TICK = 0.1
+
+        /** Share of the steps that are. */
+        private const val TICKING = 0.9
         private const val GAP_STEPS = 20
         private const val GAP_SECONDS = 60.0
         private const val SPEED_SECONDS = 2.5

@@ -36,12 +36,12 @@ internal class NeighbourSums(private val times: DoubleArray, val isBent: Boolean
     fun same(i: Int) = if (i == 0) put(0, 0, 1.0, 0.0, 0.0, 0.0) else put(i, i - 1, 0.0, 1.0, 0.0, 0.0)
 
     /**
-     * Row [i] is what a lag of [tau] s shows of an input that is held over the step before it, as that row or, where
-     * [isUntilNext], the one before says.
+     * Row [i] is what a lag of [tau] s shows of an input that is held over the step before it: the share [earlier] of the
+     * row before, the rest of that row.
      */
-    fun hold(i: Int, tau: Double, isUntilNext: Boolean) {
+    fun hold(i: Int, tau: Double, earlier: Double) {
         val fade = exp(-(times[i] - times[i - 1]) / tau)
-        if (isUntilNext) put(i, i - 1, 1 - fade, 0.0, 0.0, 0.0, fade) else put(i, i - 1, 0.0, 1 - fade, 0.0, 0.0, fade)
+        put(i, i - 1, earlier * (1 - fade), (1 - earlier) * (1 - fade), 0.0, 0.0, fade)
     }
 
     /** Row [i] is what a lag of [tau] s shows of an input that is the spline; see [Spline.follower]. */

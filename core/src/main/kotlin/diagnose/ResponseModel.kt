@@ -139,7 +139,7 @@ internal class ResponseModel(
         for (i in 0 until n) {
             when {
                 i == 0 || isGap(i, series.times[i] - series.times[i - 1]) -> sums.same(i)
-                held -> sums.hold(i, taus[i] * factor, isUntilNext)
+                held -> sums.hold(i, taus[i] * factor, earlier(i))
                 else -> sums.follow(i, taus[i] * factor)
             }
         }
@@ -217,7 +217,7 @@ internal class ResponseModel(
         var fade = 0.0
         for (i in 1 until n) {
             val dt = series.times[i] - series.times[i - 1]
-            val before = if (held) input[over(i)] else input[i - 1]
+            val before = if (held) heldOver(i, input) else input[i - 1]
             val after = if (held) before else input[i]
             val tau = taus[i] * if ((before + after) / 2 > state) up else down
             if (isGap(i, dt)) {
@@ -265,8 +265,17 @@ internal class ResponseModel(
         return now
     }
 
-    /** The row that says what is held over the step before row [i]. */
-    private fun over(i: Int) = if (isUntilNext) i - 1 else i
+    /** What of [input] is held over the step before row [i]. */
+    private fun heldOver(i: Int, input: DoubleArray): Double {
+        val earlier = earlier(i)
+        return earlier * input[i - 1] + (1 - earlier) * input[i]
+    }
+
+    /** The share of row [i] - 1 in what is held over the step from it to row [i]; of missing rows between, in their mean. */
+    private fun earlier(i: Int): Double {
+        val ticks = series.ticks(i)
+        return ((ticks - 1) / 2 + if (isUntilNext) 1 else 0) / ticks
+    }
 
     /** Whether nothing is known of the step of [dt] s before row [i]: the sensor is taken to have settled. */
     private fun isGap(i: Int, dt: Double) = isGap?.get(i) ?: (dt > series.gap)

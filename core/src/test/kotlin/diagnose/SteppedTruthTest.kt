@@ -47,6 +47,18 @@ class SteppedTruthTest {
     }
 
     @Test
+    fun rowsThatAreMissingFromItsLogMakeNoDeadTime() {
+        for (share in listOf(0.0, 1.0)) {
+            val values = noisy(stepped(smooth, 8.0, share), 0.003)
+            val kept = (0 until n).filter { it == 0 || random.nextInt(25) > 0 }
+            fun of(column: (Int) -> Double) = DoubleArray(kept.size) { column(kept[it]) }
+            val still = DoubleArray(kept.size)
+            val series = MeasuredSeries(of { it.toDouble() }, still, still, of { values[it] }, of { smooth[it] })
+            assertEquals(Verdict.Consistent, Diagnosis(series).run().verdict, "$share, ${n - kept.size} rows missing")
+        }
+    }
+
+    @Test
     fun whatIsBesideATruthHeldUntilTheNextRowIsNamedAlone() {
         val values = noisy(stepped(smooth, 8.0, 1.0), 0.01)
         for (i in values.indices) values[i] += 2e-4 * i
