@@ -174,7 +174,8 @@ public class Diagnosis private constructor(
         val rows = used.copyOf()
         val fewer = (listOf(shifts) + shifts.map { listOf(it) } + listOf(emptyList())).distinct()
         val (before, gone) = SHARES.flatMap { share ->
-            val before = Diagnosis(series.withQuieter(rowBefore(series, unknown.isGap, share)), settings, loops, share) { }
+            val held = series.withQuieter(rowBefore(series, unknown.isGap, share))
+            val before = Diagnosis(held, settings, loops, share) { }
             fewer.map { gone -> Triple(before, gone, before.ahead(first, gone, rows)) }
         }.maxBy { it.third }.takeIf { it.third >= 0 } ?: return null
         val second = before.weighing(Steps.HELD, first.spikes)
