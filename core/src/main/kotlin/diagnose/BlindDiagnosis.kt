@@ -190,7 +190,7 @@ internal class BlindDiagnosis(
     /** Whether a curved calibration is far likelier than [best], an asymmetric response, with which [state] is. */
     private fun isCurved(round: BlindRound, best: BlindTrial, state: BlindState): Boolean =
         best.term?.cause == Cause.ASYMMETRIC_RESPONSE &&
-            CurvedReadings(search, round.state).score > state.score + BlindLag.MUCH
+            CurvedReadings(search, round.state).score > state.score + ONE_NUMBER
 
     /**
      * The causes of [round] that may be meant. Where something changed, for certain, others have water that changes beside

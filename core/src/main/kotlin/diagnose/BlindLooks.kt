@@ -63,7 +63,7 @@ internal class BlindLooks(
         val age = standard(series.times)
         add(
             shown("the value itself (a curved calibration, or water that was not the same on all passes)") { value, _ ->
-                listOf(product(value, value), cube(value))
+                listOf(product(value, value))
             },
         )
         add(changing("the rate of change") { _, rate -> followed(product(rate, age)) })
@@ -164,8 +164,6 @@ internal class BlindLooks(
     }
 
     private fun product(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
-
-    private fun cube(a: DoubleArray) = DoubleArray(n) { a[it] * a[it] * a[it] }
 
     private fun rise(column: DoubleArray) = DoubleArray(n) { series.rise(column, it, it) }
 
