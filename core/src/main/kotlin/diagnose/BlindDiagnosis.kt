@@ -187,7 +187,7 @@ internal class BlindDiagnosis(
         return needed(chosen)
     }
 
-    /** Whether a curved calibration is far likelier than [best], an asymmetric response, with which [state] is. */
+    /** Whether a curved calibration is likelier than [best], an asymmetric response, with which [state] is. */
     private fun isCurved(round: BlindRound, best: BlindTrial, state: BlindState): Boolean =
         best.term?.cause == Cause.ASYMMETRIC_RESPONSE &&
             CurvedReadings(search, round.state).score > state.score + ONE_NUMBER

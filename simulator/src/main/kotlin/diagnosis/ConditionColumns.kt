@@ -27,7 +27,7 @@ internal class ConditionColumns(
     }
 
     /** Rows in which one of the conditions is not known, and no number near enough in time to say what it was. */
-    val unknown: BooleanArray get() = BooleanArray(times.size) { i -> gaps.values.any { it.isFar[i] } }
+    val unknown: BooleanArray = BooleanArray(times.size) { i -> gaps.values.any { it.isFar[i] } }
 
     /**
      * What was done where numbers are missing, one sentence for each condition with such rows, without a full stop.
