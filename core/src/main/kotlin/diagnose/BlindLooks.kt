@@ -8,7 +8,6 @@ import kotlin.math.expm1
 import kotlin.math.ln
 import kotlin.math.pow
 import kotlin.math.sin
-import kotlin.math.sqrt
 
 /**
  * Looks for what no cause of the list explains in a log without a reference.
@@ -168,15 +167,6 @@ internal class BlindLooks(
     private fun rise(column: DoubleArray) = DoubleArray(n) { series.rise(column, it, it) }
 
     private fun standard(column: DoubleArray) = Standard(column).of(column)
-
-    /** What makes [column] of mean 0 and spread 1. */
-    private inner class Standard(column: DoubleArray) {
-        private val mean = column.average()
-        private val spread = sqrt(column.sumOf { (it - mean) * (it - mean) } / n)
-
-        /** Another column by the same mean and spread. */
-        fun of(other: DoubleArray) = DoubleArray(n) { if (spread > 0) (other[it] - mean) / spread else 0.0 }
-    }
 
     private companion object {
         const val SLOWEST = 0.02

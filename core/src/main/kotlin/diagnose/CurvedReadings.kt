@@ -14,22 +14,17 @@ import kotlin.math.sqrt
  * @param state a model without it.
  */
 internal class CurvedReadings(private val search: BlindSearch, private val state: BlindState) {
-    private val readings = state.model.series.values
-    private val mean = readings.average()
-    private val spread = sqrt(readings.sumOf { (it - mean) * (it - mean) } / readings.size)
-
-    /** Readings of mean 0 and spread 1. */
-    private val standard = DoubleArray(readings.size) { (readings[it] - mean) / spread }
+    private val scale = Standard(state.model.series.values)
+    private val standard = scale.of(state.model.series.values)
 
     /** Twice the log-likelihood, as [BlindState.score], with the likeliest curvature. */
     val score: Double by lazy {
-        val shares = SHARES.flatMap { listOf(it, -it) }.sorted()
-        val straight = shares.zip(search.loops.all(shares, ::begun))
-        val tried = (straight + (0.0 to Curved(search, state, 0.0))).sortedBy { it.first }
-        val at = tried.indices.maxBy { tried[it].second.score }
-        val near = (at - 1..at + 1).mapNotNull(tried::getOrNull)
-        val finer = if (near.size == NEAR) begun(top(near.map { it.first to it.second.score })) else tried[at].second
-        val best = maxOf(finer, tried[at].second, compareBy { it.score })
+        val shares = (SHARES.flatMap { listOf(it, -it) } + 0.0).sorted()
+        val tried = search.loops.all(shares, ::begun)
+        val at = tried.indices.maxBy { tried[it].score }
+        val near = (at - 1..at + 1).filter { it in tried.indices }.map { shares[it] to tried[it].score }
+        val finer = if (near.size == NEAR) begun(top(near)) else tried[at]
+        val best = maxOf(finer, tried[at], compareBy { it.score })
         best.search.fullySuited(best.state).score + best.gain
     }
 
@@ -44,7 +39,8 @@ internal class CurvedReadings(private val search: BlindSearch, private val state
         val curvature = share / (4 * farthest)
         // (dz/dv)², of standard readings.
         val slopes = DoubleArray(standard.size) { 1 + 4 * curvature * standard[it] }
-        val change = DoubleArray(standard.size) { spread * (standard[it] - (sqrt(slopes[it]) - 1) / (2 * curvature)) }
+        // v = (dz/dv − 1)/2κ, which is 2z/(dz/dv + 1).
+        val change = DoubleArray(standard.size) { scale.spread * standard[it] * (1 - 2 / (sqrt(slopes[it]) + 1)) }
         val gain = -slopes.indices.filter { search.used[it] }.sumOf { ln(slopes[it]) }
         val straight = search.less(change)
         // Noise is of the readings as they are.

@@ -18,14 +18,27 @@ internal class CrossingTrack(private val rows: Int) {
     val truth = DoubleArray(rows) { water(x[it], y[it]) }
 
     /** What the last of [lags], s, in a row shows of [water] at each row, stepped a hundred times as often. */
-    fun shown(vararg lags: Double, water: (Double, Double) -> Double = ::water): DoubleArray {
-        val states = DoubleArray(lags.size) { water(x[0], y[0]) }
+    fun shown(vararg lags: Double, water: (Double, Double) -> Double = ::water): DoubleArray =
+        stepped(lags.size, water) { i, _ -> lags[i] }
+
+    /** The same of one lag of [rising] s, and of [falling] s where the water is below what it shows. */
+    fun shownUnevenly(rising: Double, falling: Double): DoubleArray =
+        stepped(1, ::water) { _, above -> if (above > 0) rising else falling }
+
+    /** What the last of [count] lags in a row shows; [lag] is told which, and how far what it follows is above it. */
+    private inline fun stepped(
+        count: Int,
+        water: (Double, Double) -> Double,
+        lag: (Int, Double) -> Double,
+    ): DoubleArray {
+        val states = DoubleArray(count) { water(x[0], y[0]) }
         return DoubleArray(rows) { row ->
             for (k in 0 until if (row > 0) STEPS else 0) {
                 val time = row - 1 + (k + 0.5) / STEPS
                 var input = water(east(time), north(time))
-                for (i in lags.indices) {
-                    states[i] += (1 - exp(-1 / (STEPS * lags[i]))) * (input - states[i])
+                for (i in states.indices) {
+                    val above = input - states[i]
+                    states[i] += (1 - exp(-1 / (STEPS * lag(i, above)))) * above
                     input = states[i]
                 }
             }
