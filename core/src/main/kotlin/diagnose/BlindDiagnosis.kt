@@ -64,7 +64,10 @@ internal class BlindDiagnosis(
     private fun answer(likeliest: BlindState, isTurned: Boolean = false): DiagnosisResult {
         // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
         val still = search.still(likeliest)
-        val lags = if (still.score > likeliest.score - FAR_CHANGE) {
+        val changing = likeliest.score - still.score
+        val lags = if (changing in 0.0..NO_CHANGE) {
+            listOf(BlindLag(search, likeliest))
+        } else if (changing < FAR_CHANGE) {
             loops.all(listOf(likeliest, still).distinct()) { state -> BlindLag(search, state).also { it.likeliest } }
         } else {
             listOf(BlindLag(search, likeliest, still.takeIf { !likeliest.isResolved }))
@@ -282,6 +285,9 @@ internal class BlindDiagnosis(
 
         /** Share of the work that the search for the lag is. */
         private const val SEARCH = 0.5
+
+        /** Twice the gain in log-likelihood of water that changes that is none. */
+        const val NO_CHANGE = 2.0
 
         /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
         const val FAR_CHANGE = 300.0

@@ -16,11 +16,16 @@ internal class BlindHalfRow(private val search: BlindSearch, private val base: B
         val least = base.score + BlindLag.MUCH
         val held = search.copy().turned(base, Steps.UNTIL_NEXT, least) ?: return null
         val tries = BlindTrials(search, base)
-        val terms = BlindTerms.of(search, hasShape = true).filter { it.cause in BlindTerms.OF_LAG }
-        val shapes = search.loops.all(terms) { search.suited(search.improved(tries.begun(tries.attempt(it), base))) }
-        val isDelay = shapes.any { it.score > least && isHalfARow(it) }
-        if (!isDelay || held.score < shapes.maxOf { it.score } - BlindDiagnosis.ONE_NUMBER) return null
-        return search.turned(base, Steps.UNTIL_NEXT, least)
+        fun begun(term: Term) = search.improved(tries.begun(tries.attempt(term), base))
+        val late = search.suited(begun(Term(Cause.DEAD_TIME)))
+        // A delay that is free takes some of what waves that are missing do.
+        val freedom = if (base.isResolved) BlindDiagnosis.ONE_NUMBER else BlindLag.MUCH
+        if (late.score < least || !isHalfARow(late) || held.score < late.score - freedom) return null
+        // Of those that shift readings another may explain more: an offset of place, where speeds differ.
+        val others = BlindTerms.of(search, hasShape = true).filter { it.cause in RIVALS }
+        val rivals = search.loops.all(others, ::begun).filter { it.score > held.score - FAR_BEHIND }
+        val likeliest = search.loops.all(rivals, search::suited).maxOfOrNull { it.score } ?: held.score
+        return if (held.score >= likeliest - BlindDiagnosis.ONE_NUMBER) search.begun(held) else null
     }
 
     /**
@@ -42,6 +47,11 @@ internal class BlindHalfRow(private val search: BlindSearch, private val base: B
     }
 
     companion object {
+        private val RIVALS = setOf(Cause.SECOND_ORDER_RESPONSE, Cause.POSITION_OFFSET)
+
+        /** Twice the log-likelihood that noise of its own does not make up for. */
+        private const val FAR_BEHIND = 300.0
+
         /** Whether [state] has a dead time of about half a row. */
         fun isHalfARow(state: BlindState): Boolean {
             val slot = state.model.slotOrNull(Term(Cause.DEAD_TIME)) ?: return false

@@ -75,7 +75,7 @@ internal class BlindRound(
         val all = loops.all(terms, tries::attempt)
         tell(TRIED)
         // Water that changes in time may have taken what the sensor does.
-        val isOther = still !== state && changing > NO_CHANGE
+        val isOther = still !== state && changing > BlindDiagnosis.NO_CHANGE
         val isFar = changing >= BlindDiagnosis.FAR_CHANGE
         // Water that would change by very much, and waves that are missing, both come of a response that is wrong.
         val both = terms.filter {
@@ -93,16 +93,22 @@ internal class BlindRound(
             all.filter { it.name in onQuiet || it.pValue < settings.level } +
             // Something changed: whether it is a drift is asked, however little of it water that changes has left.
             all.filter { it.term?.cause == Cause.DRIFT && changing > CHANGING_TOO }
-        loops.all(all) {
-            val other = other(it)
-            val settled = when {
-                isBlurred && it.term?.cause in BlindSearch.LINEAR -> resolved(it, other)
-                it in likely || it.term?.cause == Cause.TWO_PATH_RESPONSE -> settled(it, other)
-                else -> it
-            }
-            val placed = if (mayBeOnArm(it)) far(settled) else settled
-            if (isOfLag(placed)) doubted(placed) else placed.atMost(0.0)
+        fun weighed(trial: BlindTrial): BlindTrial {
+            val cause = trial.term?.cause
+            // Responses are begun anew in blurred water, whatever their first steps gain, and so is a slow path anywhere.
+            val isAsked = (isBlurred && cause in BlindSearch.LINEAR) || cause == Cause.TWO_PATH_RESPONSE
+            val settled = if (isAsked || trial in likely) settled(trial, other(trial)) else trial
+            val clear = if (isBlurred) BeyondWaves.of(settled, search) else settled
+            val placed = if (mayBeOnArm(trial)) far(clear) else clear
+            return if (isOfLag(placed)) doubted(placed) else placed.atMost(0.0)
         }
+        fun gained(trial: BlindTrial) = maxOf(trial.gain, other(trial)?.gain ?: 0.0)
+        val leader = all.maxBy(::gained)
+        val lead = weighed(leader)
+        // What is far behind one that is sure is no rival of it, and is asked again once that is in the model.
+        fun isBehind(trial: BlindTrial) = lead.pValue < settings.level && trial.term?.cause !in BlindDiagnosis.SLOW &&
+            trial.name !in onQuiet && MissingWaves.most(gained(trial)) < lead.likelier
+        loops.all(all) { if (it === leader) lead else if (isBehind(it)) it else weighed(it) }
     }
 
     /** Whether [trial] is an offset of place; coarse rounding makes a likelihood so rugged that other waves gain by chance. */
@@ -115,7 +121,7 @@ internal class BlindRound(
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, arm.state)) } + arm.anew
         val found = tries.settled(trial, arm.state, best, searched(trial) + arm.searched)
         val gain = arm.state.score - state.score - arm.anew
-        return if (found.likelier > trial.likelier && gain > BEYOND_WAVES * found.inflation) found else trial
+        return if (found.likelier > trial.likelier && gain > BeyondWaves.GAIN * found.inflation) found else trial
     }
 
     /** [trial], of which, if a drift, waves that are missing do as much: passes then differ by when they were. */
@@ -138,20 +144,6 @@ internal class BlindRound(
         if (trial.term?.cause == Cause.DRIFT) return true
         val isSlow = trial.term?.cause in BlindDiagnosis.SLOW
         return trial.ratio > LIKELY && !(isSlow && trial.ratio * trial.inflation < changing / 2)
-    }
-
-    /**
-     * [trial] on top of a model whose finest waves are strong. It counts where no finer ones are missing beside it:
-     * what they would do, passes over the same water that contradict each other, a wrong response does, too. Else
-     * it counts where it explains more than missing waves could be taken for, as an arm does that leaves the way in turns.
-     */
-    private fun resolved(trial: BlindTrial, other: BlindTrial?): BlindTrial {
-        val settled = settled(trial, other)
-        val goesWithMore = trial.term?.cause !in SHAPES && settled.ratio > BEYOND_WAVES
-        val isClear = goesWithMore || settled.state?.let {
-            it.isResolved || FinerWaves.isNone(it, search) || search.isOnArm(it, BEYOND_WAVES * settled.inflation)
-        } == true
-        return if (isClear) settled else settled.atMost(0.0)
     }
 
     /**
@@ -192,7 +184,10 @@ internal class BlindRound(
             return heldAgainstChange(checkNotNull(other), onStill)
         }
         val quieter = onQuiet[trial.name]?.let { search.climbed(found(checkNotNull(quiet), it)) }
-        val onWay = listOfNotNull(onState, onStill, onStill?.let { search.opened(it) }, quieter).maxBy { it.score }
+        val own = listOfNotNull(onState, onStill, quieter)
+        // Water that changes besides adds to what explains something.
+        val isWorthIt = own.any { it.score > state.score + HOPELESS }
+        val onWay = (own + listOfNotNull(onStill?.takeIf { isWorthIt }?.let(search::opened))).maxBy { it.score }
         val searched = searched(trial)
         val first = tries.settled(trial, onWay, state.score, searched)
         if (first.pValue > settings.level) {
@@ -381,20 +376,10 @@ internal class BlindRound(
         /** Causes that are given water and noise of their own from quiet still water on. */
         const val MOST_QUIET = 3
 
-        /** Twice the gain in log-likelihood of water that changes that is none. */
-        const val NO_CHANGE = 2.0
-
         /** Twice the gain in log-likelihood that water which changes must add to a drift or a jump to be kept beside it. */
         const val CHANGING_TOO = 10.0
 
-        /** The same that water finer than was resolved does not give a response of another shape. */
-        const val BEYOND_WAVES = 100.0
-
         /** The same that waves which are missing do not give a look at the response: they gave 30 and 36 (191070, 195170). */
         const val BEYOND_MISSING = 45.0
-
-        /** Responses that missing waves look like: they go with no other quantity than the way, as speed or warmth. */
-        val SHAPES =
-            setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE, Cause.POSITION_OFFSET)
     }
 }

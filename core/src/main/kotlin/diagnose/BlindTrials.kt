@@ -54,8 +54,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     fun begun(trial: BlindTrial, without: BlindState): BlindState {
         val term = checkNotNull(trial.term)
         val model = checkNotNull(trial.model)
-        val starts = if (term.cause in BlindSearch.LINEAR) Starts(asFit, model, term).all() else emptyList()
-        val others = starts.map {
+        val others = Starts(asFit, model, term).far().map {
             search.settled(model.terms, it, without.fit.design.noise, without.variances, before = without)
         }
         return (others + search.with(without, trial)).maxBy { it.score }

@@ -11,20 +11,23 @@ internal class MissingWaves(private val search: BlindSearch, private val state: 
 
     /** Whether a log that is as likely as [finer] with finer waves has no cause that comes near it without them. */
     fun areClear(finer: BlindState): Boolean {
-        val least = (finer.score - state.score - NEAR) / FURTHER
-        return least > 0 && search.loops.all(BlindTerms.of(search, hasShape = true)) { gain(it) < least }.all { it }
+        val gain = finer.score - state.score
+        if (most(0.0) >= gain) return false
+        val trials = search.loops.all(BlindTerms.of(search, hasShape = true), tries::attempt)
+        if (trials.any { most(it.gain) >= gain }) return false
+        val responses = trials.filter { it.term?.cause in BlindSearch.LINEAR }
+        return search.loops.all(responses, ::gain).all { most(it) < gain }
     }
 
-    /** Twice the gain in log-likelihood of [term] at its first steps, with water of its own where it is a response. */
-    private fun gain(term: Term): Double {
-        val trial = tries.attempt(term)
-        if (term.cause !in BlindSearch.LINEAR) return trial.gain
-        return maxOf(trial.gain, search.improved(tries.begun(trial, state)).score - state.score)
-    }
+    /** Twice the gain in log-likelihood of [trial], a response, at its first steps with water of its own. */
+    private fun gain(trial: BlindTrial) = search.improved(tries.begun(trial, state)).score - state.score
 
-    private companion object {
+    companion object {
         /** Times that a cause may gain more at its end than at its first steps, and units besides. */
-        const val FURTHER = 3.0
-        const val NEAR = 50.0
+        private const val FURTHER = 3.0
+        private const val NEAR = 50.0
+
+        /** The most that a cause may gain at its end that gains [first] at its first steps, in twice the log-likelihood. */
+        fun most(first: Double): Double = FURTHER * first + NEAR
     }
 }

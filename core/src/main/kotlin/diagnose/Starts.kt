@@ -18,7 +18,22 @@ internal class Starts(
     private val spread = sqrt(squares(fit.residuals) / maxOf(series.size, 1))
 
     /** The places, as full sets of numbers; a time constant that is not fitted stays as it is. */
-    fun all(): List<DoubleArray> = places().onEach { numbers ->
+    fun all(): List<DoubleArray> = kept(places())
+
+    /**
+     * Places far from where a fit's first steps lead, for responses that a lag and water which suits it may hide. Of 163
+     * fits that gained more than 3 in twice the log-likelihood one was likelier from any other place of [all], by 4
+     * (docs/performance.md, "Beginnings").
+     */
+    fun far(): List<DoubleArray> = kept(
+        when (term.cause) {
+            Cause.SECOND_ORDER_RESPONSE -> listOf(behind(EQUAL))
+            Cause.DEAD_TIME -> listOf(series.period, tau / 3).map(::late)
+            else -> emptyList()
+        },
+    )
+
+    private fun kept(places: List<DoubleArray>) = places.onEach { numbers ->
         if (!fit.free[ResponseModel.TIME_CONSTANT]) numbers[ResponseModel.TIME_CONSTANT] = tau
         model.parameters.forEachIndexed { i, parameter ->
             numbers[i] = numbers[i].coerceIn(parameter.lower, parameter.upper)
@@ -42,9 +57,7 @@ internal class Starts(
 
     private fun of(cause: Cause): List<DoubleArray> = when (cause) {
         Cause.ASYMMETRIC_RESPONSE -> listOf(0.2, -0.2).map { with(it) }
-        Cause.SECOND_ORDER_RESPONSE -> listOf(0.1, 0.35, 0.8).map { share ->
-            with(tau * share).also { it[ResponseModel.TIME_CONSTANT] = tau * (1 - share / 2) }
-        }
+        Cause.SECOND_ORDER_RESPONSE -> listOf(0.1, 0.35, EQUAL).map(::behind)
         Cause.TWO_PATH_RESPONSE -> listOf(
             Triple(0.8, 5.0, 0.15),
             Triple(0.9, 20.0, 0.1),
@@ -53,9 +66,7 @@ internal class Starts(
         Cause.DEAD_TIME -> {
             val late = listOf(series.period, tau / 3, tau, 3 * tau)
             val early = listOf(-series.period / 3, -series.period, -3 * series.period)
-            (if (term.isEitherWay) early + late else late).map { delay ->
-                with(delay).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3) }
-            }
+            (if (term.isEitherWay) early + late else late).map(::late)
         }
         Cause.SLEW_LIMIT -> rates().map { with(it) }
         Cause.FLOW_DEPENDENT_RESPONSE -> listOf(0.2, -0.2).map { with(it) }
@@ -73,6 +84,13 @@ internal class Starts(
         Cause.OFFSET_STEPS, Cause.CROSS_SENSITIVITY, Cause.DRIFT -> listOf(extended())
         else -> listOf(extended())
     }
+
+    /** A second lag of [share] of the first. */
+    private fun behind(share: Double) =
+        with(tau * share).also { it[ResponseModel.TIME_CONSTANT] = tau * (1 - share / 2) }
+
+    /** A delay of [delay] s, of which some is in the time constant so far. */
+    private fun late(delay: Double) = with(delay).also { it[ResponseModel.TIME_CONSTANT] = maxOf(tau - delay, tau / 3) }
 
     /** A delay of [delay] s, which is the new number where that is not [value], taken off the time constant. */
     private fun inPlace(delay: Double, value: Double = delay) =
@@ -102,6 +120,9 @@ internal class Starts(
             Cause.TEMPERATURE_DEPENDENT_RESPONSE to 0.01,
         )
         val IN_PROPORTION = STEPS.keys
+
+        /** The second lag over the first, where the two are nearly equal. */
+        const val EQUAL = 0.8
 
         /** A small share of the slow path. */
         const val SHARE = 0.01
