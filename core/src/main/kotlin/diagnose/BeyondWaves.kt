@@ -35,7 +35,7 @@ internal object BeyondWaves {
         val cause = trial.term?.cause
         val isMore = when {
             trial.ratio <= 0 || state.isResolved -> true
-            cause in OF_VALUE -> trial.ratio > SHARE * state.fit.rows
+            cause in OF_VALUE -> trial.ratio > SHARE * state.fit.rows || !FinerWaves.areMissing(state, search)
             cause !in BlindSearch.LINEAR -> true
             trial.ratio > if (cause in SHAPES) MOST * state.fit.rows else GAIN -> true
             else -> FinerWaves.isNone(state, search) || search.isOnArm(state, GAIN * trial.inflation)

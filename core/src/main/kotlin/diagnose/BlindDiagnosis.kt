@@ -38,10 +38,10 @@ internal class BlindDiagnosis(
                 series,
                 Passes.tooFew(share, LEAST_PASSES, "%.2g".format(Locale.ROOT, wave / Passes.NEAR), series.placeUnit),
                 // Single readings stick out of those beside them, whether or not the boat comes back.
-                BlindOutliers(base).rows,
+                BlindOutliers(search, base).rows,
             )
         }
-        val loose = BlindOutliers(base)
+        val loose = BlindOutliers(search, base)
         if (loose.rows.isNotEmpty()) {
             loose.rows.forEach { search.used[it] = false }
             base = search.improved(search.evened(base))
@@ -91,7 +91,7 @@ internal class BlindDiagnosis(
         val end = if (chosen.isEmpty()) first else ended ?: round(last)
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }
-        return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(last), given)
+        return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(search, last), given)
             .of(first, chosen, sets, end)
     }
 

@@ -5,7 +5,7 @@ import kotlin.math.sign
 import kotlin.math.sqrt
 
 /** Single readings that the model of [state] leaves far off, among all rows. */
-internal class BlindOutliers(state: BlindState) {
+internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     private val series = state.model.series
     private val noise = state.fit.design.noise
     private val spread = sqrt(state.variance)
@@ -37,13 +37,19 @@ internal class BlindOutliers(state: BlindState) {
     /** After a jump the next reading stays; after an outlier it comes back. */
     private fun isSingle(i: Int): Boolean {
         val off = abs(residuals[i] - (residuals[i - 1] + residuals[i + 1]) / 2)
-        return Spikes.isSingle(residuals, i) && off > STEPS * resolution && isAlone(i) && !isJump(i)
+        return Spikes.isSingle(residuals, i) && off > STEPS * resolution && isAlone(i) && !isJump(i) && !isCorner(i)
     }
 
     /** Whether the readings about [i] are off as a jump beside it makes them, which stays, more than a single one does. */
     private fun isJump(i: Int): Boolean {
         val jump = maxOf(alike(Neighbours.ABOUT_JUMP, i - REACH), alike(Neighbours.ABOUT_JUMP, i - REACH + 1))
         return jump > alike(Neighbours.ABOUT_SINGLE, i - REACH)
+    }
+
+    /** Whether the readings about [i] are off as a corner makes them, clearly more than a single one does. */
+    private fun isCorner(i: Int): Boolean {
+        val corner = Neighbours.ABOUT_CORNER.maxOf { alike(it, i - REACH) }
+        return corner > alike(Neighbours.ABOUT_SINGLE, i - REACH) + CLEARLY
     }
 
     /** How much of the squares of how far readings from row [from] on are off the [shape] explains. */
@@ -71,15 +77,15 @@ internal class BlindOutliers(state: BlindState) {
         }
     }
 
-    /** Rows about a jump: there neither the rows beside nor the model foretell a single reading. */
-    private val isAboutJump = BooleanArray(series.size).also { out ->
+    /** Rows about a jump or a corner: there neither the rows beside nor the model foretell a single reading. */
+    private val isAboutFront = BooleanArray(series.size).also { out ->
         for (i in inside) {
             val isFarthest = abs(off[i]) >= maxOf(abs(off[i - 1]), abs(off[i + 1]))
-            if (isFarthest && abs(off[i]) > TAIL && isJump(i)) out.fill(true, i - REACH, i + REACH + 1)
+            if (isFarthest && abs(off[i]) > TAIL && (isJump(i) || isCorner(i))) out.fill(true, i - REACH, i + REACH + 1)
         }
     }
 
-    private val columns = inside.filterNot { isAboutJump[it] }.let { rows ->
+    private val columns = inside.filterNot { isAboutFront[it] }.let { rows ->
         listOf(off, evened(z)).map { column -> DoubleArray(rows.size) { column[rows[it]] } }
     }
 
@@ -93,22 +99,21 @@ internal class BlindOutliers(state: BlindState) {
     private val isTailed = both.sumOf { it.ratio } < columns.sumOf(Spikes::tails) - TAILED
 
     /**
-     * The two in one; null where the noise has heavy tails, as that of coarse rounding, or where the far ones are gathered
-     * where it is larger.
+     * The two in one; null where the noise has heavy tails, as that of coarse rounding, where the far ones are gathered
+     * where it is larger, or where the water lacks waves, which leave much in few rows.
      * The rows beside say less of each reading, what the model leaves holds what the model gets wrong: the ratio is the
      * geometric mean of both, and half as much again as the less at most.
      */
-    private val mixture: Mixture? = if (isTailed || resolution > spread || isGathered(state)) {
-        null
-    } else {
+    private val mixture: Mixture? = run {
+        val saysNothing = isTailed || resolution > spread || isGathered(state) || FinerWaves.areMissing(state, search)
         val (less, more) = both.sortedBy { it.ratio }
-        less.copy(ratio = minOf(sqrt(less.ratio * more.ratio), MOST_TIMES * less.ratio))
+        less.copy(ratio = minOf(sqrt(less.ratio * more.ratio), MOST_TIMES * less.ratio)).takeUnless { saysNothing }
     }
 
     private fun isGathered(state: BlindState): Boolean {
         val free = BooleanArray(state.numbers.size)
         val fit = ModelFit(state.model, state.numbers, free, noise.noise, state.residuals, z, state.score)
-        return LocalSpread.isConcentrated(fit, inside.filter { abs(off[it]) > TAIL && !isAboutJump[it] })
+        return LocalSpread.isConcentrated(fit, inside.filter { abs(off[it]) > TAIL && !isAboutFront[it] })
     }
 
     /**
@@ -153,6 +158,9 @@ internal class BlindOutliers(state: BlindState) {
 
         /** Numbers of a mixture: share, size and spread. */
         const val MIXED = 3
+
+        /** Twice a log-likelihood, by readings' robust deviations, that is no chance. */
+        const val CLEARLY = 4.0
 
         /** Of these only one in two thousand is no outlier. */
         const val TAIL = 3.5

@@ -105,10 +105,17 @@ internal class BlindRound(
         fun gained(trial: BlindTrial) = maxOf(trial.gain, other(trial)?.gain ?: 0.0)
         val leader = all.maxBy(::gained)
         val lead = weighed(leader)
+
         // What is far behind one that is sure is no rival of it, and is asked again once that is in the model.
         fun isBehind(trial: BlindTrial) = lead.pValue < settings.level && trial.term?.cause !in BlindDiagnosis.SLOW &&
             trial.name !in onQuiet && MissingWaves.most(gained(trial)) < lead.likelier
-        loops.all(all) { if (it === leader) lead else if (isBehind(it)) it else weighed(it) }
+        loops.all(all) {
+            when {
+                it === leader -> lead
+                isBehind(it) -> it
+                else -> weighed(it)
+            }
+        }
     }
 
     /** Whether [trial] is an offset of place; coarse rounding makes a likelihood so rugged that other waves gain by chance. */

@@ -24,6 +24,10 @@ internal object FinerWaves {
     /** Power of missing waves over the noise's that is not more than the noise. */
     private const val NOISE = 1.0
 
+    /** Whether the water of [state] was not given all its waves: columns were too few, or finer ones hold more than the noise. */
+    fun areMissing(state: BlindState, search: BlindSearch): Boolean =
+        !state.isResolved && (state.modes.isCut || !isNone(state, search))
+
     /** Whether such waves hold no more than the noise does. */
     fun isNone(state: BlindState, search: BlindSearch): Boolean = excess(state, search) < 1 + NOISE
 

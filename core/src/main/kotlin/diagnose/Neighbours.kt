@@ -23,6 +23,18 @@ internal object Neighbours {
         if (k < REACH) -beyond else beyond
     }
 
+    /**
+     * The same from three rows before one that is at a corner, or half a row before or behind it: readings change by 1 a
+     * row more from there on, as those of a lag do beyond a sharp front.
+     */
+    val ABOUT_CORNER: List<DoubleArray> = listOf(-0.5, 0.0, 0.5).map { corner ->
+        fun bent(k: Int) = abs(k - corner) / 2
+        DoubleArray(2 * REACH + 1) { i ->
+            val k = i - REACH
+            bent(k) - (1..REACH).sumOf { WEIGHTS[it - 1] * (bent(k - it) + bent(k + it)) }
+        }
+    }
+
     /** Variance of a row less what is foretold of it, over that of white noise. */
     val errorVariance: Double = 1 + 2 * squares(WEIGHTS)
 

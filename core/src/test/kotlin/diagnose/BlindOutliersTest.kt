@@ -38,7 +38,8 @@ class BlindOutliersTest {
         val white = CorrelatedNoise(times, 0.0, 10.0, BooleanArray(n) { true })
         val even = BlindNoise(white, DoubleArray(n) { 1.0 })
         val numbers = doubleArrayOf(3.5, 1.0, 0.0, 0.0)
-        return BlindOutliers(BlindSearch(series).settled(emptyList(), numbers, even, DoubleArray(0), ROUNDS, modes))
+        val search = BlindSearch(series)
+        return BlindOutliers(search, search.settled(emptyList(), numbers, even, DoubleArray(0), ROUNDS, modes))
     }
 
     @Test
