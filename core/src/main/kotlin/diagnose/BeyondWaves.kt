@@ -23,8 +23,7 @@ internal object BeyondWaves {
         setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE, Cause.POSITION_OFFSET)
 
     /** Causes that go with how readings rise and fall, as what is left does where water has fronts that waves round off. */
-    private val OF_VALUE =
-        setOf(Cause.HYSTERESIS, Cause.ASYMMETRIC_RESPONSE, Cause.SLEW_LIMIT, Cause.SATURATION)
+    private val OF_VALUE = setOf(Cause.HYSTERESIS, Cause.ASYMMETRIC_RESPONSE, Cause.SLEW_LIMIT)
 
     /**
      * [trial] where it explains more; nothing else. No finer waves are missing beside it, or it explains more than missing
