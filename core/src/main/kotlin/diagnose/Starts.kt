@@ -29,6 +29,8 @@ internal class Starts(
         when (term.cause) {
             Cause.SECOND_ORDER_RESPONSE -> listOf(behind(EQUAL))
             Cause.DEAD_TIME -> listOf(series.period, tau / 3).map(::late)
+            // 195263 is found from there alone, where it gains nothing yet.
+            Cause.POSITION_OFFSET -> of(term.cause)
             else -> emptyList()
         },
     )
