@@ -15,12 +15,8 @@ internal object BeyondWaves {
      */
     private const val SHARE = 0.05
 
-    /** The same of responses that missing waves look like. */
+    /** The same of other shapes of the lag, which missing waves look like: they go with no quantity but the way. */
     private const val MOST = 0.25
-
-    /** Responses that missing waves look like: they go with no other quantity than the way, as speed or warmth. */
-    private val SHAPES =
-        setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.TWO_PATH_RESPONSE, Cause.POSITION_OFFSET)
 
     /** Causes that go with how readings rise and fall, as what is left does where water has fronts that waves round off. */
     private val OF_VALUE = setOf(Cause.HYSTERESIS, Cause.ASYMMETRIC_RESPONSE, Cause.SLEW_LIMIT)
@@ -36,7 +32,7 @@ internal object BeyondWaves {
             trial.ratio <= 0 || state.isResolved -> true
             cause in OF_VALUE -> trial.ratio > SHARE * state.fit.rows || !FinerWaves.areMissing(state, search)
             cause !in BlindSearch.LINEAR -> true
-            trial.ratio > if (cause in SHAPES) MOST * state.fit.rows else GAIN -> true
+            trial.ratio > if (cause in BlindTerms.OF_LAG) MOST * state.fit.rows else GAIN -> true
             else -> FinerWaves.isNone(state, search) || search.isOnArm(state, GAIN * trial.inflation)
         }
         return if (isMore) trial else trial.atMost(0.0)

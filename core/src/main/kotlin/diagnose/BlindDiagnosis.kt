@@ -68,7 +68,7 @@ internal class BlindDiagnosis(
         val lags = if (changing in 0.0..NO_CHANGE) {
             listOf(BlindLag(search, likeliest))
         } else if (changing < FAR_CHANGE) {
-            loops.all(listOf(likeliest, still).distinct()) { state -> BlindLag(search, state).also { it.likeliest } }
+            loops.all(listOf(likeliest, still)) { state -> BlindLag(search, state).also { it.likeliest } }
         } else {
             listOf(BlindLag(search, likeliest, still.takeIf { !likeliest.isResolved }))
         }

@@ -104,11 +104,16 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
      * The rows beside say less of each reading, what the model leaves holds what the model gets wrong: the ratio is the
      * geometric mean of both, and half as much again as the less at most.
      */
-    private val mixture: Mixture? = run {
-        val saysNothing = isTailed || resolution > spread || isGathered(state) || FinerWaves.areMissing(state, search)
+    private val mixture: Mixture? = if (isTailed || resolution > spread || isGathered(state)) {
+        null
+    } else {
         val (less, more) = both.sortedBy { it.ratio }
-        less.copy(ratio = minOf(sqrt(less.ratio * more.ratio), MOST_TIMES * less.ratio)).takeUnless { saysNothing }
+        val told = less.copy(ratio = minOf(sqrt(less.ratio * more.ratio), MOST_TIMES * less.ratio))
+        // Missing waves are looked for, which takes long, only where it would say something.
+        told.takeUnless { chance(it) < 1 && FinerWaves.areMissing(state, search) }
     }
+
+    private fun chance(mixture: Mixture) = minOf(1.0, DOUBT * Evidence.pValue(mixture.ratio, MIXED))
 
     private fun isGathered(state: BlindState): Boolean {
         val free = BooleanArray(state.numbers.size)
@@ -122,7 +127,7 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
      */
     val pValue: Double = minOf(
         Evidence.poissonTail(rows.size, series.size * if (isTailed) BEYOND_TAILED else BEYOND),
-        mixture?.let { minOf(1.0, DOUBT * Evidence.pValue(it.ratio, MIXED)) } ?: 1.0,
+        mixture?.let(::chance) ?: 1.0,
     )
 
     /** How many and how far; null where there are none. */
