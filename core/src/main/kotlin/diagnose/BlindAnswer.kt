@@ -317,8 +317,16 @@ internal class BlindAnswer(
         /** [value] with three significant digits. */
         fun three(value: Double) = "%.3g".format(java.util.Locale.ROOT, value)
 
-        /** The result for a log that cannot show anything, because of [why], but that the rows [off] are far off. */
-        fun none(series: MeasuredSeries, why: String, off: List<Int> = emptyList()): DiagnosisResult {
+        /**
+         * The result for a log that cannot show anything, because of [why], but that the rows [off] are far off, and what
+         * [warnings] say.
+         */
+        fun none(
+            series: MeasuredSeries,
+            why: String,
+            off: List<Int> = emptyList(),
+            warnings: List<String> = emptyList(),
+        ): DiagnosisResult {
             val nothing = ModelAssessment(
                 emptyList(),
                 0.0,
@@ -340,7 +348,7 @@ internal class BlindAnswer(
                 null,
                 emptyList(),
                 off,
-                listOfNotNull("${Spikes.words(off.size)} the readings beside.".takeIf { off.isNotEmpty() }),
+                listOfNotNull("${Spikes.words(off.size)} the readings beside.".takeIf { off.isNotEmpty() }) + warnings,
             )
         }
     }

@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import java.util.Locale
+import kotlin.math.sqrt
 
 /**
  * The diagnosis of a log without a reference: the water is inferred with the sensor, from passes over the same place.
@@ -37,8 +38,8 @@ internal class BlindDiagnosis(
             return BlindAnswer.none(
                 series,
                 Passes.tooFew(share, LEAST_PASSES, "%.2g".format(Locale.ROOT, wave / Passes.NEAR), series.placeUnit),
-                // Single readings stick out of those beside them, whether or not the boat comes back.
                 BlindOutliers(search, base).rows,
+                ofReadings(base),
             )
         }
         val loose = BlindOutliers(search, base)
@@ -55,6 +56,16 @@ internal class BlindDiagnosis(
         val finer = search.deeper(base)
         if (finer != null && MissingWaves(search, base).areClear(finer)) base = search.begun(finer) else deeper = finer
         return answer(base, isTurned = turned != null)
+    }
+
+    /** What readings show by themselves, whether or not the boat comes back, in words; [base] is the model of a lag alone. */
+    private fun ofReadings(base: BlindState): List<String> {
+        val rounding = CoarseRounding(series, search.used, search.scales.resolution)
+        val still = StillReadings(base.asFit(search.free(base.model))).words(settings.level)
+        return listOfNotNull(
+            rounding.words().takeIf { rounding.isCoarse(sqrt(base.variance)) },
+            still?.let { "${it.replaceFirstChar(Char::uppercase)}." },
+        )
     }
 
     /** The model of a lag alone with finer waves, where those found at first may have been too few; it is asked once. */

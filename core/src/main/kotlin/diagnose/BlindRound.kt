@@ -103,19 +103,21 @@ internal class BlindRound(
             return if (isOfLag(placed)) doubted(placed) else placed.atMost(0.0)
         }
         fun gained(trial: BlindTrial) = maxOf(trial.gain, other(trial)?.gain ?: 0.0)
-        val leader = all.maxBy(::gained)
-        val lead = weighed(leader)
+        fun isSure(trial: BlindTrial) = trial.pValue < settings.level
+        val (best, second, third) = all.sortedByDescending(::gained)
+        var asked = mapOf(best to weighed(best))
+        if (asked.values.none(::isSure) && gained(best) > MissingWaves.most(0.0)) {
+            asked = asked + listOf(second, third).let { it.zip(loops.all(it, ::weighed)) }
+        }
+        val lead = asked.values.filter(::isSure).maxByOrNull { it.likelier }
 
         // What is far behind one that is sure is no rival of it, and is asked again once that is in the model.
-        fun isBehind(trial: BlindTrial) = lead.pValue < settings.level && trial.term?.cause !in BlindDiagnosis.SLOW &&
-            trial.name !in onQuiet && MissingWaves.most(gained(trial)) < lead.likelier
-        loops.all(all) {
-            when {
-                it === leader -> lead
-                isBehind(it) -> it
-                else -> weighed(it)
-            }
+        // Of what is slow, water that changes may have taken as much as that explains.
+        fun isBehind(trial: BlindTrial): Boolean {
+            val taken = if (trial.term?.cause in BlindDiagnosis.SLOW) changing else 0.0
+            return lead != null && trial.name !in onQuiet && MissingWaves.most(gained(trial) + taken) < lead.likelier
         }
+        loops.all(all) { asked[it] ?: if (isBehind(it)) it else weighed(it) }
     }
 
     /** Whether [trial] is an offset of place; coarse rounding makes a likelihood so rugged that other waves gain by chance. */

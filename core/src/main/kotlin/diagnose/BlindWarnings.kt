@@ -59,9 +59,7 @@ internal class BlindWarnings(
                     "passes looks like a sensor that also shows it.",
             )
         }
-        if (rounding != null) {
-            add("Rounding to steps of ${three(rounding.step)} is most of what the readings scatter from row to row.")
-        }
+        if (rounding != null) add(rounding.words())
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }

@@ -182,7 +182,7 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
     private companion object {
         const val GROUPS = 20
         const val FEWEST = 2 * GROUPS
-        const val FEWEST_MEETINGS = 6
+        const val FEWEST_MEETINGS = 3
 
         /** Degrees of freedom at most where errors are reckoned, not seen: jitter and slope are not wholly known. */
         const val KNOWN = 30

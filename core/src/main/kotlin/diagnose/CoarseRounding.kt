@@ -34,6 +34,10 @@ internal class CoarseRounding(series: MeasuredSeries, used: BooleanArray, val st
      */
     fun isCoarse(spread: Double): Boolean = share > HALF && step * step / 12 > LEAST * spread * spread
 
+    /** What is to be said of it where it is coarse. */
+    fun words() =
+        "Rounding to steps of ${BlindAnswer.three(step)} is most of what the readings scatter from row to row."
+
     private companion object {
         const val HALF = 0.5
         const val LEAST = 0.1

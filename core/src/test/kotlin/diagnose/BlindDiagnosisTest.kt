@@ -291,6 +291,31 @@ class BlindDiagnosisTest {
         assertContains(spiky.warnings, "5 single readings are far off the readings beside.")
     }
 
+    /** Of the lag nothing is told there, but digits and a logger that hangs show in the readings. */
+    @Test
+    fun aTowThatNeverComesBackTellsOfRoundingAndOfALoggerThatHung() {
+        val line = DoubleArray(n) { 0.8 * it }
+        val random = java.util.Random(7)
+        val clean = DoubleArray(n) { sin(line[it] / 7) + sin(line[it] / 15 + 1) + 0.004 * random.nextGaussian() }
+        val times = DoubleArray(n) { it.toDouble() }
+        fun warnings(values: DoubleArray): List<String> {
+            val tow = Diagnosis(MeasuredSeries(times, line, DoubleArray(n), values, null)).run()
+            assertIs<Verdict.InsufficientData>(tow.verdict)
+            return tow.warnings
+        }
+        assertEquals(emptyList(), warnings(clean))
+        val coarse = DoubleArray(n) { 0.05 * Math.rint(clean[it] / 0.05) }
+        assertContains(
+            warnings(coarse),
+            "Rounding to steps of 0.0500 is most of what the readings scatter from row to row.",
+        )
+        val hung = DoubleArray(n) { if (it in 300..340) clean[300] else clean[it] }
+        assertContains(
+            warnings(hung),
+            "The readings stand still to the last digit for 41 rows, once: the sensor or the logger hung.",
+        )
+    }
+
     /** Two places far apart, at which the boat mostly stands: the shortest waves would be a millionth of the way. */
     @Test
     fun stationsWithRepeatedFixesAreAnswered() {

@@ -3,6 +3,7 @@ package stillwater.diagnose
 import kotlin.math.PI
 import kotlin.math.cos
 import kotlin.math.exp
+import kotlin.math.sin
 import kotlin.math.sqrt
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -84,7 +85,47 @@ class ChangingWaterTest {
         assertEquals(0.0, slope.alike(80.0), 0.05 / (length * length))
     }
 
+    /** A walk of 1 m/s whose heading wanders, with fixes that jitter by 0.3 m, in water that rises by [rise] in all. */
+    private fun walk(seed: Long, rise: Double): ChangingWater {
+        val random = java.util.Random(seed)
+        val water = Water(20.0, random)
+        val size = 800
+        val x = DoubleArray(size)
+        val y = DoubleArray(size)
+        var heading = 2 * PI * random.nextDouble()
+        var turning = 0.0
+        for (i in 1 until size) {
+            turning += -turning / 8 + 0.03 * random.nextGaussian()
+            heading += turning
+            x[i] = x[i - 1] + cos(heading)
+            y[i] = y[i - 1] + sin(heading)
+        }
+        val truth = DoubleArray(size) { water.at(x[it], y[it]) + rise * it / size + 0.002 * random.nextGaussian() }
+        for (i in 0 until size) {
+            x[i] += 0.3 * random.nextGaussian()
+            y[i] += 0.3 * random.nextGaussian()
+        }
+        return ChangingWater(MeasuredSeries(DoubleArray(size) { it.toDouble() }, x, y, truth, truth), truth)
+    }
+
+    /** Errors are then reckoned from jitter and slope alone; that there are so few says nothing of the change. */
+    @Test
+    fun threeToFivePlacesMetAgainTellOfAChangeAndOfNoneThatIsNotThere() {
+        val seeds = (FIRST_SEED until FIRST_SEED + WALKS).filter { seed ->
+            walk(seed, 0.0).let { !it.rate.isNaN() && it.revisits().later.size in 3..5 }
+        }
+        val still = seeds.map { walk(it, 0.0).pValue }
+        val changed = seeds.map { walk(it, 1.0).pValue }
+        println("walks that meet few old places, seeds $seeds: p ${still.map { "%.2g".format(it) }}")
+        println("the same in water that rises by a deviation: p ${changed.map { "%.2g".format(it) }}")
+        assertTrue(seeds.size >= 40, "${seeds.size} walks")
+        // At a level of 1 % as many as 5 % come once in a thousand times.
+        assertTrue(still.count { it < 0.01 } <= seeds.size / 20, "$still")
+        assertTrue(changed.count { it < 5e-4 } > seeds.size / 2, "$changed")
+    }
+
     private companion object {
+        const val WALKS = 250
         const val WAVES = 200
         const val FIRST_SEED = 20261125L
         const val LOGS = 40
