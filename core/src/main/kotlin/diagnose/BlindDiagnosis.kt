@@ -31,7 +31,7 @@ internal class BlindDiagnosis(
     fun run(): DiagnosisResult {
         val why = TooLittle.why(series)
         if (why != null) return BlindAnswer.none(series, why)
-        var base = search.best()
+        val base = search.best()
         val wave = base.modes.shortest
         val share = Passes.share(search.track.x, search.track.y, wave)
         if (share < LEAST_PASSES) {
@@ -42,6 +42,16 @@ internal class BlindDiagnosis(
                 ofReadings(base),
             )
         }
+        val begun = prepared(base)
+        return answer(begun, isTurned)
+    }
+
+    /**
+     * The model [begun] of a lag alone without wild readings, with steps that are held where they look so, and with the
+     * waves that the water has beyond doubt; finer ones that it may have are in [deeper].
+     */
+    private fun prepared(begun: BlindState): BlindState {
+        var base = begun
         val loose = BlindOutliers(search, base)
         if (loose.rows.isNotEmpty()) {
             loose.rows.forEach { search.used[it] = false }
@@ -51,12 +61,21 @@ internal class BlindDiagnosis(
         }
         // Before finer waves, which look like half a row's delay.
         val halfRow = BlindHalfRow(search, base)
-        val turned = halfRow.held() ?: halfRow.ahead()
-        if (turned != null) base = turned
+        isTurned = (halfRow.held() ?: halfRow.ahead())?.also { base = it } != null
         val finer = search.deeper(base)
         if (finer != null && MissingWaves(search, base).areClear(finer)) base = search.begun(finer) else deeper = finer
-        return answer(base, isTurned = turned != null)
+        return base
     }
+
+    /** What the log says of a lag alone, of the channel [name]; whatever else is at work beside. */
+    fun channel(name: String): ChannelLag {
+        if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
+        val base = prepared(search.best())
+        return lag(base, search.still(base)).channel(name)
+    }
+
+    /** Whether the first model was given steps that are held: half a row's delay is then told. */
+    private var isTurned = false
 
     /** What readings show by themselves, whether or not the boat comes back, in words; [base] is the model of a lag alone. */
     private fun ofReadings(base: BlindState): List<String> {
@@ -72,23 +91,14 @@ internal class BlindDiagnosis(
     private var deeper: BlindState? = null
 
     /** The answer on top of [likeliest], a lag alone. */
-    private fun answer(likeliest: BlindState, isTurned: Boolean = false): DiagnosisResult {
-        // Water that changes in time can take what the sensor does: whether it does is asked of the lag as well.
+    private fun answer(likeliest: BlindState, isTurned: Boolean): DiagnosisResult {
         val still = search.still(likeliest)
-        val changing = likeliest.score - still.score
-        val lags = if (changing in 0.0..NO_CHANGE) {
-            listOf(BlindLag(search, likeliest))
-        } else if (changing < FAR_CHANGE) {
-            loops.all(listOf(likeliest, still)) { state -> BlindLag(search, state).also { it.likeliest } }
-        } else {
-            listOf(BlindLag(search, likeliest, still.takeIf { !likeliest.isResolved }))
-        }
-        lag = lags.maxBy { it.likeliest }
+        lag = lag(likeliest, still)
         var base = lag.timeConstant
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === likeliest) round(start, still) else round(start)
-        finer(first)?.let { return answer(search.begun(it)) }
+        finer(first)?.let { return answer(search.begun(it), isTurned = false) }
         val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
         val found = forward(first)
@@ -153,6 +163,22 @@ internal class BlindDiagnosis(
         val state = search.turned(last, steps, last.score - ONE_NUMBER, others) ?: return null
         ended = round(state)
         return rest.dropLast(1) + BlindStep(rest.last().trial, rest.last().round, state)
+    }
+
+    /**
+     * What the log says of a lag alone on [likeliest], or on [still], the same in water that does not change: water that
+     * changes in time can take what the sensor does.
+     */
+    private fun lag(likeliest: BlindState, still: BlindState): BlindLag {
+        val changing = likeliest.score - still.score
+        val lags = if (changing in 0.0..NO_CHANGE) {
+            listOf(BlindLag(search, likeliest))
+        } else if (changing < FAR_CHANGE) {
+            loops.all(listOf(likeliest, still)) { state -> BlindLag(search, state).also { it.likeliest } }
+        } else {
+            listOf(BlindLag(search, likeliest, still.takeIf { !likeliest.isResolved }))
+        }
+        return lags.maxBy { it.likeliest }
     }
 
     private val arms by lazy { FarArms(search) }

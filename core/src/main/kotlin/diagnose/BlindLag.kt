@@ -50,7 +50,7 @@ internal class BlindLag(
     /** The model with a dead time beside the lag, or with the lag alone where that is not worth it. */
     val both: BlindState by lazy {
         // Of what both share the likelier kind alone has most of it; a lag alone may be far too long.
-        val half = (if (deadTime.score > timeConstant.score) delay else timeConstant.timeConstant) / 2
+        val half = (if (deadTime.score > timeConstant.score) deadTime.numbers.last() else timeConstant.timeConstant) / 2
         val near = search.climbed(search.improved(settled(listOf(Term(Cause.DEAD_TIME)), half, half)))
         val best = listOfNotNull(near, still?.let(::parted)).maxBy { it.score }
         if ((best.score - timeConstant.score) / inflation > WORTH) best else timeConstant
@@ -75,8 +75,8 @@ internal class BlindLag(
         (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE / 2
     }
 
-    /** The dead time, s. */
-    val delay: Double get() = deadTime.numbers.last()
+    /** How late the readings are as a dead time, s: with it a sensor follows as fast as [none], not at once. */
+    val delay: Double get() = deadTime.numbers.last() + deadTime.timeConstant
 
     /** Standard error of [delay], s, with what correlation inflates. */
     val delayError: Double get() {
@@ -137,9 +137,11 @@ internal class BlindLag(
         (other.score - suited.score) / inflation > MUCH &&
             1 / BlindErrors.of(search, other)[ResponseModel.TIME_CONSTANT] > SURE
 
-    /** The delay as that of the channel [name]. */
-    fun channel(name: String): ChannelLag =
-        if (isSeen) ChannelLag(name, delay, delayError) else ChannelLag(name, Double.NaN, Double.NaN)
+    /** The delay as that of the channel [name], with what steps that are held add to it, or take. */
+    fun channel(name: String): ChannelLag {
+        if (!isSeen) return ChannelLag(name, Double.NaN, Double.NaN)
+        return ChannelLag(name, delay - deadTime.model.steps.lead * period, delayError)
+    }
 
     companion object {
         /** Twice the gain in log-likelihood over inflation of a second number, at 0.01 %. */

@@ -4,7 +4,8 @@ import stillwater.model.Interval
 import kotlin.math.sqrt
 
 /**
- * How late one channel of a log is, as a dead time.
+ * How late one channel of a log is, as a dead time, by what slow waves of the water show: of a truth that is held over each
+ * row, by half a row less, or more, than the dead time beside it.
  *
  * @property name its column. @property delay s; NaN where the log does not show it. @property error its standard error,
  * s.
@@ -82,10 +83,6 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
             series: MeasuredSeries,
             loops: Loops,
             progress: (Double) -> Unit = {},
-        ): ChannelLag {
-            if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
-            val search = BlindSearch(series, loops, progress)
-            return BlindLag(search, search.best()).channel(name)
-        }
+        ): ChannelLag = BlindDiagnosis(series, DiagnosisSettings(), loops, progress).channel(name)
     }
 }

@@ -355,6 +355,22 @@ class BlindDiagnosisTest {
         assertEquals(4.0, checkNotNull(lags.own), 0.5)
     }
 
+    /** Two simulations of one lag, of which one has each truth a step later. */
+    @Test
+    fun whatHeldStepsAddIsInTheLagsOfChannels() {
+        fun stepped(late: Int): DoubleArray {
+            val random = java.util.Random(8)
+            var reading = truth[0]
+            return DoubleArray(n) { i ->
+                if (i > 0) reading += -expm1(-1 / 5.0) * (truth[i - late] - reading)
+                reading + 0.004 * random.nextGaussian()
+            }
+        }
+        val late = MeasuredSeries(track.times, x, y, stepped(1), null)
+        val lags = ChannelLags.of(late, "late", mapOf("prompt" to stepped(0)))
+        assertEquals(1.0, checkNotNull(lags.own), 0.3)
+    }
+
     private companion object {
         const val CASTS = 10
         val LAG = listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)

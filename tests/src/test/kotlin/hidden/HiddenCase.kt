@@ -54,6 +54,9 @@ internal class HiddenCase(
 
     /** The dead time in place of the lag, s: short enough beside the waves that a lag is like it at first. */
     val delay = timeConstant / 3
+
+    /** The lag that a sensor with [delay] has besides, s: a step of the generator's own. */
+    val step get() = period / per
     private val speed = 0.6 + 0.8 * random.nextDouble()
     private val per = 20
 
@@ -127,7 +130,7 @@ internal class HiddenCase(
     }
 
     private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant) = if (isDelay) {
-        HiddenSensor(world, period / per, gain, offset, mapOf(HiddenEffect.DEAD_TIME to delay), stepShares, isAhead)
+        HiddenSensor(world, step, gain, offset, mapOf(HiddenEffect.DEAD_TIME to delay), stepShares, isAhead)
     } else {
         HiddenSensor(world, tau, gain, offset, effects, stepShares, isAhead)
     }

@@ -40,7 +40,8 @@ internal object HiddenIntervals {
         val lag = ChannelLags.of(series(case, file), "value", emptyMap()).channels.first()
         val reach = lag.interval
         return HiddenInterval(
-            case.delay,
+            // What slow waves are late by.
+            case.delay + case.step,
             lag.delay,
             reach?.lower ?: Double.NaN,
             reach?.upper ?: Double.NaN,
