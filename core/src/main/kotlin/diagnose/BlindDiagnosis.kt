@@ -42,15 +42,16 @@ internal class BlindDiagnosis(
                 ofReadings(base),
             )
         }
-        val begun = prepared(base)
+        val (begun, isTurned) = prepared(base)
         return answer(begun, isTurned)
     }
 
     /**
      * The model [begun] of a lag alone without wild readings, with steps that are held where they look so, and with the
-     * waves that the water has beyond doubt; finer ones that it may have are in [deeper].
+     * waves that the water has beyond doubt; finer ones that it may have are in [deeper]. And whether half a row's delay is
+     * told by such steps.
      */
-    private fun prepared(begun: BlindState): BlindState {
+    private fun prepared(begun: BlindState): Pair<BlindState, Boolean> {
         var base = begun
         val loose = BlindOutliers(search, base)
         if (loose.rows.isNotEmpty()) {
@@ -61,21 +62,19 @@ internal class BlindDiagnosis(
         }
         // Before finer waves, which look like half a row's delay.
         val halfRow = BlindHalfRow(search, base)
-        isTurned = (halfRow.held() ?: halfRow.ahead())?.also { base = it } != null
+        val turned = halfRow.held() ?: halfRow.ahead()
+        if (turned != null) base = turned
         val finer = search.deeper(base)
         if (finer != null && MissingWaves(search, base).areClear(finer)) base = search.begun(finer) else deeper = finer
-        return base
+        return base to (turned != null)
     }
 
     /** What the log says of a lag alone, of the channel [name]; whatever else is at work beside. */
     fun channel(name: String): ChannelLag {
         if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
-        val base = prepared(search.best())
-        return lag(base, search.still(base)).channel(name)
+        val (base, _) = prepared(search.best())
+        return lag(base, search.still(base)).channel(name).also { progress(1.0) }
     }
-
-    /** Whether the first model was given steps that are held: half a row's delay is then told. */
-    private var isTurned = false
 
     /** What readings show by themselves, whether or not the boat comes back, in words; [base] is the model of a lag alone. */
     private fun ofReadings(base: BlindState): List<String> {
@@ -91,14 +90,14 @@ internal class BlindDiagnosis(
     private var deeper: BlindState? = null
 
     /** The answer on top of [likeliest], a lag alone. */
-    private fun answer(likeliest: BlindState, isTurned: Boolean): DiagnosisResult {
+    private fun answer(likeliest: BlindState, isTurned: Boolean = false): DiagnosisResult {
         val still = search.still(likeliest)
         lag = lag(likeliest, still)
         var base = lag.timeConstant
         // Between a time constant and a dead time nothing can be named: both are then left free beside all else.
         val start = if (lag.isOpen(settings.separation)) lag.both else base
         val first = if (start === likeliest) round(start, still) else round(start)
-        finer(first)?.let { return answer(search.begun(it), isTurned = false) }
+        finer(first)?.let { return answer(search.begun(it)) }
         val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
         val found = forward(first)

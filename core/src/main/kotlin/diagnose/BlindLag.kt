@@ -75,7 +75,7 @@ internal class BlindLag(
         (better.score - worse.score) / inflation > MUCH && BlindEvidence.between(worse, better) > SURE / 2
     }
 
-    /** How late the readings are as a dead time, s: with it a sensor follows as fast as [none], not at once. */
+    /** How late the readings are as a dead time, s, with the small lag that the model has besides, as [none] has it. */
     val delay: Double get() = deadTime.numbers.last() + deadTime.timeConstant
 
     /** Standard error of [delay], s, with what correlation inflates. */

@@ -104,10 +104,11 @@ internal class BlindRound(
         }
         fun gained(trial: BlindTrial) = maxOf(trial.gain, other(trial)?.gain ?: 0.0)
         fun isSure(trial: BlindTrial) = trial.pValue < settings.level
-        val (best, second, third) = all.sortedByDescending(::gained)
-        var asked = mapOf(best to weighed(best))
-        if (asked.values.none(::isSure) && gained(best) > MissingWaves.most(0.0)) {
-            asked = asked + listOf(second, third).let { it.zip(loops.all(it, ::weighed)) }
+        fun asked(trials: List<BlindTrial>) = trials.zip(loops.all(trials, ::weighed)).toMap()
+        val inOrder = all.sortedByDescending(::gained)
+        var asked = asked(inOrder.take(1))
+        if (asked.none { isSure(it.value) || gained(it.key) <= MissingWaves.most(0.0) }) {
+            asked = asked + asked(inOrder.drop(1).take(NEXT))
         }
         val lead = asked.values.filter(::isSure).maxByOrNull { it.likelier }
 
@@ -375,6 +376,9 @@ internal class BlindRound(
         const val HOPELESS = 3.0
 
         const val MOST_LIKELY = 5
+
+        /** Causes that are asked before all others where the one that gains most is none. */
+        const val NEXT = 2
 
         /** Looks that are given water and noise of their own. */
         const val MOST_LOOKS = 2

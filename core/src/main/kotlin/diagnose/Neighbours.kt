@@ -11,29 +11,17 @@ internal object Neighbours {
     private val WEIGHTS = doubleArrayOf(3.0 / 7, 3.0 / 14, -1.0 / 7)
 
     /** How far rows are off what those beside them say, from three rows before a single one that is off by 1. */
-    val ABOUT_SINGLE: DoubleArray = DoubleArray(2 * REACH + 1) { k ->
-        val away = abs(k - REACH)
-        if (away == 0) 1.0 else -WEIGHTS[away - 1]
-    }
+    val ABOUT_SINGLE: DoubleArray = about(2 * REACH + 1) { if (it == REACH) 1.0 else 0.0 }
 
     /** The same from three rows before those that a jump by 1 raises. */
-    val ABOUT_JUMP: DoubleArray = DoubleArray(2 * REACH) { k ->
-        val raised = if (k < REACH) REACH - k else k - REACH + 1
-        val beyond = (raised..REACH).sumOf { WEIGHTS[it - 1] }
-        if (k < REACH) -beyond else beyond
-    }
+    val ABOUT_JUMP: DoubleArray = about(2 * REACH) { if (it >= REACH) 1.0 else 0.0 }
 
     /**
      * The same from three rows before one that is at a corner, or half a row before or behind it: readings change by 1 a
      * row more from there on, as those of a lag do beyond a sharp front.
      */
-    val ABOUT_CORNER: List<DoubleArray> = listOf(-0.5, 0.0, 0.5).map { corner ->
-        fun bent(k: Int) = abs(k - corner) / 2
-        DoubleArray(2 * REACH + 1) { i ->
-            val k = i - REACH
-            bent(k) - (1..REACH).sumOf { WEIGHTS[it - 1] * (bent(k - it) + bent(k + it)) }
-        }
-    }
+    val ABOUT_CORNER: List<DoubleArray> =
+        listOf(-0.5, 0.0, 0.5).map { corner -> about(2 * REACH + 1) { abs(it - REACH - corner) / 2 } }
 
     /** Variance of a row less what is foretold of it, over that of white noise. */
     val errorVariance: Double = 1 + 2 * squares(WEIGHTS)
@@ -43,5 +31,11 @@ internal object Neighbours {
         var sum = 0.0
         for (k in 1..REACH) sum += WEIGHTS[k - 1] * (values[i - k] + values[i + k])
         return sum
+    }
+
+    /** How far the first [rows] of [shape] are off what those beside them say. */
+    private fun about(rows: Int, shape: (Int) -> Double): DoubleArray {
+        val values = DoubleArray(rows + 2 * REACH) { shape(it - REACH) }
+        return DoubleArray(rows) { values[it + REACH] - foretold(values, it + REACH) }
     }
 }

@@ -30,6 +30,16 @@ class BlindDiagnosisTest {
         return MeasuredSeries(DoubleArray(n) { it.toDouble() }, x, y, values, null)
     }
 
+    /** A lag of 5 s of which a simulation takes one step a row, by the truth so many rows [late]. */
+    private fun stepped(late: Int): DoubleArray {
+        val random = java.util.Random(8)
+        var reading = truth[0]
+        return DoubleArray(n) { i ->
+            if (i > 0) reading += -expm1(-1 / 5.0) * (truth[i - late] - reading)
+            reading + 0.004 * random.nextGaussian()
+        }
+    }
+
     private fun causes(verdict: Verdict): List<Cause> = when (verdict) {
         is Verdict.Named -> verdict.causes
         is Verdict.Ambiguous -> verdict.sets.flatten()
@@ -148,13 +158,7 @@ class BlindDiagnosisTest {
     /** Half a step behind a truth that goes on evenly. */
     @Test
     fun aTruthThatIsHeldUntilTheNextRowIsNoDeadTime() {
-        val random = java.util.Random(8)
-        var reading = truth[0]
-        val values = DoubleArray(n) { i ->
-            if (i > 0) reading += -expm1(-1 / 5.0) * (truth[i - 1] - reading)
-            reading + 0.004 * random.nextGaussian()
-        }
-        val result = Diagnosis(MeasuredSeries(track.times, x, y, values, null)).run()
+        val result = Diagnosis(MeasuredSeries(track.times, x, y, stepped(late = 1), null)).run()
         assertEquals(Verdict.Consistent, result.verdict)
         assertEquals(5.0, result.baseline.parameters.first().value, 0.2)
         assertContains(result.warnings.joinToString(" "), "held from each row until the next")
@@ -358,16 +362,8 @@ class BlindDiagnosisTest {
     /** Two simulations of one lag, of which one has each truth a step later. */
     @Test
     fun whatHeldStepsAddIsInTheLagsOfChannels() {
-        fun stepped(late: Int): DoubleArray {
-            val random = java.util.Random(8)
-            var reading = truth[0]
-            return DoubleArray(n) { i ->
-                if (i > 0) reading += -expm1(-1 / 5.0) * (truth[i - late] - reading)
-                reading + 0.004 * random.nextGaussian()
-            }
-        }
-        val late = MeasuredSeries(track.times, x, y, stepped(1), null)
-        val lags = ChannelLags.of(late, "late", mapOf("prompt" to stepped(0)))
+        val series = MeasuredSeries(track.times, x, y, stepped(late = 1), null)
+        val lags = ChannelLags.of(series, "late", mapOf("prompt" to stepped(late = 0)))
         assertEquals(1.0, checkNotNull(lags.own), 0.3)
     }
 

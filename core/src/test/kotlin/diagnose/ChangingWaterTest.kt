@@ -111,10 +111,10 @@ class ChangingWaterTest {
     /** Errors are then reckoned from jitter and slope alone; that there are so few says nothing of the change. */
     @Test
     fun threeToFivePlacesMetAgainTellOfAChangeAndOfNoneThatIsNotThere() {
-        val seeds = (FIRST_SEED until FIRST_SEED + WALKS).filter { seed ->
-            walk(seed, 0.0).let { !it.rate.isNaN() && it.revisits().later.size in 3..5 }
-        }
-        val still = seeds.map { walk(it, 0.0).pValue }
+        val walks = (FIRST_SEED until FIRST_SEED + WALKS).associateWith { walk(it, 0.0) }
+            .filterValues { !it.rate.isNaN() && it.revisits().later.size in 3..5 }
+        val seeds = walks.keys.toList()
+        val still = walks.values.map { it.pValue }
         val changed = seeds.map { walk(it, 1.0).pValue }
         println("walks that meet few old places, seeds $seeds: p ${still.map { "%.2g".format(it) }}")
         println("the same in water that rises by a deviation: p ${changed.map { "%.2g".format(it) }}")

@@ -57,6 +57,7 @@ internal class HiddenCase(
 
     /** The lag that a sensor with [delay] has besides, s: a step of the generator's own. */
     val step get() = period / per
+
     private val speed = 0.6 + 0.8 * random.nextDouble()
     private val per = 20
 
@@ -99,7 +100,6 @@ internal class HiddenCase(
 
     private fun world(): HiddenWorld {
         val size = rows * per + 1
-        val step = period / per
         val track = HiddenTrack.draw(kind, random, size, step, speed)
         val length = length
         val field: Field =
