@@ -100,16 +100,18 @@ internal class BlindDiagnosis(
         finer(first)?.let { return answer(search.begun(it)) }
         val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
-        val found = forward(first)
-        val chosen = heldInstead(found) ?: found
+        val forward = BlindForward(search, settings) { round(it) }
+        val once = forward.of(first)
+        val found = heldInstead(once.steps) ?: once
+        val chosen = found.steps
         if (base.model.steps !=
             search.steps
         ) {
             base = checkNotNull(search.turned(base, search.steps, Double.NEGATIVE_INFINITY))
         }
         val last = chosen.lastOrNull()?.state ?: first.state
-        val end = if (chosen.isEmpty()) first else ended ?: round(last)
-        val sets = sets(start, chosen)
+        val end = found.ended ?: round(last)
+        val sets = sets(start, chosen, forward)
         val given = settings.base?.let { GivenLag(search, base, it) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(search, last), given)
             .of(first, chosen, sets, end)
@@ -152,7 +154,7 @@ internal class BlindDiagnosis(
      * [chosen] without its shifts, with steps that are held, where these do as much; null where they do not. Each lag has
      * what is held half a row sooner or later, so that two have it a row.
      */
-    private fun heldInstead(chosen: List<BlindStep>): List<BlindStep>? {
+    private fun heldInstead(chosen: List<BlindStep>): BlindFound? {
         val rest = chosen.filter { it.trial.term?.cause !in SmallShifts.WHOLE }
         val last = chosen.lastOrNull()?.state
         if (last == null || rest.isEmpty() || rest.size == chosen.size || search.steps.isHeld) return null
@@ -160,8 +162,8 @@ internal class BlindDiagnosis(
         val rows = shifts.sumOf { SmallShifts.late(it, last.model, last.numbers) ?: 0.0 } / series.period
         val steps = Steps.entries.firstOrNull { it.isHeld && -rows / it.lead in HALVES } ?: return null
         val state = search.turned(last, steps, last.score - ONE_NUMBER, others) ?: return null
-        ended = round(state)
-        return rest.dropLast(1) + BlindStep(rest.last().trial, rest.last().round, state)
+        val held = BlindStep(rest.last().trial, rest.last().round, state)
+        return BlindFound(rest.dropLast(1) + held, round(state))
     }
 
     /**
@@ -188,99 +190,13 @@ internal class BlindDiagnosis(
     private fun round(model: BlindState, still: BlindState = search.still(model)) =
         BlindRound(search, settings, lag, arms, model, still, ::tell).also { rounds++ }
 
-    private fun forward(first: BlindRound): List<BlindStep> {
-        val chosen = ArrayList<BlindStep>()
-        var round = first
-        while (chosen.size < settings.mostCauses) {
-            if (round.adjustedCauses.none { it < CAUSES * settings.level }) break
-            // That something is there is told by the surest cause, which it is by the likeliest; rounding comes last, for
-            // in readings that are rounded nothing else can be looked for.
-            val sure = possible(round)
-            val likeliest = sure.maxBy { it.likelier }
-            val best = if (likeliest.term?.cause ==
-                Cause.QUANTISATION
-            ) {
-                beforeRounding(round) ?: likeliest
-            } else {
-                likeliest
-            }
-            if (best.sureness < FURTHER * (chosen.maxOfOrNull { it.trial.sureness } ?: 0.0)) break
-            // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
-            // named for its shadow. A response that rings is like many others.
-            val look = round.strongestLook
-            val ahead = look?.let { i -> round.looks[i].surely - sure.maxOf { it.surely } } ?: Double.NEGATIVE_INFINITY
-            val isShadow = ahead > settings.separation
-            if (look != null && isShadow && ahead > BlindLag.MUCH && !round.isOfWater(look)) break
-            val state = added(round.state, best)
-            if (isCurved(round, best, state)) break
-            val isLast = chosen.size + 1 == settings.mostCauses
-            val next = if (isShadow || !isLast) round(state) else null
-            if (isShadow && checkNotNull(next).strongestLook != null) break
-            chosen += BlindStep(best, round, state)
-            if (next != null) {
-                round = next
-                ended = next
-            }
-        }
-        if (chosen.size == settings.mostCauses && ended?.state !== chosen.last().state) ended = null
-        return needed(chosen)
-    }
-
-    /** Whether a curved calibration is likelier than [best], an asymmetric response, with which [state] is. */
-    private fun isCurved(round: BlindRound, best: BlindTrial, state: BlindState): Boolean =
-        best.term?.cause == Cause.ASYMMETRIC_RESPONSE &&
-            CurvedReadings(search, round.state).score > state.score + ONE_NUMBER
-
-    /**
-     * The causes of [round] that may be meant. Where something changed, for certain, others have water that changes beside
-     * them, which makes up for it: they are no answer in place of a drift or a jump, unless they are as sure as a first one.
-     */
-    private fun possible(round: BlindRound): List<BlindTrial> {
-        fun isFirst(i: Int) = round.adjustedCauses[i] < CAUSES * settings.level
-        fun isSlow(trial: BlindTrial) = trial.term?.cause in SLOW
-        val isChange = round.changing > settings.separation &&
-            round.causes.indices.any { isFirst(it) && isSlow(round.causes[it]) }
-        return round.causes.filterIndexed { i, trial ->
-            trial.pValue < settings.level && (!isChange || isSlow(trial) || isFirst(i))
-        }
-    }
-
-    /** The likeliest of the causes of [round] that are as sure as a first one must be, but rounding; null if none is. */
-    private fun beforeRounding(round: BlindRound): BlindTrial? = round.causes.filterIndexed { i, trial ->
-        trial.term?.cause != Cause.QUANTISATION && round.adjustedCauses[i] < CAUSES * settings.level
-    }.maxByOrNull { it.likelier }
-
-    /** [chosen] without what the others have made needless; what is left keeps its rounds. */
-    private fun needed(chosen: List<BlindStep>): List<BlindStep> {
-        if (chosen.size < 2) return chosen
-        val full = chosen.last().state
-        for (i in 0 until chosen.size - 1) {
-            val others = search.suited(without(chosen.first().round.state, chosen, i))
-            val without = if (search.isStill(full)) search.still(others) else search.opened(others)
-            val lost = (full.score - without.score) / chosen[i].trial.inflation
-            if (lost > NEEDLESS) continue
-            val rest = chosen.filterIndexed { k, _ -> k != i }
-            ended = round(without)
-            val last = rest.last()
-            return needed(rest.dropLast(1) + BlindStep(last.trial, last.round, without))
-        }
-        return chosen
-    }
-
-    /** All that was tried on top of the last model, where it was. */
-    private var ended: BlindRound? = null
-
-    private fun added(state: BlindState, trial: BlindTrial): BlindState {
-        val next = trial.state ?: search.improved(search.with(state, trial))
-        val model = search.climbed(search.improved(search.evened(next)))
-        // How steps are held shows only once the response is right.
-        val stepped = search.stepped(model)
-        return if (stepped === model) model else search.climbed(search.requieted(stepped))
-    }
-
     /** For each chosen cause those that explain as much in its place. */
-    private fun sets(base: BlindState, chosen: List<BlindStep>): List<List<Cause>> = chosen.mapIndexed { i, step ->
-        val round = if (i == chosen.size - 1) step.round else round(without(base, chosen, i))
+    private fun sets(
+        base: BlindState,
+        chosen: List<BlindStep>,
+        forward: BlindForward,
+    ): List<List<Cause>> = chosen.mapIndexed { i, step ->
+        val round = if (i == chosen.size - 1) step.round else round(forward.without(base, chosen, i))
         val taken = chosen.filter { it !== step }.map { it.trial.name }
         val own = round.causes.firstOrNull { it.name == step.trial.name } ?: step.trial
         val rivals = round.causes.filter { it.name !in taken && it.pValue < settings.level }
@@ -293,28 +209,12 @@ internal class BlindDiagnosis(
         (listOf(term.cause) + twin + others).distinct()
     }
 
-    /** The model with all that was chosen but the [left]-th. */
-    private fun without(base: BlindState, chosen: List<BlindStep>, left: Int): BlindState {
-        val full = chosen.last().state
-        val dropped = chosen[left].trial.name
-        val terms = full.model.terms.filter { it.key != dropped }
-        val model = search.model(terms, full.modes, full.water)
-        val numbers = model.carried(full.model, full.numbers)
-        return search.improved(search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full))
-    }
-
     companion object {
         /**
          * Water that is not wholly resolved and fixes that jitter in steep water make p-values too small by many times:
          * the level of outliers is lower by as much. Looks have [BlindLook.doubt] for it.
          */
         const val STRICTER = 0.1
-
-        /**
-         * The same for causes of the list, whose p-values are too small by less: of 260 simulated logs without an effect
-         * two have a cause between this and a tenth, of 29 effects of 1x to 1.6x three do (seeds 194000 to 201079).
-         */
-        private const val CAUSES = 0.3
 
         /** Share of the rows that must come near another pass. */
         private const val LEAST_PASSES = 0.02
@@ -327,15 +227,6 @@ internal class BlindDiagnosis(
 
         /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
         const val FAR_CHANGE = 300.0
-
-        /**
-         * Share of what the surest cause explains that another must, to be named beside it: the model of a strong effect
-         * is not right to a few percent, as between the rows, and leaves traces that others take.
-         */
-        private const val FURTHER = 0.02
-
-        /** Twice a gain in log-likelihood below which a cause goes again, once others are named beside it. */
-        private const val NEEDLESS = 8.0
 
         /** Twice a gain in log-likelihood that one number has by chance in one log of twenty. */
         const val ONE_NUMBER = 3.84

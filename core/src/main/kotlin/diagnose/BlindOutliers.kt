@@ -11,8 +11,7 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     private val spread = sqrt(state.variance)
     private val z = DoubleArray(series.size).also { out ->
         val all = BooleanArray(series.size) { true }
-        BlindNoise(CorrelatedNoise(series.times, noise.noise.share, noise.noise.time, all), noise.spread)
-            .whiten(state.residuals, out)
+        BlindNoise(noise.noise.over(series.times, all), noise.spread).whiten(state.residuals, out)
     }
     private val residuals = state.residuals
     private val resolution = state.model.scales.resolution

@@ -2,6 +2,7 @@ package stillwater.diagnose
 
 import kotlin.math.abs
 import kotlin.math.ln
+import kotlin.math.sqrt
 
 /**
  * Finds the likeliest numbers of models of a log without a reference.
@@ -37,9 +38,25 @@ internal class BlindSearch private constructor(
     val modes: WaterModes get() = fine ?: rough
     private var fine: WaterModes? = null
 
+    /** What gaps in the log leave open; null where there are none. */
+    val gaps: UnknownTruth? by lazy { UnknownTruth.ofGaps(series) }
+
+    /** What is not known of the sensor's state after gaps in the log; null while that is not asked, and where there are none. */
+    private var shocks: UnknownTruth.Shocks? = null
+
     /** Noise of which [share] wanders over so many [steps]. */
-    fun noise(share: Double, steps: Double) =
-        CorrelatedNoise(series.times, share, steps * series.period, used.copyOf())
+    fun noise(share: Double, steps: Double) = noiseOver(share, steps * series.period)
+
+    private fun noiseOver(share: Double, time: Double) =
+        CorrelatedNoise(series.times, share, time, used.copyOf(), shocks)
+
+    /** [state] with gaps after which the sensor may show anything, for as long as its lag takes. */
+    private fun shaken(state: BlindState): BlindState {
+        val open = gaps ?: return state
+        val now = state.fit.design.noise
+        shocks = open.shocks(state.timeConstant, 1.0, sqrt(state.variance), isHeld = false)
+        return again(state, BlindNoise(noiseOver(now.noise.share, now.noise.time), now.spread))
+    }
 
     /** The same search in readings that are less by [change], length n. */
     fun less(change: DoubleArray): BlindSearch {
@@ -53,6 +70,7 @@ internal class BlindSearch private constructor(
         used.copyInto(other.used)
         other.fine = fine
         other.steps = steps
+        other.shocks = shocks
         other.lastVariance = lastVariance
         return other
     }
@@ -70,9 +88,9 @@ internal class BlindSearch private constructor(
         }
         // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise
         // that wanders.
-        val first = quieted(stepped(improved(improved(coarse.maxBy { it.score }))))
+        val first = quieted(stepped(improved(shaken(improved(coarse.maxBy { it.score })))))
         progress(2 * ROUGH)
-        var state = finer(improved(first))
+        var state = shaken(finer(improved(first)))
         fine = state.modes
         // More waves may explain what looked like noise that wanders.
         progress(3 * ROUGH)
@@ -193,7 +211,7 @@ internal class BlindSearch private constructor(
     /** [state] with each row's spread of noise as its residuals say, as long as that suits it better. */
     fun evened(state: BlindState): BlindState {
         val now = state.fit.design.noise
-        val noise = CorrelatedNoise(series.times, now.noise.share, now.noise.time, used.copyOf())
+        val noise = noiseOver(now.noise.share, now.noise.time)
         var best = if (now.noise.rows == noise.rows) state else again(state, BlindNoise(noise, now.spread))
         repeat(EVENINGS) {
             val next = again(best, SteepNoise.of(best, noise))

@@ -60,6 +60,7 @@ internal class BlindWarnings(
             )
         }
         if (rounding != null) add(rounding.words())
+        search.gaps?.words()?.let(::add)
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }

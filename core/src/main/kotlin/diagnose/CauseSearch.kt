@@ -9,7 +9,7 @@ import kotlin.math.sqrt
  * @property term what was tried. @property fit the model with it. @property ratio twice the gain in log-likelihood,
  * divided by [inflation], which the scores' correlation inflates it by. @property degrees numbers more than without it.
  * @property cost what as many meaningless numbers and places would gain, as twice a log-likelihood.
- * @property worth what it gains beyond [cost].
+ * @property worth what it gains beyond [cost]; nothing, -∞, where held-out blocks are left worse than without it.
  * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
  * blocks. @property foretells whether it foretells rows it was not fitted to better than the model without it.
  */
@@ -80,10 +80,11 @@ internal class CauseSearch(
         if (worthHolding && gained <= 0 && best.model.terms.any(::actsNowAndThen)) {
             gained = HeldOut.gainWhereTheyAct(best, base, root, used)
         }
-        val worth = gain - cost
+        val isWorse = heldOut.rmse > WORSE * baseHeldOut.rmse
+        val worth = if (isWorse) Double.NEGATIVE_INFINITY else gain - cost
         // Where a log has no place for a jump nothing is added.
         val added = if (best === base) term else best.model.terms.last()
-        return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0)
+        return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0 && !isWorse)
     }
 
     /** Whether [term] shows only where the water comes to it, which may be once in a log. */
@@ -264,6 +265,12 @@ internal class CauseSearch(
         private const val PLACES = 60
         private const val MOST_JUMPS = 3
         private const val JUMP_WORTH = 25.0
+
+        /**
+         * Of the residuals on held-out blocks without a cause, beyond which those with it explain nothing, however likely
+         * noise that wanders more makes them: a jump to where a wild reading was, and no way back.
+         */
+        private const val WORSE = 1.1
 
         /** Below this share of the level jumps show by themselves, whatever else is tried. */
         private const val SHOWN = 0.05

@@ -124,15 +124,27 @@ internal class CorrelatedNoise(
 
     /**
      * Writes Wᵀ [whitened] into [out], which may be the same, where whitening is W: what [whitened] is with a whitened
-     * column is what [out] is with the column. Of noise without shocks alone.
+     * column is what [out] is with the column.
      */
     fun turned(whitened: DoubleArray, out: DoubleArray) {
-        check(shocks == null) { "shocks are not turned" }
+        if (shocks != null) return turned(whitened, out, shocks.keep)
         var state = 0.0
         for (i in whitened.indices.reversed()) {
             val innovation = if (used[i]) gain[i] * state + scale[i] * whitened[i] else 0.0
             out[i] = innovation
             state = keep[i] * (state - innovation)
+        }
+    }
+
+    private fun turned(whitened: DoubleArray, out: DoubleArray, fade: DoubleArray) {
+        var state = 0.0
+        var shaken = 0.0
+        for (i in whitened.indices.reversed()) {
+            val innovation =
+                if (used[i]) gain[i] * state + second[i] * shaken + scale[i] * whitened[i] else 0.0
+            out[i] = innovation
+            state = keep[i] * (state - innovation)
+            shaken = fade[i] * (shaken - innovation)
         }
     }
 

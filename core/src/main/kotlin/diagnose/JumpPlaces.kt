@@ -7,7 +7,8 @@ import kotlin.math.abs
  *
  * A jump is a column of 0 and then 1; whitened, and made orthogonal to all that was fitted, its square share of the
  * residuals is what it would gain. Looked at are [count] even places twice over, and the rows that surprise most: under
- * noise that wanders a jump shows at its own row alone.
+ * noise that wanders a jump shows at its own row alone. While the sensor settles after a gap there are none: what is left
+ * then may be of what it saw in the gap.
  *
  * @param whitened residuals to explain, those of [fit] unless others are simulated.
  */
@@ -22,11 +23,23 @@ internal class JumpPlaces(
     private val edge = edge(n)
     private val stride = maxOf(n / (2 * count), 1)
     private val taken = fit.model.terms.flatMap { it.times }
+    private val isSettling = settling()
     private val rows: List<Int> = run {
-        val inner = edge until n - edge
+        val inner = (edge until n - edge).filterNot { isSettling[it] }
         val striking = inner.sortedByDescending { abs(whitened[it]) }.take(STRIKING)
-        ((inner step stride) + striking).distinct().sorted().filter { row ->
+        (inner.filter { (it - edge) % stride == 0 } + striking).distinct().sorted().filter { row ->
             taken.all { abs(it - (series.times[row] - series.times[0])) > series.duration / count }
+        }
+    }
+
+    /** Which rows are less than some time constants after a gap, but for the first behind it. */
+    private fun settling(): BooleanArray {
+        val isGap = fit.model.scales.unknown?.isGap ?: return BooleanArray(n)
+        val long = SETTLED * fit.numbers[ResponseModel.TIME_CONSTANT]
+        var begun = Double.NEGATIVE_INFINITY
+        return BooleanArray(n) { i ->
+            if (isGap[i]) begun = series.times[i]
+            !isGap[i] && series.times[i] - begun < long
         }
     }
 
@@ -72,7 +85,7 @@ internal class JumpPlaces(
 
     private fun refined(row: Int, beside: DoubleArray, from: Int = edge, to: Int = n - edge - 1): Int {
         val other = Evidence.orthonormal(listOf(beside))
-        return (maxOf(row - stride, from)..minOf(row + stride, to)).maxByOrNull { gain(it, other) } ?: row
+        return near(row, from, to).maxByOrNull { gain(it, other) } ?: row
     }
 
     private fun column(row: Int) = column(fit, row, basis)
@@ -87,13 +100,19 @@ internal class JumpPlaces(
         return if (length > LEAST) share * share / length else 0.0
     }
 
-    private fun refined(row: Int) = (maxOf(row - stride, edge)..minOf(row + stride, n - edge - 1)).maxBy(::gain)
+    private fun refined(row: Int) = near(row, edge, n - edge - 1).maxByOrNull(::gain) ?: row
+
+    private fun near(row: Int, from: Int, to: Int) =
+        (maxOf(row - stride, from)..minOf(row + stride, to)).filterNot { isSettling[it] }
 
     private fun timeBefore(row: Int) = (series.times[row] + series.times[row - 1]) / 2 - series.times[0]
 
     companion object {
         private const val STRIKING = 40
         private const val LEAST = 1e-9
+
+        /** Time constants after which nothing is left of what a sensor has seen: a hundredth is. */
+        private const val SETTLED = 5.0
 
         /** Rows at either end of a log of [size] that have no jump before them. */
         fun edge(size: Int): Int = maxOf(size / 50, 3)

@@ -28,6 +28,15 @@ internal class UnknownTruth private constructor(
     /** Whether so many steps are in doubt that the log says little of how the reading follows the truth. */
     val isMostly: Boolean get() = isBroken.count { it } > OFTEN * isBroken.size
 
+    /** What to say of gaps; null without any. */
+    fun words(): String? {
+        val gaps = isGap.count { it }
+        if (gaps == 0) return null
+        val where = if (gaps == 1) "after a gap" else "after $gaps gaps"
+        return "What the sensor saw while nothing was logged is unknown. What is left of it $where counts neither for nor " +
+            "against any cause, but is in the residuals' root mean square."
+    }
+
     /** Whether the truth beside row [i] is in doubt, so that a reading there may be far off without being wrong. */
     fun isInDoubt(i: Int): Boolean = (maxOf(i - 1, 0)..minOf(i + 1, doubts.size - 1)).any { doubts[it] > 0 }
 
@@ -88,12 +97,27 @@ internal class UnknownTruth private constructor(
                 series.times,
             )
 
+        /**
+         * What gaps in [series] leave open where there is no reference: what was passed there is anybody's guess, and may
+         * have been any of the readings. Null where there are none.
+         */
+        fun ofGaps(series: MeasuredSeries): UnknownTruth? {
+            val isGap = gaps(series)
+            if (isGap.none { it }) return null
+            val spread = deviation(series.values)
+            val doubts = DoubleArray(series.size) { if (isGap[it]) spread else 0.0 }
+            return UnknownTruth(isGap, isGap, false, doubts, DoubleArray(series.size), series.times)
+        }
+
+        private fun gaps(series: MeasuredSeries) =
+            BooleanArray(series.size) { it > 0 && series.times[it] - series.times[it - 1] > GAP * series.period }
+
         /** What the reference of [series] leaves open. */
         fun of(series: MeasuredSeries): UnknownTruth {
             val truth = series.reference ?: return none(series)
             val n = series.size
             val times = series.times
-            val isGap = BooleanArray(n) { it > 0 && times[it] - times[it - 1] > GAP * series.period }
+            val isGap = gaps(series)
             val near = ReferenceGaps.errors(times, truth, 1, isGap)
             val within = within(near, ReferenceGaps.errors(times, truth, 2, isGap))
             val usual = median(within)

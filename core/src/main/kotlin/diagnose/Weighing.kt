@@ -135,6 +135,7 @@ internal class Weighing(
                     "constant half a step shorter.",
             )
         }
+        scales.unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         val off = spikes.size + series.wild.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")

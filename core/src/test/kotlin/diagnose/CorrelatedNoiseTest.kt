@@ -70,20 +70,42 @@ class CorrelatedNoiseTest {
                 isShaken,
             ->
             val random = Random(seed)
-            var now = 0.0
-            val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
-            val shocks = UnknownTruth.Shocks(
-                DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
-                DoubleArray(n) { random.nextDouble(0.0, 1.0) },
-            )
-            val some = BooleanArray(n) { random.nextInt(5) > 0 }
-            val share = random.nextDouble(0.0, 1.0)
-            val noise = CorrelatedNoise(times, share, random.nextDouble(0.1, 50.0), some, shocks.takeIf { isShaken })
+            val noise = anyNoise(random, n, isShaken)
             val columns = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
             val alone = columns.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }
             noise.whitenBoth(columns[0], columns[1])
             for (k in 0..1) assertContentEquals(alone[k], columns[k], "column $k, seed $seed")
         }
+    }
+
+    /** wᵀ (W c) and (Wᵀ w)ᵀ c are the same number, for any column c and any w. */
+    @Test
+    fun turnedIsTheTransposeOfWhitening() = runBlocking<Unit> {
+        checkAll(PropTestConfig(seed = 20_265, iterations = 200), Arb.int(), Arb.int(1, 40), Arb.boolean()) {
+                seed,
+                n,
+                isShaken,
+            ->
+            val random = Random(seed)
+            val noise = anyNoise(random, n, isShaken)
+            val (c, w) = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
+            val white = DoubleArray(n).also { noise.whiten(c, it) }
+            val turned = DoubleArray(n).also { noise.turned(w, it) }
+            assertEquals(dot(w, white), dot(turned, c), 1e-8 * (1 + abs(dot(w, white))), "seed $seed")
+        }
+    }
+
+    /** At uneven times, some rows not in use, a truth in doubt or not. */
+    private fun anyNoise(random: Random, n: Int, isShaken: Boolean): CorrelatedNoise {
+        var now = 0.0
+        val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
+        val shocks = UnknownTruth.Shocks(
+            DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
+            DoubleArray(n) { random.nextDouble(0.0, 1.0) },
+        )
+        val some = BooleanArray(n) { random.nextInt(5) > 0 }
+        val share = random.nextDouble(0.0, 1.0)
+        return CorrelatedNoise(times, share, random.nextDouble(0.1, 50.0), some, shocks.takeIf { isShaken })
     }
 
     /** r' C⁻¹ r and ln |C| of the covariance that the class states, worked out with the whole matrix. */

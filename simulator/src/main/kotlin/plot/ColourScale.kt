@@ -13,11 +13,13 @@ import kotlin.math.abs
  * blue below zero, white at it and red above.
  *
  * @param isDifference whether the sign is what matters; the ends are then equally far from zero.
+ * @param limits what the plot library is told, not within [from] to [to].
  */
 internal class ColourScale private constructor(
     private val from: Double,
     private val to: Double,
     private val isDifference: Boolean = false,
+    private val limits: Pair<Double, Double> = from to to,
 ) {
     /** [value] on the scale: moved to the nearer end if beyond, null (drawn grey) if there is none. */
     fun place(value: Double): Double? = if (value.isNaN()) null else value.coerceIn(from, to)
@@ -37,7 +39,7 @@ internal class ColourScale private constructor(
                 mid = Palette.LEVEL,
                 high = Palette.ABOVE,
                 name = unit,
-                limits = from to to,
+                limits = limits,
                 breaks = ticks.places,
                 labels = ticks.labels,
                 naValue = Palette.ABSENT,
@@ -46,7 +48,7 @@ internal class ColourScale private constructor(
         }
         return scaleFillViridis(
             name = unit,
-            limits = from to to,
+            limits = limits,
             breaks = ticks.places,
             labels = ticks.labels,
             naValue = Palette.ABSENT,
@@ -63,7 +65,7 @@ internal class ColourScale private constructor(
                 mid = Palette.LEVEL,
                 high = Palette.ABOVE,
                 name = unit,
-                limits = from to to,
+                limits = limits,
                 breaks = ticks.places,
                 labels = ticks.labels,
                 naValue = Palette.ABSENT,
@@ -72,7 +74,7 @@ internal class ColourScale private constructor(
         }
         return scaleColorViridis(
             name = unit,
-            limits = from to to,
+            limits = limits,
             breaks = ticks.places,
             labels = ticks.labels,
             naValue = Palette.ABSENT,
@@ -80,7 +82,7 @@ internal class ColourScale private constructor(
         )
     }
 
-    private fun ticks() = Ticks.linear(from, to, TICKS)
+    private fun ticks() = Ticks.linear(limits.first, limits.second, TICKS)
 
     private fun bar(flat: Boolean) = guideColorbar(
         barWidth = if (flat) BAR_LENGTH else BAR_BREADTH,
@@ -136,7 +138,9 @@ internal class ColourScale private constructor(
             val low = shown.minOrNull() ?: return this
             val high = shown.max()
             if (high - low > abs(high) * SMALLEST_SHARE) return this
-            return ColourScale(minOf(from, low - CONSTANT_MARGIN), maxOf(to, high + CONSTANT_MARGIN))
+            // Values stay where they are: moved to the wider ends they would be another constant.
+            val wider = minOf(from, low - CONSTANT_MARGIN) to maxOf(to, high + CONSTANT_MARGIN)
+            return ColourScale(from, to, limits = wider)
         }
     }
 }

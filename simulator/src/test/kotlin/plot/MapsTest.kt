@@ -40,6 +40,14 @@ class MapsTest {
     }
 
     @Test
+    fun valuesThatAreAllBeyondOneEndOfAGivenScaleCanBeDrawn() {
+        for (least in listOf(14.3, 20.0, 3.0)) {
+            val cells = CellMap("t", "", cells(4) { least + it / 10.0 }, "u", colours = 10.0..13.5).draw()
+            assertEquals(1, shapes(cells).map { it.getAttribute("fill") }.distinct().size, "from $least")
+        }
+    }
+
+    @Test
     fun valuesBeyondAGivenScaleAreCountedInTheSubtitle() {
         val cells = CellMap("t", "lake", cells(4) { it * 10.0 }, "u", colours = 10.0..20.0).draw()
         assertContains(SvgParts(cells).texts, "lake; 2 of 4 cells lie beyond the colours' ends")

@@ -55,13 +55,14 @@ private val KINDS = mapOf<String, (HiddenTruth) -> Boolean>(
     "strong" to { it.isStrong },
     "outside" to { truth -> truth.effects.keys.any { !it.listed } },
     "none" to { it.effects.isEmpty() },
+    "two" to { it.effects.size == 2 && it.multiples.values.min() >= 2 },
 ) + HiddenEffect.entries.map { effect -> effect.label to { truth -> truth.isStrong && effect in truth.effects } }
 
 /**
- * `FIRST COUNT reference|blind [CASES.tsv] [strong|outside|none|LABEL]`: prints the tables of a campaign; CASES.tsv gets a
- * line a case, CASES.tsv.md the tables so far. With the last word only single effects at the detectable size and above,
- * effects outside the list, or cases without an effect are asked about; with the label of an effect only those of the
- * list that are this one, at the detectable size and above.
+ * `FIRST COUNT reference|blind [CASES.tsv] [strong|two|outside|none|LABEL]`: prints the tables of a campaign; CASES.tsv
+ * gets a line a case, CASES.tsv.md the tables so far. With the last word only some cases are asked about: single effects
+ * at the detectable size and above, two at twice theirs and above, effects outside the list, or none; with the label of
+ * an effect of the list those that are this one alone, at the detectable size and above.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
