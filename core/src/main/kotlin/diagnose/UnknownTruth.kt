@@ -33,8 +33,8 @@ internal class UnknownTruth private constructor(
         val gaps = isGap.count { it }
         if (gaps == 0) return null
         val where = if (gaps == 1) "after a gap" else "after $gaps gaps"
-        return "What the sensor saw while nothing was logged is unknown. What is left of it $where counts neither for " +
-            "nor against any cause, but is in the residuals' root mean square."
+        return "What the sensor saw while nothing was logged is unknown. What is left of it $where counts neither " +
+            "for nor against any cause, but is in the residuals' root mean square."
     }
 
     /** Whether the truth beside row [i] is in doubt, so that a reading there may be far off without being wrong. */
