@@ -61,7 +61,7 @@ internal class BlindAnswer(
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
         val shown = asFit(named)
         val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded)
-        val extended = sensor.spec("extended").takeIf { isNamed }
+        val extended = sensor.spec("extended").let { given?.delayed(it) ?: it }.takeIf { isNamed }
         val tried = candidates(first)
         // Of what was only tried nobody need know that it ended at a bound.
         bounds.clear()
@@ -73,7 +73,8 @@ internal class BlindAnswer(
             tried,
             baseline,
             after.takeIf { isNamed },
-            settings.base?.takeIf { given?.state != null } ?: ExtendedSensor(asFit(base), null).spec("base"),
+            settings.base?.takeIf { given?.state != null }
+                ?: ExtendedSensor(asFit(base), null).spec("base").let { given?.delayed(it) ?: it },
             extended,
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
@@ -130,6 +131,10 @@ internal class BlindAnswer(
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
                 Verdict.InsufficientData("passes over the same water do not agree for certain that there is a lag")
+            sets.isEmpty() && base.timeConstant > LONGEST * series.duration -> Verdict.InsufficientData(
+                "what passes over the same water show would take a lag of ${three(base.timeConstant)} s, which " +
+                    "such a log cannot tell from water that changes, or from positions that are wrong",
+            )
             sets.isEmpty() -> Verdict.Consistent
             sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
             else -> Verdict.Named(sets.map { it.single() })
@@ -274,6 +279,9 @@ internal class BlindAnswer(
 
     companion object {
         private const val LEFT = 0.25
+
+        /** Of the log's duration: a lag that is longer would be seen to end in few of its parts. */
+        private const val LONGEST = 0.2
 
         /** Adjusted p-value below which what is left is told beside an open lag, of whatever size that is. */
         private const val CERTAIN = 1e-3

@@ -258,28 +258,6 @@ internal class BlindSearch private constructor(
         return best
     }
 
-    /** Whether the water of [state] does not change in time. */
-    fun isStill(state: BlindState): Boolean = state.modes.moving.all { state.variances[it] <= LEAST }
-
-    /** [state] with water that does not change in time, and with what suits that. */
-    fun still(state: BlindState): BlindState =
-        if (isStill(state)) state else fullySuited(held(state))
-
-    /** [state] with water that does not change in time, all else the same. */
-    fun held(state: BlindState): BlindState {
-        val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) LEAST else state.variances[it] }
-        return settled(state.model.terms, state.numbers, state.fit.design.noise, variances, before = state)
-    }
-
-    /** [state] with water that may change in time, and with what suits that. */
-    fun opened(state: BlindState): BlindState {
-        if (!isStill(state)) return state
-        val variances = DoubleArray(state.modes.bands) { if (it in state.modes.moving) OPENED else state.variances[it] }
-        val open =
-            settled(state.model.terms, state.numbers, state.fit.design.noise, variances, FIRST_ROUNDS, before = state)
-        return fullySuited(open)
-    }
-
     /** Which numbers of [model] are fitted: the lag's and the terms'. */
     fun free(model: ResponseModel) =
         BooleanArray(model.parameters.size) { it == ResponseModel.TIME_CONSTANT || it >= ResponseModel.BASE }
@@ -386,8 +364,6 @@ internal class BlindSearch private constructor(
         const val FIRST_STEPS = 5.0
         const val FIRST_ROUNDS = 5
 
-        /** Variance over the noise's of water that changes, to begin with. */
-        const val OPENED = 10.0
         const val ROUNDS = 2
 
         /**

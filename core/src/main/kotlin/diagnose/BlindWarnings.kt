@@ -22,6 +22,12 @@ internal class BlindWarnings(
             }
             add("The sensor given $what.")
         }
+        if (given != null && given.delay > 0) {
+            add(
+                "The dead time of the sensor given, ${three(given.delay)} s, was taken as right: places are those of " +
+                    "so long before, and a dead time that is named comes beside it.",
+            )
+        }
         add(
             "No reference: the water was inferred from revisits with ${search.modes.size} numbers, as fine as " +
                 "${three(search.modes.finest)} ${series.placeUnit}; a gain or an offset cannot be seen. Errors on " +

@@ -13,9 +13,19 @@ internal class GivenLag(search: BlindSearch, private val free: BlindState, spec:
     private val lags = spec.stages.filterIsInstance<SensorStage.Lag>()
         .takeIf { spec.stages.none { it is SensorStage.LimitedLag } }.orEmpty()
 
+    /** Its dead time, which was taken off the log, s. */
+    val delay: Double = delay(spec)
+
     /** Whether anything of the sensor given was not looked at: a gain and an offset do not show anyway. */
-    val isPartial: Boolean = lags.size != 1 ||
-        spec.stages.any { it !is SensorStage.Lag && it !is SensorStage.Calibration && it !is SensorStage.Noise }
+    val isPartial: Boolean = lags.size != 1 || spec.stages.any { !isLookedAt(it) }
+
+    /** [found], on a log without the [delay], as a sensor on the log itself. */
+    fun delayed(found: SensorSpec): SensorSpec {
+        if (delay == 0.0) return found
+        val more = found.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
+        val rest = found.stages.filter { it !is SensorStage.Delay }
+        return found.copy(stages = listOf(SensorStage.Delay(delay + more)) + rest)
+    }
 
     /** Its time constant, s; null where it has no lag alone. */
     val timeConstant: Double? = lags.singleOrNull()?.timeConstant
@@ -35,4 +45,13 @@ internal class GivenLag(search: BlindSearch, private val free: BlindState, spec:
         val agreement = if (t > 0) Evidence.student(t, BlindEvidence.STRETCHES - 1) else 1.0
         maxOf(Evidence.pValue((free.score - given.score) / inflation, 1), agreement)
     } ?: 1.0
+
+    companion object {
+        /** The dead time of [spec], s. */
+        fun delay(spec: SensorSpec): Double =
+            spec.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
+
+        private fun isLookedAt(stage: SensorStage) = stage is SensorStage.Lag || stage is SensorStage.Delay ||
+            stage is SensorStage.Calibration || stage is SensorStage.Noise
+    }
 }

@@ -194,6 +194,29 @@ public class MeasuredSeries private constructor(
     internal fun withReadings(values: DoubleArray) =
         MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed, this)
 
+    /** The same log with each row where the boat was [delay] s before, or at first; on a straight line between two rows. */
+    internal fun atPlacesBefore(delay: Double): MeasuredSeries {
+        fun before(places: DoubleArray) = DoubleArray(size) { i ->
+            val time = times[i] - delay
+            val at = times.binarySearch(time).let { if (it >= 0) it else -it - 2 }
+            val share = if (at >= 0) (time - times[at]) / (times[at + 1] - times[at]) else 0.0
+            if (at < 0) places[0] else places[at] + share * (places[at + 1] - places[at])
+        }
+        return MeasuredSeries(
+            times,
+            before(x),
+            before(y),
+            values,
+            reference,
+            conditions,
+            isSparse,
+            isRead,
+            wild,
+            isGuessed,
+            this,
+        )
+    }
+
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {
         val rows = column.indices.filter { column[it].isFinite() }

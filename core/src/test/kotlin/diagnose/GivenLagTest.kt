@@ -1,0 +1,62 @@
+package stillwater.diagnose
+
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+import kotlin.test.Test
+import kotlin.test.assertContentEquals
+import kotlin.test.assertEquals
+import kotlin.test.assertIs
+import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
+
+/** A sensor that is given, on a log without a reference. */
+class GivenLagTest {
+    private val late = 3
+    private val rows = 900
+    private val track = CrossingTrack(rows + late)
+
+    /** A lag of 5 s that shows the water three seconds late. */
+    private val log: MeasuredSeries = run {
+        val random = java.util.Random(9)
+        val shown = track.shown(5.0)
+        val values = DoubleArray(rows) { shown[it] + 0.004 * random.nextGaussian() }
+        fun DoubleArray.after() = copyOfRange(late, size)
+        MeasuredSeries(track.times.copyOf(rows), track.x.after(), track.y.after(), values, null)
+    }
+
+    private fun diagnosed(vararg stages: SensorStage) =
+        Diagnosis(log, DiagnosisSettings(base = SensorSpec("given", stages.toList()))).run()
+
+    @Test
+    fun aDeadTimeThatIsGivenIsNoCause() {
+        val result = diagnosed(SensorStage.Delay(3.0), SensorStage.Lag(5.0))
+        val causes = (result.verdict as? Verdict.Ambiguous)?.sets ?: listOf(emptyList())
+        // On so short a way a lag and a dead time may be either.
+        val isLag = causes == listOf(listOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME))
+        assertTrue(isLag || result.verdict == Verdict.Consistent, "${result.verdict}")
+        assertTrue(result.warnings.any { "3.00 s, was taken as right" in it }, "${result.warnings}")
+        assertTrue(result.warnings.none { "time constant alone" in it }, "${result.warnings}")
+    }
+
+    @Test
+    fun aWrongTimeConstantBesideItIsNamedAndTheDeadTimeStays() {
+        val result = diagnosed(SensorStage.Delay(3.0), SensorStage.Lag(9.0))
+        val named = when (val verdict = result.verdict) {
+            is Verdict.Named -> verdict.causes
+            else -> assertIs<Verdict.Ambiguous>(verdict).sets.flatten()
+        }
+        assertTrue(Cause.TIME_CONSTANT in named, "${result.verdict}")
+        val stages = assertNotNull(result.extendedSensor).stages
+        assertEquals(5.0, assertIs<SensorStage.Lag>(stages.first { it is SensorStage.Lag }).timeConstant, 0.2)
+        assertEquals(3.0, assertIs<SensorStage.Delay>(stages.first()).deadTime, 0.2)
+    }
+
+    @Test
+    fun placesBeforeAreOnALineBetweenRows() {
+        val times = doubleArrayOf(0.0, 1.0, 3.0, 4.0)
+        val places = doubleArrayOf(0.0, 10.0, 30.0, 20.0)
+        val earlier = MeasuredSeries(times, places, places, times, null).atPlacesBefore(0.5)
+        assertContentEquals(doubleArrayOf(0.0, 5.0, 25.0, 25.0), earlier.x)
+        assertContentEquals(earlier.x, earlier.y)
+    }
+}
