@@ -61,7 +61,7 @@ internal class BlindAnswer(
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
         val shown = asFit(named)
         val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded)
-        val extended = sensor.spec("extended").let { given?.delayed(it) ?: it }.takeIf { isNamed }
+        val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
         val tried = candidates(first)
         // Of what was only tried nobody need know that it ended at a bound.
         bounds.clear()
@@ -73,8 +73,7 @@ internal class BlindAnswer(
             tried,
             baseline,
             after.takeIf { isNamed },
-            settings.base?.takeIf { given?.state != null }
-                ?: ExtendedSensor(asFit(base), null).spec("base").let { given?.delayed(it) ?: it },
+            settings.base?.takeIf { given?.state != null } ?: onLog(ExtendedSensor(asFit(base), null).spec("base")),
             extended,
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
@@ -159,6 +158,9 @@ internal class BlindAnswer(
 
     /** Whether [term] shifts readings by no more than a simulation in fine steps does. */
     private fun isNothing(term: Term) = BlindTerms.isLittle(term, last, SmallShifts.SIMULATED_ROWS)
+
+    /** [found] as a sensor on the log as it was given. */
+    private fun onLog(found: SensorSpec) = given?.delayed(found) ?: found
 
     /** What is to be said of those [chosen] that do little, however surely. */
     private fun little(chosen: List<BlindStep>) =

@@ -100,8 +100,7 @@ internal class BlindDiagnosis(
         finer(first)?.let { return answer(search.begun(it)) }
         val turned = if (isTurned) null else turned(base, first)
         if (turned != null) return answer(turned, isTurned = true)
-        val forward = BlindForward(search, settings) { round(it) }
-        val once = forward.of(first)
+        val once = BlindForward(search, settings) { round(it) }.of(first)
         val found = heldInstead(once.steps) ?: once
         val chosen = found.steps
         if (base.model.steps !=
@@ -111,7 +110,7 @@ internal class BlindDiagnosis(
         }
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = found.ended ?: round(last)
-        val sets = sets(start, chosen, forward)
+        val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(search, last), given)
             .of(first, chosen, sets, end)
@@ -191,12 +190,8 @@ internal class BlindDiagnosis(
         BlindRound(search, settings, lag, arms, model, still, ::tell).also { rounds++ }
 
     /** For each chosen cause those that explain as much in its place. */
-    private fun sets(
-        base: BlindState,
-        chosen: List<BlindStep>,
-        forward: BlindForward,
-    ): List<List<Cause>> = chosen.mapIndexed { i, step ->
-        val round = if (i == chosen.size - 1) step.round else round(forward.without(base, chosen, i))
+    private fun sets(base: BlindState, chosen: List<BlindStep>): List<List<Cause>> = chosen.mapIndexed { i, step ->
+        val round = if (i == chosen.size - 1) step.round else round(search.without(base, chosen, i))
         val taken = chosen.filter { it !== step }.map { it.trial.name }
         val own = round.causes.firstOrNull { it.name == step.trial.name } ?: step.trial
         val rivals = round.causes.filter { it.name !in taken && it.pValue < settings.level }

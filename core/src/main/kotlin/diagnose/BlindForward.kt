@@ -24,21 +24,16 @@ internal class BlindForward(
     /** [found] with as many causes more as are sure. */
     private fun extended(found: BlindFound): BlindFound {
         val chosen = ArrayList(found.steps)
-        var round = checkNotNull(found.ended)
-        var isEnd = true
+        var ended = found.ended
         while (chosen.size < settings.mostCauses) {
+            val round = checkNotNull(ended)
             if (round.adjustedCauses.none { it < CAUSES * settings.level }) break
             // That something is there is told by the surest cause, which it is by the likeliest; rounding comes last, for
             // in readings that are rounded nothing else can be looked for.
             val sure = possible(round)
             val likeliest = sure.maxBy { it.likelier }
-            val best = if (likeliest.term?.cause ==
-                Cause.QUANTISATION
-            ) {
-                beforeRounding(round) ?: likeliest
-            } else {
-                likeliest
-            }
+            val isRounding = likeliest.term?.cause == Cause.QUANTISATION
+            val best = if (isRounding) beforeRounding(round) ?: likeliest else likeliest
             if (best.sureness < FURTHER * (chosen.maxOfOrNull { it.trial.sureness } ?: 0.0)) break
             // What no cause explains comes first where it is far ahead of all, or the stronger and stays: a cause would be
             // named for its shadow. A response that rings is like many others.
@@ -52,10 +47,9 @@ internal class BlindForward(
             val next = if (isShadow || !isLast) round(state) else null
             if (isShadow && checkNotNull(next).strongestLook != null) break
             chosen += BlindStep(best, round, state)
-            isEnd = next != null
-            if (next != null) round = next
+            ended = next
         }
-        return BlindFound(chosen, round.takeIf { isEnd })
+        return BlindFound(chosen, ended)
     }
 
     /**
@@ -118,7 +112,7 @@ internal class BlindForward(
         if (chosen.size < 2) return found
         val full = chosen.last().state
         for (i in 0 until chosen.size - 1) {
-            val others = search.suited(without(chosen.first().round.state, chosen, i))
+            val others = search.suited(search.without(chosen.first().round.state, chosen, i))
             val without = if (search.isStill(full)) search.still(others) else search.opened(others)
             val lost = (full.score - without.score) / chosen[i].trial.inflation
             if (lost > NEEDLESS) continue
@@ -135,16 +129,6 @@ internal class BlindForward(
         // How steps are held shows only once the response is right.
         val stepped = search.stepped(model)
         return if (stepped === model) model else search.climbed(search.requieted(stepped))
-    }
-
-    /** The model with all that was [chosen] but the [left]-th, with the noise of [base]. */
-    fun without(base: BlindState, chosen: List<BlindStep>, left: Int): BlindState {
-        val full = chosen.last().state
-        val dropped = chosen[left].trial.name
-        val terms = full.model.terms.filter { it.key != dropped }
-        val model = search.model(terms, full.modes, full.water)
-        val numbers = model.carried(full.model, full.numbers)
-        return search.improved(search.settled(terms, numbers, base.fit.design.noise, base.variances, before = full))
     }
 
     private companion object {

@@ -61,52 +61,41 @@ class CorrelatedNoiseTest {
         assertTrue(z.indices.all { half[it] || z[it] == 0.0 })
     }
 
-    /** Rows at uneven times, some not in use, a truth in doubt or not: both at once are to the bit what each is alone. */
+    /** Both at once are to the bit what each is alone. */
     @Test
-    fun whiteningTwoAtOnceIsWhiteningEach() = runBlocking<Unit> {
-        checkAll(PropTestConfig(seed = 20_263, iterations = 200), Arb.int(), Arb.int(0, 40), Arb.boolean()) {
-                seed,
-                n,
-                isShaken,
-            ->
-            val random = Random(seed)
-            val noise = anyNoise(random, n, isShaken)
-            val columns = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
-            val alone = columns.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }
-            noise.whitenBoth(columns[0], columns[1])
-            for (k in 0..1) assertContentEquals(alone[k], columns[k], "column $k, seed $seed")
-        }
+    fun whiteningTwoAtOnceIsWhiteningEach() = ofAnyNoise(20_263, Arb.int(0, 40)) { noise, n, random, seed ->
+        val columns = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
+        val alone = columns.map { column -> DoubleArray(n).also { noise.whiten(column, it) } }
+        noise.whitenBoth(columns[0], columns[1])
+        for (k in 0..1) assertContentEquals(alone[k], columns[k], "column $k, seed $seed")
     }
 
     /** wᵀ (W c) and (Wᵀ w)ᵀ c are the same number, for any column c and any w. */
     @Test
-    fun turnedIsTheTransposeOfWhitening() = runBlocking<Unit> {
-        checkAll(PropTestConfig(seed = 20_265, iterations = 200), Arb.int(), Arb.int(1, 40), Arb.boolean()) {
-                seed,
-                n,
-                isShaken,
-            ->
-            val random = Random(seed)
-            val noise = anyNoise(random, n, isShaken)
-            val (c, w) = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
-            val white = DoubleArray(n).also { noise.whiten(c, it) }
-            val turned = DoubleArray(n).also { noise.turned(w, it) }
-            assertEquals(dot(w, white), dot(turned, c), 1e-8 * (1 + abs(dot(w, white))), "seed $seed")
-        }
+    fun turnedIsTheTransposeOfWhitening() = ofAnyNoise(20_265, Arb.int(1, 40)) { noise, n, random, seed ->
+        val (c, w) = List(2) { DoubleArray(n) { random.nextDouble(-10.0, 10.0) } }
+        val white = DoubleArray(n).also { noise.whiten(c, it) }
+        val turned = DoubleArray(n).also { noise.turned(w, it) }
+        assertEquals(dot(w, white), dot(turned, c), 1e-8 * (1 + abs(dot(w, white))), "seed $seed")
     }
 
-    /** At uneven times, some rows not in use, a truth in doubt or not. */
-    private fun anyNoise(random: Random, n: Int, isShaken: Boolean): CorrelatedNoise {
-        var now = 0.0
-        val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
-        val shocks = UnknownTruth.Shocks(
-            DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
-            DoubleArray(n) { random.nextDouble(0.0, 1.0) },
-        )
-        val some = BooleanArray(n) { random.nextInt(5) > 0 }
-        val share = random.nextDouble(0.0, 1.0)
-        return CorrelatedNoise(times, share, random.nextDouble(0.1, 50.0), some, shocks.takeIf { isShaken })
-    }
+    /** Asks [law] of noise on so many [rows] at uneven times, some not in use, a truth in doubt or not. */
+    private fun ofAnyNoise(first: Long, rows: Arb<Int>, law: (CorrelatedNoise, Int, Random, Int) -> Unit) =
+        runBlocking<Unit> {
+            checkAll(PropTestConfig(first, iterations = 200), Arb.int(), rows, Arb.boolean()) { seed, n, isShaken ->
+                val random = Random(seed)
+                var now = 0.0
+                val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
+                val shocks = UnknownTruth.Shocks(
+                    DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
+                    DoubleArray(n) { random.nextDouble(0.0, 1.0) },
+                )
+                val some = BooleanArray(n) { random.nextInt(5) > 0 }
+                val share = random.nextDouble(0.0, 1.0)
+                val time = random.nextDouble(0.1, 50.0)
+                law(CorrelatedNoise(times, share, time, some, shocks.takeIf { isShaken }), n, random, seed)
+            }
+        }
 
     /** r' C⁻¹ r and ln |C| of the covariance that the class states, worked out with the whole matrix. */
     @Test

@@ -49,9 +49,31 @@ class GapsTest {
         }
     }
 
-    /** Readings that stand still at the end of their range show nothing of a past that comes out once they leave it. */
+    /** What is left of a gap may come out late, as once readings leave the end of their range, and rises like a jump. */
     @Test
-    fun noJumpIsTakenForWhatASensorSawInAGap() {
+    fun noJumpIsLookedForWhileTheSensorSettlesAfterAGap() {
+        val n = 400
+        val times = DoubleArray(n) { it + if (it >= 200) 30.0 else 0.0 }
+        val truth = DoubleArray(n) { sin(times[it] / 20) }
+        val series = MeasuredSeries(times, DoubleArray(n), DoubleArray(n), truth, truth)
+        val scales = Scales(series, UnknownTruth.of(series))
+        val model = ResponseModel(series, emptyList(), Steps.EVEN, scales)
+        val numbers = doubleArrayOf(10.0, 1.0, 0.0, truth[0])
+        val noise = CorrelatedNoise.white(scales, BooleanArray(n) { true })
+        val fit = Fitting.at(model, numbers, BooleanArray(numbers.size), noise)
+
+        /** The place of a jump by 1 at [row] of what is left. */
+        fun found(row: Int) = JumpPlaces(fit, 60, DoubleArray(n) { if (it >= row) 1.0 else 0.0 }).single()
+        assertEquals(times[120] - 0.5, found(120))
+        assertEquals(times[260] - 0.5, found(260))
+        // At the gap itself, and 49 rows on; five time constants are 50 s.
+        assertEquals((times[199] + times[200]) / 2, found(200))
+        val place = assertNotNull(found(225))
+        assertTrue(place < times[200] || place > times[200] + 49, "$place")
+    }
+
+    @Test
+    fun anEndOfTheRangeIsNamedAcrossGaps() {
         val n = 2000
         val truth = DoubleArray(n) { 8 + 1.2 * sin(it / 23.0) + cos(it / 61.0) + 0.5 * sin(it / 9.0) }
         for (seed in 1L..8L) {

@@ -155,6 +155,21 @@ class HiddenEffectsTest {
         assertEquals("unexplained", cases.last().answer.verdict, Scores(cases).markdown())
     }
 
+    /**
+     * Seeds of the work on it: a second order and a lag that follows the speed, to which together an offset of place comes
+     * nearest alone, and a dead time and a jump, which in still water look like a response that rings.
+     */
+    @Test
+    fun twoEffectsAreToldThatLookLikeOneOrLikeNone() {
+        val cases = blind(262_775, 255_340)
+        val hidden = listOf(
+            setOf(HiddenEffect.SECOND_ORDER, HiddenEffect.FLOW),
+            setOf(HiddenEffect.DEAD_TIME, HiddenEffect.STEPS),
+        )
+        assertEquals(hidden, cases.map { it.truth.effects.keys })
+        assertTrue(cases.all { it.bothFound }, Scores(cases).markdown())
+    }
+
     /** A seed of the work on it: interference of 1.3x, whose period the water takes most of. */
     @Test
     fun whatIsOutsideTheListIsUnexplainedWhereItIsFaint() {
