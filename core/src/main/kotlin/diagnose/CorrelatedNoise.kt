@@ -36,6 +36,9 @@ internal class CorrelatedNoise(
     /** Sum over the rows in use of ln of the innovation's variance. */
     val logDeterminant: Double
 
+    /** The part of the innovations' variance, on average, that is white noise of the row itself; dimensionless. */
+    val freshShare: Double
+
     init {
         var variance = share
         var both = 0.0
@@ -46,6 +49,7 @@ internal class CorrelatedNoise(
         var lastInnovation = 0.0
         var lastScale = 0.0
         var lastLogarithm = 0.0
+        var fresh = 0.0
         for (i in times.indices) {
             val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
             // Even times differ by a rounding error.
@@ -77,8 +81,10 @@ internal class CorrelatedNoise(
                 shaken -= second[i] * (second[i] * innovation)
             }
             sum += lastLogarithm
+            fresh += (1 - share) * lastScale * lastScale
         }
         logDeterminant = sum
+        freshShare = (fresh / maxOf(rows, 1)).coerceIn(0.0, 1.0)
     }
 
     /** Whitens [column] into [out], which may be the same, both of length n; rows not in use become 0. */

@@ -11,7 +11,8 @@ import kotlin.math.sin
  * foretells the fixes left out best. Where the log has speed and heading, what fixes are off the way reckoned from
  * these is smoothed as well, and taken if it foretells them better.
  *
- * A fix that is repeated until the receiver has a new one is put on the way between the two first.
+ * A fix that is repeated until the receiver has a new one says nothing of the rows that repeat it: the parabolas go
+ * through the others alone.
  *
  * @property x metres east, length n. @property y metres north, length n. @property behind how far behind the fixes these
  *   places are, m.
@@ -65,12 +66,13 @@ internal class SmoothTrack private constructor(
         /** The smoothed way of [series]. */
         fun of(series: MeasuredSeries): SmoothTrack {
             val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
-            val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, it) }
+            val known = RepeatedFixes.known(series)
+            val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, known, it) }
             val best = fits.minBy { it.missed }
             val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(series, best.x, best.y)
             val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
             val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
-            val other = LONG_REACHES.map { Parabolas(series, east, north, it) }.minBy { it.missed }
+            val other = LONG_REACHES.map { Parabolas(series, east, north, known, it) }.minBy { it.missed }
             if (other.missed > best.missed) return SmoothTrack(series, best.x, best.y)
             return SmoothTrack(
                 series,
@@ -80,8 +82,14 @@ internal class SmoothTrack private constructor(
         }
     }
 
-    /** Parabolas through [reach] rows either side. */
-    private class Parabolas(val series: MeasuredSeries, from: DoubleArray, north: DoubleArray, val reach: Int) {
+    /** Parabolas through [reach] rows either side of those whose fix is [known]. */
+    private class Parabolas(
+        private val series: MeasuredSeries,
+        from: DoubleArray,
+        north: DoubleArray,
+        private val known: BooleanArray,
+        private val reach: Int,
+    ) {
         val x = from.copyOf()
         val y = north.copyOf()
         var missed = 0.0
@@ -91,9 +99,9 @@ internal class SmoothTrack private constructor(
         init {
             for (i in x.indices) {
                 val rows = rows(i)
-                if (rows.last - rows.first < FEWEST) continue
+                if (rows.count { known[it] } <= FEWEST) continue
                 for ((column, out) in listOf(from to x, north to y)) {
-                    missed += (column[i] - middle(column, rows, i, true)).let { it * it }
+                    if (known[i]) missed += (column[i] - middle(column, rows, i, true)).let { it * it }
                     out[i] = middle(column, rows, i, false)
                 }
             }
@@ -103,8 +111,10 @@ internal class SmoothTrack private constructor(
             var a = i
             var b = i
             val times = series.times
-            while (a > 0 && i - a < reach && times[a] - times[a - 1] <= series.gap) a--
-            while (b < times.size - 1 && b - i < reach && times[b + 1] - times[b] <= series.gap) b++
+            var left = reach
+            while (a > 0 && left > 0 && times[a] - times[a - 1] <= series.gap) if (known[--a]) left--
+            left = reach
+            while (b < times.size - 1 && left > 0 && times[b + 1] - times[b] <= series.gap) if (known[++b]) left--
             return a..b
         }
 
@@ -113,7 +123,7 @@ internal class SmoothTrack private constructor(
             sums.fill(0.0)
             right.fill(0.0)
             for (k in rows) {
-                if (isLeftOut && k == i) continue
+                if (!known[k] || (isLeftOut && k == i)) continue
                 val t = (series.times[k] - series.times[i]) / series.period
                 var power = 1.0
                 for (d in 0..4) {

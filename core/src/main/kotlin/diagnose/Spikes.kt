@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import org.hipparchus.special.Gamma
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.exp
@@ -12,7 +11,10 @@ internal object Spikes {
     private const val HALF_WINDOW = 3
     private const val TIMES_SPREAD = 5.5
     private const val NORMAL = 1.4826
-    private val FREEDOMS = listOf(3.0, 5.0, 8.0, 15.0, 30.0)
+
+    /** Of the variance: with more than that of white noise all is as good as white. */
+    private const val MOSTLY_FRESH = 0.95
+    private val FREEDOMS = listOf(3, 5, 8, 15, 30)
     private val WIDTHS = listOf(0.85, 0.9, 0.95, 1.0, 1.05)
 
     /** How far a row is off the middle of those beside it, over the longer of the ways there: 1 of a single row, else ½. */
@@ -82,23 +84,29 @@ internal object Spikes {
         return best
     }
 
-    /** Twice the log-likelihood ratio of noise with Student's tails against normal noise for white [residuals]. */
-    fun tails(residuals: DoubleArray): Double = student(residuals).ratio
+    /**
+     * The likeliest noise with Student's tails for [residuals] that were whitened by [noise]: all of it has tails, or only
+     * what comes anew with each row; what wanders is a sum of much and has none.
+     */
+    fun student(residuals: DoubleArray, noise: CorrelatedNoise): StudentTails {
+        val all = student(residuals)
+        if (noise.freshShare > MOSTLY_FRESH) return all
+        return student(residuals, noise.freshShare).takeIf { it.ratio > all.ratio } ?: all
+    }
 
-    /** The likeliest noise with Student's tails for white [residuals]. */
-    fun student(residuals: DoubleArray): StudentTails {
+    /** The likeliest noise with Student's tails for white [residuals], of whose squares [share] has them ([TailedNoise]). */
+    fun student(residuals: DoubleArray, share: Double = 1.0): StudentTails {
         val n = residuals.size
         val alone = sqrt(squares(residuals) / maxOf(n, 1))
         val robust = NORMAL * median(DoubleArray(n) { abs(residuals[it]) })
-        if (!(robust > 0)) return StudentTails(0.0, 1, Double.POSITIVE_INFINITY)
+        if (!(robust > 0)) return StudentTails(0.0, TailedNoise(1, 1.0), Double.POSITIVE_INFINITY)
         val plain = -n * ln(alone) - n / 2.0
         return FREEDOMS.flatMap { freedom ->
-            val height = exp(Gamma.logGamma((freedom + 1) / 2) - Gamma.logGamma(freedom / 2)) * sqrt(2 / freedom)
+            val noise = TailedNoise(freedom, share)
             WIDTHS.map { width ->
                 val spread = width * robust
-                val sum = residuals.sumOf { r -> ln(1 + (r / spread) * (r / spread) / freedom) }
-                val ratio = 2 * (n * ln(height / spread) - (freedom + 1) / 2 * sum - plain)
-                StudentTails(ratio, freedom.toInt(), spread)
+                val sum = residuals.sumOf { r -> noise.logDensity(r / spread) }
+                StudentTails(2 * (sum - n * ln(spread) - plain), noise, spread)
             }
         }.maxBy { it.ratio }
     }
@@ -131,10 +139,10 @@ internal data class Mixture(val ratio: Double, val share: Double, val size: Doub
 /**
  * Noise with Student's tails.
  *
- * @property ratio twice the log-likelihood ratio against normal noise. @property freedom degrees of it.
- * @property spread what Student's t is multiplied by.
+ * @property ratio twice the log-likelihood ratio against normal noise. @property noise of what kind.
+ * @property spread what it is multiplied by.
  */
-internal data class StudentTails(val ratio: Double, val freedom: Int, val spread: Double) {
+internal data class StudentTails(val ratio: Double, val noise: TailedNoise, val spread: Double) {
     /** The share of rows that is farther off than [limit] either way. */
-    fun beyond(limit: Double): Double = Evidence.student(limit / spread, freedom)
+    fun beyond(limit: Double): Double = noise.beyond(limit / spread)
 }

@@ -82,14 +82,17 @@ internal class Weighing(
         val sensor = ExtendedSensor(last, size, rounded, leftOut = unnamed)
         val extended = if (named) sensor.spec("extended") else null
         val candidates = candidates(size, loose.pValue)
-        val baseline = report.assessment(base, baseHeldOut)
-        val after = if (named) report.assessment(last, HeldOut.score(last, used)) else null
+        // A shift that is fitted beside and not named belongs to the base: without it lag and gain make up for it.
+        val isShifted = verdict is Verdict.Consistent && small.isNotEmpty() && equal.isEmpty()
+        val baseline = if (isShifted) assessment(last) else report.assessment(base, baseHeldOut)
+        val baseSensor = if (isShifted) sensor.spec("base") else ExtendedSensor(base, null).spec("base")
+        val after = if (named) assessment(last) else null
         return DiagnosisResult(
             verdict,
             candidates,
             baseline,
             after,
-            settings.base ?: ExtendedSensor(base, null).spec("base"),
+            settings.base ?: baseSensor,
             extended,
             (verdict as? Verdict.Ambiguous)?.let { open ->
                 Manoeuvres.of(open.sets.filter { it.size > 1 }.flatten().toSet())
@@ -112,6 +115,8 @@ internal class Weighing(
 
     /** Whether rounding makes a quarter of the noise: it need not show in what the model foretells of single readings. */
     private val isRounded: Boolean get() = scales.resolution * scales.resolution / 12 > ROUNDED * last.variance
+
+    private fun assessment(fit: ModelFit) = report.assessment(fit, HeldOut.score(fit, used))
 
     private fun effect(term: Term) = NamedEffect(term.cause, report.estimates(last, listOf(term)))
 

@@ -45,6 +45,25 @@ class SmoothTrackTest {
         assertTrue(reckoned < 0.6 * error(headed = null, rests = 4), "$reckoned, seed $SEED")
     }
 
+    /** Of fixes every third row the smoothing is told by these alone: rows that repeat one would foretell each other. */
+    @Test
+    fun fixesThatAreHeldAreSmoothedAsWellAsThoseOfEveryRow() {
+        for (headed in listOf<((Int) -> Double)?>(null, { course[it] })) {
+            val held = error(headed, held = 3)
+            // A third of the fixes: at the best √3 times the error.
+            assertTrue(held < 2 * error(headed), "$held against ${error(headed)}, seed $SEED")
+        }
+    }
+
+    /** The boat rests at one place for ten rows, and has a fix every second row elsewhere. */
+    @Test
+    fun repeatedFixesSayNothingUnlessTheBoatRests() {
+        val x = DoubleArray(30) { if (it < 10) (it / 2).toDouble() else if (it < 20) 5.0 else (it / 2).toDouble() }
+        val series = MeasuredSeries(DoubleArray(30) { it.toDouble() }, x, DoubleArray(30), DoubleArray(30), null)
+        val known = RepeatedFixes.known(series)
+        assertEquals(List(5) { 2 * it } + 10 + List(4) { 16 + it } + List(5) { 20 + 2 * it }, known.indices.filter { known[it] })
+    }
+
     /** On a circle the end of an arm goes on another one, and back where the boat was when the arm is taken off. */
     @Test
     fun theEndOfARigidArmLeavesTheWayInTurns() {
@@ -62,7 +81,7 @@ class SmoothTrackTest {
     }
 
     /** Root mean square of how far the smoothed way is off the true one, m. */
-    private fun error(headed: ((Int) -> Double)?, current: Double = 0.0, rests: Int = 0): Double {
+    private fun error(headed: ((Int) -> Double)?, current: Double = 0.0, rests: Int = 0, held: Int = 1): Double {
         val rested = DoubleArray(n) { (it * (rests + 1) / n).toDouble() }
         val x = DoubleArray(n)
         val y = DoubleArray(n)
@@ -73,7 +92,10 @@ class SmoothTrackTest {
         for (i in 0 until n) x[i] += CARRIED * rested[i]
         val late = DoubleArray(n) { times[it] + REST * rested[it] }
         val random = java.util.Random(SEED)
-        val fixes = listOf(x, y).map { way -> DoubleArray(n) { way[it] + 0.5 * random.nextGaussian() } }
+        val fixes = listOf(x, y).map { way ->
+            val fresh = DoubleArray(n) { way[it] + 0.5 * random.nextGaussian() }
+            DoubleArray(n) { fresh[it - it % held] }
+        }
         val conditions = if (headed == null) {
             emptyMap()
         } else {

@@ -21,7 +21,7 @@ class SpikesTest {
         val noise = DoubleArray(n) { random.normal() }
         for (i in 50 until n step 100) noise[i] += random.nextDouble(-9.0, 9.0)
         val ratio = Spikes.ratio(noise).ratio
-        assertTrue(ratio > 30 && ratio > Spikes.tails(noise), "$ratio against ${Spikes.tails(noise)}")
+        assertTrue(ratio > 30 && ratio > Spikes.student(noise).ratio, "$ratio against ${Spikes.student(noise).ratio}")
     }
 
     @Test
@@ -30,7 +30,7 @@ class SpikesTest {
         // Student's t with five degrees of freedom.
         val noise = DoubleArray(n) { random.normal() / sqrt(List(5) { random.normal() }.sumOf { it * it } / 5) }
         val ratio = Spikes.ratio(noise).ratio
-        assertTrue(Spikes.tails(noise) > ratio && ratio > 30, "$ratio against ${Spikes.tails(noise)}")
+        assertTrue(Spikes.student(noise).ratio > ratio && ratio > 30, "$ratio against ${Spikes.student(noise).ratio}")
         // Of t with five degrees 0.5 % are beyond 4.773 and 0.2 % beyond 5.893, either way.
         val share = Spikes.student(noise).beyond(5.0)
         assertTrue(share in 0.0015..0.01, "$share")
@@ -41,7 +41,20 @@ class SpikesTest {
         val random = Random(7)
         val noise = DoubleArray(n) { random.normal() }
         // One in two hundred of χ² with three degrees.
-        assertTrue(Spikes.ratio(noise).ratio < 12.8 && Spikes.tails(noise) < 6.6)
+        assertTrue(Spikes.ratio(noise).ratio < 12.8 && Spikes.student(noise).ratio < 6.6)
+    }
+
+    /** What wanders and is normal, and as much again with tails of four degrees, as a wandering noise leaves once whitened. */
+    @Test
+    fun tailsBesideNormalNoiseAreTails() {
+        val random = java.util.Random(9)
+        fun heavy() = random.nextGaussian() / sqrt(List(4) { random.nextGaussian() }.sumOf { it * it } / 4)
+        val noise = DoubleArray(n) { sqrt(0.5) * (heavy() + random.nextGaussian()) }
+        val apart = Spikes.student(noise, share = 0.5)
+        assertTrue(apart.ratio > Spikes.student(noise).ratio, "$apart against ${Spikes.student(noise)}")
+        val drawn = List(200_000) { sqrt(0.5) * (heavy() + random.nextGaussian()) }.count { abs(it) > 5 } / 200_000.0
+        val foretold = TailedNoise(4, 0.5).beyond(5.0)
+        assertTrue(foretold in drawn / 1.3..drawn * 1.3, "$foretold, drawn $drawn")
     }
 
     @Test

@@ -12,20 +12,20 @@ internal object HiddenCampaign {
      */
     fun run(
         seeds: Iterable<Long>,
-        withReference: Boolean,
+        regime: Regime,
         directory: Path,
         withGain: Boolean = true,
         told: (ScoredCase) -> Unit = {},
     ): List<ScoredCase> =
         seeds.map { seed ->
-            val case = HiddenCase(seed, withReference)
+            val case = regime.case(seed)
             val log = directory.resolve("log.csv")
             case.write(log)
             val sensor = directory.resolve("believed.json").takeIf { case.writeSensor(it) }
-            val answer = Finder.ask(log, withReference, directory.resolve("out"), sensor)
+            val answer = Finder.ask(log, regime.withReference, directory.resolve("out"), sensor)
             val left = when {
-                withReference -> case.leftByTruth
-                withGain -> leftWithoutEffect(seed, case.truth, directory)
+                regime.withReference -> case.leftByTruth
+                withGain -> leftWithoutEffect(seed, case.truth, regime, directory)
                 else -> Double.NaN
             }
             ScoredCase(seed, case.truth, answer, left).also(told)
@@ -37,10 +37,10 @@ internal object HiddenCampaign {
      * for: of weak effects, and of those that no model of the reading foretells (outliers; rounding, whose phase the
      * unknown water and the fixes hide).
      */
-    private fun leftWithoutEffect(seed: Long, truth: HiddenTruth, directory: Path): Double {
+    private fun leftWithoutEffect(seed: Long, truth: HiddenTruth, regime: Regime, directory: Path): Double {
         if (!truth.isStrong || truth.effects.keys.single() in UNFORESEEN) return Double.NaN
         val log = directory.resolve("twin.csv")
-        HiddenCase(seed, withReference = false, isTwin = true).write(log)
+        regime.case(seed, isTwin = true).write(log)
         return Finder.ask(log, withReference = false, directory.resolve("out-twin")).before
     }
 
@@ -59,22 +59,22 @@ private val KINDS = mapOf<String, (HiddenTruth) -> Boolean>(
 ) + HiddenEffect.entries.map { effect -> effect.label to { truth -> truth.isStrong && effect in truth.effects } }
 
 /**
- * `FIRST COUNT reference|blind [CASES.tsv] [strong|two|outside|none|LABEL]`: prints the tables of a campaign; CASES.tsv
- * gets a line a case, CASES.tsv.md the tables so far. With the last word only some cases are asked about: single effects
+ * `FIRST COUNT REGIME [CASES.tsv] [strong|two|outside|none|LABEL]`: prints the tables of a campaign;
+ * CASES.tsv gets a line a case, CASES.tsv.md the tables so far. The regime is one of [Regime]. With the last word only some cases are asked about: single effects
  * at the detectable size and above, two at twice theirs and above, effects outside the list, or none; with the label of
  * an effect of the list those that are this one alone, at the detectable size and above.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()
-    val withReference = arguments[2] == "reference"
+    val regime = Regime.of(arguments[2])
     val directory = Files.createTempDirectory("hidden-effects")
     val all = first until first + arguments[1].toLong()
     val kind = KINDS[arguments.last()]
-    val seeds = if (kind != null) all.filter { kind(HiddenCase(it, withReference).truth) } else all.toList()
+    val seeds = if (kind != null) all.filter { kind(regime.case(it).truth) } else all.toList()
     val table = arguments.getOrNull(3)?.takeIf { it !in KINDS }?.let { Path.of(it) }
     val lines = ArrayList<String>()
     val done = ArrayList<ScoredCase>()
-    val cases = HiddenCampaign.run(seeds, withReference, directory) { case ->
+    val cases = HiddenCampaign.run(seeds, regime, directory) { case ->
         lines += case.line()
         System.err.println(lines.last())
         done += case

@@ -36,17 +36,22 @@ internal data class HiddenTruth(
  *
  * @param isDelay whether the sensor has a dead time, [delay], in place of the lag, and no effect.
  * @param isTwin whether what is hidden is left out of the readings that [write] writes, all else the same.
+ * @param inField whether the log has what [HiddenConditions] draws besides.
  */
 internal class HiddenCase(
     seed: Long,
     private val withReference: Boolean,
     private val isDelay: Boolean = false,
     private val isTwin: Boolean = false,
+    inField: Boolean = false,
 ) {
     private val random = Random(seed * 7919 + if (withReference) 1 else 2)
     private val kind = kinds().let { it[random.nextInt(it.size)] }
     private val period = listOf(0.5, 1.0, 1.0, 2.0)[random.nextInt(4)]
     private val rows = 900 + random.nextInt(600)
+
+    /** What the field does to the log; null in a log without gaps and the like. */
+    val conditions = if (inField) HiddenConditions(seed, rows, period) else null
 
     /** By dice of its own: what else a seed draws does not go by it. */
     private val isAhead = Random(seed * 7919 + SIDE).nextBoolean()
@@ -195,7 +200,7 @@ internal class HiddenCase(
     fun write(file: Path) {
         val effects = if (isTwin) emptyMap() else truth.effects
         val clean = sensor(effects).readings()
-        val values = noise.added(clean, random)
+        val values = noise.added(clean, random) { random.normal() * (conditions?.tail() ?: 1.0) }
         val outlying = effects[HiddenEffect.OUTLIERS]
         if (outlying != null) {
             for (i in values.indices) {
@@ -211,12 +216,17 @@ internal class HiddenCase(
         val trend = effects[HiddenEffect.TIME_VARYING] ?: 0.0
         val lines = ArrayList<String>()
         lines += header
+        val wander = List(2) { conditions?.wander() ?: DoubleArray(rows) }
+        var fix = Double.NaN to Double.NaN
         for (row in 0 until rows) {
             val i = (row + 1) * per
+            val x = world.track.x[i] + jitter * random.normal() + wander[0][row]
+            val y = world.track.y[i] + jitter * random.normal() + wander[1][row]
+            if (conditions?.isFixed(row) != false) fix = x to y
             val numbers = listOf(
                 (row + 1) * period,
-                world.track.x[i] + jitter * random.normal(),
-                world.track.y[i] + jitter * random.normal(),
+                fix.first,
+                fix.second,
                 quantum * Math.rint(values[row] / quantum),
                 world.track.speed[i],
                 world.temperature[i] + 0.01 * random.normal(),
@@ -230,6 +240,7 @@ internal class HiddenCase(
             } else {
                 emptyList()
             }
+            if (conditions?.isWritten(row) == false) continue
             lines += (numbers + known).joinToString(",") { "%.9g".format(Locale.ROOT, it) }
         }
         Files.write(file, lines)
@@ -267,13 +278,13 @@ internal class HiddenCase(
 
 /** Noise of [spread], of which [share] (of the variance) is correlated over [time] s; rows are [period] s apart. */
 internal class HiddenNoise(val spread: Double, val share: Double, val time: Double, private val period: Double) {
-    /** [clean] with noise. */
-    fun added(clean: DoubleArray, random: Random): DoubleArray {
+    /** [clean] with noise, whose uncorrelated part is what [white] draws, of unit spread. */
+    fun added(clean: DoubleArray, random: Random, white: () -> Double): DoubleArray {
         val keep = exp(-period / time)
         var state = random.normal()
         return DoubleArray(clean.size) { i ->
             state = keep * state + sqrt(1 - keep * keep) * random.normal()
-            clean[i] + spread * (sqrt(share) * state + sqrt(1 - share) * random.normal())
+            clean[i] + spread * (sqrt(share) * state + sqrt(1 - share) * white())
         }
     }
 

@@ -13,11 +13,11 @@ class HiddenEffectsTest {
     private lateinit var directory: Path
 
     private fun blind(vararg seeds: Long) =
-        HiddenCampaign.run(seeds.toList(), withReference = false, directory, withGain = false)
+        HiddenCampaign.run(seeds.toList(), Regime.BLIND, directory, withGain = false)
 
     @Test
     fun theFinderNamesWhatIsHiddenAndSeldomWhatIsNot() {
-        val cases = HiddenCampaign.run(70_000L..70_019L, withReference = true, directory)
+        val cases = HiddenCampaign.run(70_000L..70_019L, Regime.REFERENCE, directory)
         val scores = Scores(cases)
         // One alarm in ten is the most that a rate of 5 % makes likely (one in nine such sets has two).
         assertTrue(cases.count { it.isEmpty && it.alarmed } <= 1, scores.markdown())
@@ -29,7 +29,7 @@ class HiddenEffectsTest {
     /** Seeds of the work on it, not of a campaign's report: an end of the range and a rate limit that show once in a log. */
     @Test
     fun whatActsOnceInALogIsNamed() {
-        val cases = HiddenCampaign.run(listOf(80_198L, 81_047L), withReference = true, directory)
+        val cases = HiddenCampaign.run(listOf(80_198L, 81_047L), Regime.REFERENCE, directory)
         assertEquals(listOf(HiddenEffect.SLEW, HiddenEffect.SATURATION), cases.map { it.truth.effects.keys.single() })
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
     }
@@ -40,7 +40,7 @@ class HiddenEffectsTest {
      */
     @Test
     fun whatIsBesideACauseMustBeSurerAndADelayThatUndoesHeldStepsIsNone() {
-        val cases = HiddenCampaign.run(listOf(240_120L, 240_152L, 241_180L), withReference = true, directory)
+        val cases = HiddenCampaign.run(listOf(240_120L, 240_152L, 241_180L), Regime.REFERENCE, directory)
         val hidden = listOf(HiddenEffect.ASYMMETRIC, HiddenEffect.HYSTERESIS, HiddenEffect.SECOND_ORDER)
         assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
         assertTrue(cases.all { it.correct }, Scores(cases).markdown())
