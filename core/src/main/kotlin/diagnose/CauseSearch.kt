@@ -127,19 +127,37 @@ internal class CauseSearch(
         // counts, of which in a condition most may be its own noise: the number comes out small, and what it misses wanders.
         return inOrder(
             noises(base).flatMap { noise ->
-                val rough = starts.map { Fitting.fit(model, it, free, used, longest, noise = noise) }.maxBy { it.score }
+                val rough = starts.map { Fitting.fit(model, it, free, used, longest, noise = noise) }.maxBy(::plainest)
                 listOf(rough, Fitting.fit(model, rough.numbers, free, used, longest, guess = noise))
-            }.maxBy { it.score },
+            }.maxBy(::plainest),
         )
     }
 
+    /** Twice the log-likelihood of [fit] less what each end of a range is to explain for certain. */
+    private fun plainest(fit: ModelFit): Double = fit.score - SmallShifts.CERTAIN * RangeEnd.count(fit)
+
     private fun starts(base: ModelFit, model: ResponseModel, term: Term): List<DoubleArray> {
         val all = Starts(base, model, term).all()
+        if (term.cause == Cause.SATURATION) return all + all.map { within(base, model, term, it) }
         val late = scales.unknown?.late ?: 0.0
         if (term.cause != Cause.DEAD_TIME || late == 0.0) return all
         val slot = model.slot(term)
         val parameter = model.parameters[slot]
         return all + all.first().copyOf().also { it[slot] = late.coerceIn(parameter.lower, parameter.upper) }
+    }
+
+    /**
+     * [start] of [model] with all numbers but the ends of [term] as the readings between these have them under [base]: what
+     * an end cuts off pulls the gain towards it, and so far that no step leads back.
+     */
+    private fun within(base: ModelFit, model: ResponseModel, term: Term, start: DoubleArray): DoubleArray {
+        val slot = model.slot(term)
+        val rows = BooleanArray(used.size) { i ->
+            used[i] && series.values[i] > start[slot] && series.values[i] < start[slot + 1]
+        }
+        val white = CorrelatedNoise.white(scales, rows)
+        val inner = Fitting.fit(base.model, base.numbers, base.free, rows, longest, noise = white)
+        return model.carried(base.model, inner.numbers).also { start.copyInto(it, slot, slot, slot + model.width(term)) }
     }
 
     /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */

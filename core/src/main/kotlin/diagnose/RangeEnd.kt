@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.sqrt
 
 /** Whether readings stay at an end of the range. */
@@ -28,6 +29,13 @@ internal object RangeEnd {
             scatter += beyond * beyond * fit.residuals[i] * fit.residuals[i]
         }
         return products > PART * squares && products > DEVIATIONS * sqrt(scatter)
+    }
+
+    /** How many ends the range of [fit] has. */
+    fun count(fit: ModelFit): Int {
+        val term = fit.model.terms.firstOrNull { it.cause == Cause.SATURATION } ?: return 0
+        val at = fit.model.slot(term)
+        return (at..at + 1).count { abs(fit.numbers[it]) < ResponseModel.NO_END }
     }
 
     /** What [model] shows at [numbers] but for the ends of [term]. */
