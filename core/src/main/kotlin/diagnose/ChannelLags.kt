@@ -83,6 +83,6 @@ public class ChannelLags private constructor(public val channels: List<ChannelLa
             series: MeasuredSeries,
             loops: Loops,
             progress: (Double) -> Unit = {},
-        ): ChannelLag = BlindDiagnosis(series, DiagnosisSettings(), loops, progress).channel(name)
+        ): ChannelLag = BlindDiagnosis(series.fromStart(), DiagnosisSettings(), loops, progress).channel(name)
     }
 }

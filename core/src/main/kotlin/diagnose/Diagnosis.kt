@@ -32,7 +32,7 @@ public class Diagnosis private constructor(
         settings: DiagnosisSettings = DiagnosisSettings(),
         loops: Loops = Loops.IN_TURN,
         progress: (Double) -> Unit = {},
-    ) : this(series, settings, loops, 0.0, progress)
+    ) : this(series.fromStart(), settings, loops, 0.0, progress)
 
     private val unknown = UnknownTruth.of(series)
     private val used = series.readRows()

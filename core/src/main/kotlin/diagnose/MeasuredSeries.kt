@@ -194,6 +194,17 @@ public class MeasuredSeries private constructor(
     internal fun withReadings(values: DoubleArray) =
         MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed, this)
 
+    /**
+     * The same log with times from the first row on, to the microsecond: where time is counted from must not change an
+     * answer, and does by how finely a time since 1970 is kept, a quarter of a microsecond.
+     */
+    internal fun fromStart(): MeasuredSeries {
+        val since = DoubleArray(size) { Math.rint((times[it] - times[0]) * TICKS_A_SECOND) / TICKS_A_SECOND }
+        val isAscending = (1 until size).all { since[it] > since[it - 1] }
+        if (!isAscending || since.contentEquals(times)) return this
+        return MeasuredSeries(since, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed)
+    }
+
     /** The same log with each row where the boat was [delay] s before, or at first; on a straight line between two rows. */
     internal fun atPlacesBefore(delay: Double): MeasuredSeries {
         fun before(places: DoubleArray) = DoubleArray(size) { i ->
@@ -257,6 +268,8 @@ public class MeasuredSeries private constructor(
 
         /** A longer step than this is a gap where rows are usually [period] apart, s. */
         internal fun gap(period: Double): Double = maxOf(GAP_STEPS * period, GAP_SECONDS)
+
+        private const val TICKS_A_SECOND = 1e6
 
         /** Of a usual step: nearer to a whole number of them is one. */
         private const val OFF_TICK = 0.1

@@ -123,7 +123,8 @@ internal class UnknownTruth private constructor(
             val usual = median(within)
             val spread = deviation(truth)
             val steps = DoubleArray(n) { if (it == 0 || isGap[it]) 0.0 else abs(truth[it] - truth[it - 1]) }
-            val far = SUDDEN * median(steps)
+            // Slow water that is rounded stands still and moves by a step of the rounding or some.
+            val far = maxOf(SUDDEN * median(steps), ROUNDED * Scales.resolution(truth))
             val isBroken = BooleanArray(n) { i ->
                 val beside = maxOf(steps.getOrElse(i - 2) { 0.0 }, steps.getOrElse(i + 2) { 0.0 })
                 isGap[i] || (steps[i] > far && steps[i] > STEEPER * beside)
@@ -178,6 +179,9 @@ internal class UnknownTruth private constructor(
         private const val ROUNDING = 1e-9
         private const val SUDDEN = 12.0
         private const val STEEPER = 3.0
+
+        /** Steps of a rounded reference that are no sudden ones. */
+        private const val ROUNDED = 3.0
 
         private const val OFTEN = 0.08
 
