@@ -68,7 +68,8 @@ internal class Axes private constructor(
             scale == AxisScale.LOG10 -> DOUBLED
             else -> if (size > 0) size / 2 else 1.0
         }
-        return if (scale == AxisScale.LOG10) TEN.pow(low - room) to TEN.pow(high + room) else low - room to high + room
+        if (scale == AxisScale.LINEAR) return low - room to high + room
+        return maxOf(TEN.pow(low - room), 1 / LARGEST) to minOf(TEN.pow(high + room), LARGEST)
     }
 
     internal companion object {
