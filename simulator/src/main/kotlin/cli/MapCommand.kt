@@ -54,7 +54,7 @@ class MapCommand : WorkCommand("map") {
         help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}; averaging,bounded unless given",
     ).someOf(FilterKind.entries.associateBy { it.label })
     private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
-        .number("a length in metres above 0") { it > 0 }
+        .number("a length in metres above 0, and at most 1000000000") { it > 0 && it <= LARGEST_CELL }
     private val gridSize by option("--grid", metavar = "COLSxROWS", help = "number of cells instead of their size")
         .numberPair('x', GRID) { cols, rows ->
             cols >= 1 && rows >= 1 && cols % 1 == 0.0 && rows % 1 == 0.0 && cols * rows <= Grid.MAX_CELLS
@@ -224,6 +224,9 @@ class MapCommand : WorkCommand("map") {
 
         /** Smaller files are done before a bar can be read or a figure be drawn beside, bytes, twice the file's. */
         const val LONG = 8_000_000L
+
+        /** As large as the places of a log without latitudes may be, m. */
+        const val LARGEST_CELL = 1e9
         const val GRID = "COLSxROWS such as 10x10, whole numbers above 0, ${Grid.MAX_CELLS} cells at most"
     }
 }
