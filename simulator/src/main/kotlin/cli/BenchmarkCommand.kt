@@ -143,6 +143,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
     override fun work() {
         val settings = settings()
         // Opened first: where results cannot be written, nobody wants to wait for them.
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out)).use { directory ->
             val result = measure(experiment(settings))
             val warnings = BenchmarkFiles(result, commandLine()).write(directory)

@@ -103,6 +103,7 @@ class CorrectCommand : WorkCommand("correct") {
             throw failure("--between: expected --held-out and a transect (--x without --y), found none")
         }
         for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val places = CorrectFiles.places(logs.map { it.quantity })
             val files = CorrectOutput(

@@ -92,6 +92,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
             val shown = !quiet && !json

@@ -114,6 +114,7 @@ class MapCommand : WorkCommand("map") {
         val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val map = read(opened, file, spec?.let { correction(opened, it) })
             val summary = MapSummary(map)

@@ -70,6 +70,19 @@ class SimulateCommandTest {
     }
 
     @Test
+    fun otherCommandsDoNotReplaceAMissionsFiles() {
+        val cells = sailed.resolve("cells.csv").readText()
+        val log = sailed.resolve("mission.txt").toString()
+        val commands = listOf("map", "correct", "diagnose").map { listOf(it, log) } + listOf(listOf("benchmark"))
+        for (arguments in commands) {
+            val result = Stillwater().subcommands(commands()).test(arguments + listOf("--out", "$sailed"))
+            assertEquals(BAD_INPUT, result.statusCode, "$arguments: ${result.output}")
+            assertTrue("$sailed has the log of a mission, $log; name another" in result.stderr, result.stderr)
+            assertEquals(cells, sailed.resolve("cells.csv").readText())
+        }
+    }
+
+    @Test
     fun theSummaryIsWhatItWas() {
         // To three digits: what is not exact may differ in its last bits on another machine.
         val found = shortened(summary()).toString().replace(",\"", ",\n\"") + "\n"
