@@ -102,9 +102,11 @@ internal class Axes private constructor(
                     }
                     if (shows(stroke.lower[i], y)) band.add(stroke.lower[i])
                     if (shows(stroke.upper[i], y)) band.add(stroke.upper[i])
+                    // A band may reach farther than its line.
+                    if (shows(stroke.lower[i], y) && shows(stroke.upper[i], y)) xs.add(stroke.x[i])
                 }
             }
-            if (xs.isEmpty) return null
+            if (ys.isEmpty) return null
             val foot = if (y == AxisScale.LOG10) maxOf(band.from, ys.from / BELOW) else band.from
             return Axes(x, y, xs.from, xs.to, minOf(ys.from, foot), maxOf(ys.to, band.to))
         }

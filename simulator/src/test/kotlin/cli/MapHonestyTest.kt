@@ -91,6 +91,25 @@ class MapHonestyTest {
         val statuses = directory.out().resolve("cells.csv").readLines().map { it.split(',').last() }
         assertEquals(listOf("status", "measured", "measured", "crossed", "none"), statuses)
         assertContains(directory.out().resolve("bounds-width.svg").readText(), "crossed: 1, without width")
+        assertContains(directory.out().resolve("estimate-bounded.svg").readText(), "crossed: 1 of 2 cells")
+        assertFalse("crossed" in directory.out().resolve("estimate-averaging.svg").readText())
+    }
+
+    @Test
+    fun crossedBoundsOfATransectAreNoBand() {
+        fun figure(first: Double, second: Double): String {
+            json(thereAndBack(first, second).replace(",1,", ",").replace("y_m,", ""), "--x", "x_m", *flags)
+            return directory.out().resolve("estimate-bounded.svg").readText()
+        }
+        val bands = Regex("<path[^>]* fill=\"rgb\\(0,114,178\\)\"")
+        val crossed = figure(8.0, 9.0)
+        assertContains(crossed, "crossed: 1 of 2 cells")
+        assertContains(crossed, ">crossed<")
+        assertFalse("both bounds" in crossed || bands.containsMatchIn(crossed))
+        val ordered = figure(7.0, 9.5)
+        assertContains(ordered, ">both bounds<")
+        assertFalse("crossed" in ordered)
+        assertEquals(1, bands.findAll(ordered).count())
     }
 
     @Test
