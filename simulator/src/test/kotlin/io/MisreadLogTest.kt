@@ -223,7 +223,12 @@ class MisreadLogTest {
                 "blanks between columns",
                 "Model=made up\n\nDate & Time                  DO\n14-Jul-2025 08:00:00.000    8.1\n" +
                     "14-Jul-2025 08:01:00.000    8.2\n",
-                "log.csv:5: expected commas, semicolons or tabs between columns, found blanks",
+                "log.csv:3: expected commas, semicolons or tabs between columns, found blanks",
+            ),
+            Case(
+                "many rows with blanks between columns",
+                "time_s x_m y_m v\n" + (0 until 800).joinToString("") { "$it.0 ${it % 40}.25 1.0 8.$it\n" },
+                "log.csv:1: expected commas, semicolons or tabs between columns, found blanks",
             ),
             Case(
                 "times since 1970",
