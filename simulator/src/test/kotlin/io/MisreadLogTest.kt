@@ -231,6 +231,16 @@ class MisreadLogTest {
                 "log.csv:1: expected commas, semicolons or tabs between columns, found blanks",
             ),
             Case(
+                "names of zones",
+                "Date Time,x_m,y_m,v\n2018-07-12T14:00:00 EST,0,0,8.1\n2018-07-12T14:00:01 EST,1,0,8.2\n",
+                "found '2018-07-12T14:00:00 EST' (names of zones are not read, only Z or an offset as -05:00)",
+            ),
+            Case(
+                "names of zones behind other dates",
+                "Date Time,x_m,y_m,v\n07/13/2018 14:00:00 EST,0,0,8.1\n07/13/2018 14:00:01 EST,1,0,8.2\n",
+                "found '07/13/2018 14:00:00 EST' (names of zones are not read, only UTC or none)",
+            ),
+            Case(
                 "times since 1970",
                 "unix_time_s,x_m,y_m,v\n1752480000.5,0,0,8.1\n1752480000.5,1,0,8.2\n",
                 "expected a time after 1752480000.5 s (2025-07-14T08:00:00.5), found 1752480000.5 s",
