@@ -199,6 +199,17 @@ class SimulateCommandTest {
     }
 
     @Test
+    fun readingsThatWereAllRefusedAreNoBudgetSpent() {
+        val stages = """[{"type": "first-order-lag", "time_constant_s": 10}, {"type": "saturation", "lower": 120}]"""
+        val sensor = directory.resolve("high.json").apply { writeText("""{"name": "high", "stages": $stages}""") }
+        val result = simulate(directory.resolve("high"), "--sensor", "$sensor")
+        assertEquals(0, result.statusCode, result.output)
+        val why = Regex("nothing was surveyed: all \\d+ readings were refused: outside of the probe's range, 0 to 15 ")
+        assertTrue(why.containsMatchIn(result.stderr), result.stderr)
+        assertFalse("budget" in result.stderr, result.stderr)
+    }
+
+    @Test
     fun theSummaryCanBePrintedAsJson() {
         val result = simulate(directory.resolve("json"), "--json", "--longest", "20")
         val json = Json.parseToJsonElement(result.stdout).jsonObject
