@@ -123,6 +123,29 @@ class MapHonestyTest {
     }
 
     @Test
+    fun aBoatThatDoesNotGoAnywhereIsTold() {
+        fun warnings(step: Double) = json(
+            "time_s,x_m,y_m,v\n" + (0 until 60).joinToString("") { "$it,${step * it},1,${8 + it % 5}\n" },
+        ).warnings()
+        assertContains(warnings(0.0), "the boat never moved: the map is of one place")
+        assertTrue(warnings(0.001).any { "the boat hardly moved (median speed 0.001 m/s)" in it })
+        assertFalse(warnings(0.5).any { "moved" in it })
+    }
+
+    @Test
+    fun oneJumpAndOneFurtherGapAreOne() {
+        fun warnings(jumps: Int, gaps: Int) = json(
+            "time_s,x_m,y_m,v\n" + (0 until 200).joinToString("") { i ->
+                "${i + 300 * minOf(i / 50, gaps)},${i + 500 * minOf(i / 60, jumps)},1,${8 + i % 5}\n"
+            },
+        ).warnings().joinToString("\n")
+        assertContains(warnings(jumps = 1, gaps = 2), "1 jump in the positions is faster than 20 m/s")
+        assertContains(warnings(jumps = 2, gaps = 3), "2 jumps in the positions are faster than 20 m/s")
+        assertContains(warnings(jumps = 0, gaps = 2), "; 1 more gap is shorter")
+        assertContains(warnings(jumps = 0, gaps = 3), "; 2 more gaps are shorter")
+    }
+
+    @Test
     fun intervalFilterSaysWhatItsBoundsAssume() {
         val summary = json(smallSurvey(), "--filter", "interval", "--unit", "mg/L")
         val assumed = summary.child("interval_assumes").mapValues { it.value.jsonPrimitive.content }
