@@ -165,6 +165,19 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun whereNothingWasFittedNoModelIsShown() {
+        val file = directory.resolve("anchor.csv")
+        Files.write(file, listOf("time_s,x_m,y_m,probe") + List(99) { "$it,5,5,${8 + sin(it / 9.0)}" })
+        val out = directory.resolve("out")
+        assertContains(diagnose("$file", "--out", "$out").stdout, "base: nothing was fitted")
+        val names = Files.list(out).use { files -> files.map { "${it.fileName}" }.sorted().toList() }
+        assertEquals(listOf("diagnosis.json", "report.html", "residuals.csv"), names)
+        val rows = Files.readAllLines(out.resolve("residuals.csv")).drop(1)
+        assertTrue(rows.size == 99 && rows.all { it.endsWith(",,,,,,,") }, rows[0])
+        assertFalse("whitened" in Files.readString(out.resolve("report.html")))
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")
