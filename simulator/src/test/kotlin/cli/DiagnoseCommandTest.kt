@@ -178,6 +178,18 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun howManyRowsItTakesIsSaid() {
+        for (flags in listOf(emptyList(), listOf("--reference", "sample"))) {
+            val file = directory.resolve("few.csv")
+            val lines = List(31) { "$it,$it,0,${8 + sin(it / 9.0)},${8 + sin(it / 7.0)}" }
+            Files.write(file, listOf("time_s,x_m,y_m,probe,sample") + lines)
+            val out = "${directory.resolve("out")}"
+            val result = diagnose("$file", "--value", "probe", "--numbers-only", "--out", out, *flags.toTypedArray())
+            assertContains(result.stdout, "there are 31 rows only, and 60 are needed")
+        }
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")
