@@ -64,7 +64,10 @@ class CorrectCommand : WorkCommand("correct") {
         }
         ends[0]..ends[1]
     }
-    private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "no progress bar, no summary and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print the summary as JSON").flag()
 
     override fun help(context: Context) = "Undo a sensor's lag in a boat's log, with a 95 % interval for every row."

@@ -87,7 +87,10 @@ class MapCommand : WorkCommand("map") {
         help = "stretch for --epsilon auto, seconds after the first reading; without it the quietest",
     ).numberPair(':', "FROM:TO, two times in seconds, the first below the second") { from, to -> from < to }
     private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for legends and tables").unit()
-    private val quiet by option("--quiet", help = "no progress bar and no table").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "no progress bar, no table and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print a summary as JSON instead of a table").flag()
 
     override fun help(context: Context) =

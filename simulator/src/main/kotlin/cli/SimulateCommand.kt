@@ -37,7 +37,10 @@ class SimulateCommand : WorkCommand("simulate") {
     private val headless by option("--headless", help = "do not show the mission as it runs, even in a terminal").flag()
     private val speed by option("--speed", metavar = "X", help = "virtual seconds shown a second, in a terminal (60)")
         .number("a number within 0.1..10000") { it in SLOWEST..FASTEST }
-    private val quiet by option("--quiet", help = "show nothing, print no summary").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "show nothing, print no summary and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print the summary as JSON").flag()
 
     override fun help(context: Context) = "Run a whole mission with a virtual boat, in virtual time."
