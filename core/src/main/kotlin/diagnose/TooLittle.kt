@@ -20,7 +20,7 @@ internal object TooLittle {
 
     /** Why [series], which has no reference, cannot show anything, or null where it may. */
     fun why(series: MeasuredSeries): String? = when {
-        series.size < FEWEST_ROWS -> "there are ${series.size} rows only"
+        series.size < FEWEST_ROWS -> "there are ${series.size} rows only, and $FEWEST_ROWS are needed"
         isFlat(series.values) -> "the readings never change"
         series.values.max() - series.values.min() < SMALLEST_RANGE ->
             "the readings change by less than can be reckoned with"

@@ -239,7 +239,9 @@ internal class Weighing(
 
     private fun insufficient(): Verdict? {
         val rows = series.readRows().count { it }
-        if (rows < FEWEST_ROWS) return Verdict.InsufficientData("there are $rows rows only")
+        if (rows < FEWEST_ROWS) {
+            return Verdict.InsufficientData("there are $rows rows only, and $FEWEST_ROWS are needed")
+        }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&
             base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2
         if (seen && report.timeConstantError(base) > 1) {

@@ -215,21 +215,6 @@ public data class ProbeSpec(
     }
 }
 
-/** What the mission may use, in one of [metres] over ground and [seconds]; [reserve] is the share of the way home kept. */
-@Serializable
-public data class BudgetSpec(
-    @SerialName("metres") val metres: Double? = null,
-    @SerialName("seconds") val seconds: Double? = null,
-    val reserve: Double = 0.2,
-) {
-    init {
-        require((metres == null) != (seconds == null)) { "a budget needs either metres or seconds" }
-        val limit = metres ?: seconds ?: 0.0
-        require(limit > 0 && limit.isFinite()) { "the budget ($limit) must be above 0 and finite" }
-        require(reserve >= 0 && reserve.isFinite()) { "reserve ($reserve) must be at least 0 and finite" }
-    }
-}
-
 /**
  * The boat: its speeds and its thrusters.
  *

@@ -2,11 +2,14 @@ package stillwater.sensor
 
 import kotlinx.serialization.Serializable
 import kotlinx.serialization.json.Json
-import kotlinx.serialization.json.double
+import kotlinx.serialization.json.JsonArray
+import kotlinx.serialization.json.JsonElement
+import kotlinx.serialization.json.doubleOrNull
 import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import stillwater.model.JsonForm
+import kotlin.math.abs
 import kotlin.random.Random
 
 /**
@@ -46,10 +49,17 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
 
     public companion object {
         /**
-         * Longest time constant or dead time that a spec may be read with, s: 32 years. No log is as long, so that a
-         * larger one is a slip of the pen; and what is computed with it stays within what numbers can hold.
+         * Longest time constant or dead time, and latest jump, that a spec may be read with, s: 32 years. No log is as
+         * long, so that a larger one is a slip of the pen; and what is computed with it stays within what numbers can
+         * hold.
          */
         public const val LONGEST_TIME: Double = 1e9
+
+        /**
+         * Largest size of every other number that a spec may be read with, in the unit of its field. A reading of that
+         * size has no digit left behind the decimal point, so that a larger number is a slip of the pen, too.
+         */
+        public const val LARGEST_NUMBER: Double = 1e15
 
         private val FORMAT = Json {
             prettyPrint = true
@@ -64,17 +74,32 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
          * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the message
          *   is one line that says where and what was expected.
          */
-        public fun fromJson(json: String): SensorSpec = FORM.read(json).also { requireTimes(json, it) }
+        public fun fromJson(json: String): SensorSpec = FORM.read(json).also { requireSizes(json, it) }
 
-        private fun requireTimes(json: String, spec: SensorSpec) {
+        private fun requireSizes(json: String, spec: SensorSpec) {
             val stages = Json.encodeToJsonElement(serializer(), spec).jsonObject.getValue("stages").jsonArray
             stages.forEachIndexed { index, stage ->
-                val times = stage.jsonObject.filterKeys { it.endsWith("time_constant_s") || it == "dead_time_s" }
-                val (name, time) = times.mapValues { it.value.jsonPrimitive.double }.entries
-                    .firstOrNull { it.value > LONGEST_TIME } ?: return@forEachIndexed
-                val words = "expected at most $LONGEST_TIME s (32 years, longer than any log), found $time"
-                throw FORM.problem(json, "$.stages[$index].$name", words)
+                for ((name, value) in stage.jsonObject) requireSize(json, "$.stages[$index].$name", name, value)
             }
         }
+
+        /** Refuses [value], the field [name] at [path], if it is a number beyond its limit or a list with such a one. */
+        private fun requireSize(json: String, path: String, name: String, value: JsonElement) {
+            if (value is JsonArray) {
+                value.forEachIndexed { index, item -> requireSize(json, "$path[$index]", name, item) }
+                return
+            }
+            val number = value.jsonPrimitive.takeUnless { it.isString }?.doubleOrNull ?: return
+            val words = when {
+                TIMES.any { name.endsWith(it) } && number > LONGEST_TIME ->
+                    "expected at most $LONGEST_TIME s (32 years, longer than any log), found $number"
+                abs(number) > LARGEST_NUMBER ->
+                    "expected a number within -$LARGEST_NUMBER..$LARGEST_NUMBER, found $number"
+                else -> return
+            }
+            throw FORM.problem(json, path, words)
+        }
+
+        private val TIMES = listOf("time_constant_s", "dead_time_s", "times_s")
     }
 }

@@ -167,6 +167,14 @@ class SensorSpecTest {
                 listOf("time_constant_s (-2.0 s) must be above 0", "stages[1]"),
             stage("""{"type": "dead-time", "dead_time_s": 1e300}""") to
                 listOf("stages[1].dead_time_s: expected at most 1.0E9 s (32 years"),
+            stage("""{"type": "gain-offset", "gain": 1e300, "offset": 1}""") to
+                listOf("1:102: stages[1].gain: expected a number within -1.0E15..1.0E15, found 1.0E300"),
+            stage("""{"type": "drift", "rate_per_s": -1e16}""") to
+                listOf("stages[1].rate_per_s: expected a number within -1.0E15..1.0E15, found -1.0E16"),
+            stage("""{"type": "offset-steps", "times_s": [1, 1e10], "offsets": [1, 2]}""") to
+                listOf("stages[1].times_s[1]: expected at most 1.0E9 s"),
+            stage("""{"type": "offset-steps", "times_s": [1, 2], "offsets": [1, 1e200]}""") to
+                listOf("stages[1].offsets[1]: expected a number within"),
             stage("""{"type": "first-order-lag"}""") to listOf("time_constant_s", "stages[1]"),
             stage("""{"type": "first-order-lag", "time_constant_s": NaN}""") to listOf("time_constant_s"),
             stage("""{"type": "first-order-lag", "time_constant_s": "ten"}""") to listOf("time_constant_s", "ten"),

@@ -118,7 +118,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
     )
         .wholeNumber("a whole number within 1..1024") { it in 1..MOST_THREADS }
         .default(Runtime.getRuntime().availableProcessors(), defaultForHelp = "all cores")
-    private val quiet by option("--quiet", help = "no progress bar and no table").flag()
+    private val quiet by option("--quiet", help = "no progress bar, no table and no warnings").flag()
     private val json by option("--json", help = "print the results as JSON instead of tables").flag()
 
     override fun help(context: Context) =
@@ -143,6 +143,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
     override fun work() {
         val settings = settings()
         // Opened first: where results cannot be written, nobody wants to wait for them.
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out)).use { directory ->
             val result = measure(experiment(settings))
             val warnings = BenchmarkFiles(result, commandLine()).write(directory)

@@ -64,7 +64,10 @@ class CorrectCommand : WorkCommand("correct") {
         }
         ends[0]..ends[1]
     }
-    private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "no progress bar, no summary and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print the summary as JSON").flag()
 
     override fun help(context: Context) = "Undo a sensor's lag in a boat's log, with a 95 % interval for every row."
@@ -103,6 +106,7 @@ class CorrectCommand : WorkCommand("correct") {
             throw failure("--between: expected --held-out and a transect (--x without --y), found none")
         }
         for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val places = CorrectFiles.places(logs.map { it.quantity })
             val files = CorrectOutput(

@@ -57,7 +57,10 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         "--numbers-only",
         help = "no figures, no report and no comparison of maps",
     ).flag()
-    private val quiet by option("--quiet", help = "no progress bar and no summary").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "no progress bar, no summary and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print diagnosis.json instead of a summary").flag()
 
     override fun help(context: Context) = "Find out what the simulation gets wrong about a log, and name the cause."
@@ -92,6 +95,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
             val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
             val shown = !quiet && !json

@@ -15,7 +15,10 @@ import kotlin.system.exitProcess
 /** The `stillwater` command; its work is in its subcommands. */
 class Stillwater : CliktCommand("stillwater") {
     init {
-        context { helpFormatter = { OneLineErrors(it) } }
+        context {
+            helpFormatter = { OneLineErrors(it) }
+            suggestTypoCorrection = OneLineErrors::suggestion
+        }
         versionOption(Program.VERSION)
     }
 

@@ -54,7 +54,7 @@ class MapCommand : WorkCommand("map") {
         help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}; averaging,bounded unless given",
     ).someOf(FilterKind.entries.associateBy { it.label })
     private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
-        .number("a length in metres above 0") { it > 0 }
+        .number("a length in metres above 0, and at most 1000000000") { it > 0 && it <= LARGEST_CELL }
     private val gridSize by option("--grid", metavar = "COLSxROWS", help = "number of cells instead of their size")
         .numberPair('x', GRID) { cols, rows ->
             cols >= 1 && rows >= 1 && cols % 1 == 0.0 && rows % 1 == 0.0 && cols * rows <= Grid.MAX_CELLS
@@ -87,7 +87,10 @@ class MapCommand : WorkCommand("map") {
         help = "stretch for --epsilon auto, seconds after the first reading; without it the quietest",
     ).numberPair(':', "FROM:TO, two times in seconds, the first below the second") { from, to -> from < to }
     private val unit by option("--unit", metavar = "TEXT", help = "unit of the readings, for legends and tables").unit()
-    private val quiet by option("--quiet", help = "no progress bar and no table").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "no progress bar, no table and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print a summary as JSON instead of a table").flag()
 
     override fun help(context: Context) =
@@ -114,6 +117,7 @@ class MapCommand : WorkCommand("map") {
         val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
+        requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
             val map = read(opened, file, spec?.let { correction(opened, it) })
             val summary = MapSummary(map)
@@ -224,6 +228,9 @@ class MapCommand : WorkCommand("map") {
 
         /** Smaller files are done before a bar can be read or a figure be drawn beside, bytes, twice the file's. */
         const val LONG = 8_000_000L
+
+        /** As large as the places of a log without latitudes may be, m. */
+        const val LARGEST_CELL = 1e9
         const val GRID = "COLSxROWS such as 10x10, whole numbers above 0, ${Grid.MAX_CELLS} cells at most"
     }
 }

@@ -39,7 +39,7 @@ class ReplayCommand : WorkCommand("replay") {
     private val out by option("--out", metavar = "DIR", help = "directory for the results")
         .directory().default("stillwater-replay")
     private val numbersOnly by option("--numbers-only", help = "no figure").flag()
-    private val quiet by option("--quiet", help = "no summary").flag()
+    private val quiet by option("--quiet", help = "no summary and no warnings").flag()
     private val json by option("--json", help = "print replay.json instead of a summary").flag()
 
     override fun help(context: Context) = "Feed a recorded log through the mission: same estimator, same safety gate."

@@ -31,12 +31,16 @@ class SimulateCommand : WorkCommand("simulate") {
     private val longest by option(
         "--longest",
         metavar = "S",
-        help = "virtual time after which to end a mission that is not over, s; without it twice its budget and 600 s",
+        help = "virtual time after which to end a mission that is not over, s; without it twice its budget and " +
+            "600 s, at most 1000000 s",
     ).number("a number within 1..1000000") { it in 1.0..MOST_TIME }
     private val headless by option("--headless", help = "do not show the mission as it runs, even in a terminal").flag()
     private val speed by option("--speed", metavar = "X", help = "virtual seconds shown a second, in a terminal (60)")
         .number("a number within 0.1..10000") { it in SLOWEST..FASTEST }
-    private val quiet by option("--quiet", help = "show nothing, print no summary").flag()
+    private val quiet by option(
+        "--quiet",
+        help = "show nothing, print no summary and no warnings; the report has these",
+    ).flag()
     private val json by option("--json", help = "print the summary as JSON").flag()
 
     override fun help(context: Context) = "Run a whole mission with a virtual boat, in virtual time."
@@ -56,7 +60,7 @@ class SimulateCommand : WorkCommand("simulate") {
         if (speed != null) requireShown()
         val mission = boat.mission(MissionFile.read(Path.of(missionFile)))
         requireVirtualProbe(mission)
-        val most = longest ?: MissionRun.longest(mission)
+        val most = longest ?: minOf(MissionRun.longest(mission), MOST_TIME)
         val settings = boat.settings()
         requireNoOtherMission(Path.of(out), "summary.json")
         OutputDirectory(Path.of(out), listOf(Path.of(missionFile))).use { directory ->

@@ -12,7 +12,10 @@ import java.nio.file.Path
 /** A command whose every way to fail is one line that begins with its name, and exit code [BAD_INPUT]. */
 abstract class WorkCommand(name: String) : CliktCommand(name) {
     init {
-        context { helpFormatter = { OneLineErrors(it) } }
+        context {
+            helpFormatter = { OneLineErrors(it) }
+            suggestTypoCorrection = OneLineErrors::suggestion
+        }
     }
 
     /**

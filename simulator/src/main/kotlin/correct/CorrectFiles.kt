@@ -17,6 +17,7 @@ import stillwater.report.OutputDirectory
 import stillwater.report.Program
 import stillwater.report.Provenance
 import stillwater.report.Table
+import stillwater.report.counted
 import stillwater.report.putOrigin
 import stillwater.report.writeFigures
 
@@ -46,9 +47,13 @@ class CorrectFiles(
     private var otherRows = 0L
 
     /** Warnings for the user, one line each. */
-    val warnings: List<String>
-        get() = summary.warnings +
-            listOfNotNull("$otherRows rows could not be used and have empty cells".takeIf { otherRows > 0 })
+    val warnings: List<String> get() = summary.warnings + listOfNotNull(unused())
+
+    private fun unused(): String? {
+        if (otherRows == 0L) return null
+        val have = if (otherRows == 1L) "has" else "have"
+        return "${counted(otherRows, "row")} could not be used and $have empty cells"
+    }
 
     /** The lines for the terminal: the answer, six facts, and one for the legs held out. */
     fun lines(): List<String> = listOf(summary.inShort) +

@@ -10,6 +10,7 @@ import stillwater.estimate.CandidateResponse
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.UndoableSensor
+import stillwater.report.counted
 import stillwater.sensor.SensorStage
 import stillwater.survey.LagShift
 import stillwater.survey.Wording.Companion.digits
@@ -312,7 +313,8 @@ internal class CorrectSummary(
             addAll(trust.warnings)
             val silent = result.track.silent.count { it }
             if (silent > 0) {
-                add("at $silent readings the sensor ran at its limit and shows the water from one side only")
+                val readings = counted(silent, "reading")
+                add("at $readings the sensor ran at its limit and shows the water from one side only")
             }
             addAll(CorrectCautions(result, unitAfter).lines)
             if (result.learned.isPart) {
@@ -331,7 +333,7 @@ internal class CorrectSummary(
                 )
             }
             val without = result.learned.withoutReference
-            if (without > 0) add("$without readings have no reference")
+            if (without > 0) add("${counted(without, "reading")} ${if (without == 1) "has" else "have"} no reference")
         }
 
     private companion object {

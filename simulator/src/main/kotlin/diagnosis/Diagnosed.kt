@@ -108,6 +108,9 @@ class Diagnosed(
         return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
     }
 
+    /** Whether there is a base model: of a log that cannot show anything none is fitted, and it has no residuals. */
+    val isFitted: Boolean get() = result.baseline.parameters.isNotEmpty()
+
     /** Whether nothing that was named changes how the base model follows the water. */
     val isBaseNamed: Boolean get() = result.extended === result.baseline
 
@@ -156,7 +159,7 @@ class Diagnosed(
         return listOfNotNull(
             "verdict: ${result.verdict.label}" + if (causes.isEmpty()) "" else " (${causes.joinToString(", ")})",
             answer,
-            if (base.parameters.isEmpty()) {
+            if (!isFitted) {
                 "base: nothing was fitted"
             } else {
                 "base: $sensor; residuals " +

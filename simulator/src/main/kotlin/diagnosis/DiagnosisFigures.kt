@@ -32,8 +32,12 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val stride = maxOf(1, n / MOST_POINTS)
     private val moves = hypot(spread(columns.x), spread(columns.y)) > 1e-9
 
-    /** All figures in the order in which a reader wants them, with their PNGs, on up to all cores. */
-    fun draw(): List<DiagnosisFigure> = drawConcurrently(drawings()) { it.figure }
+    /**
+     * All figures in the order in which a reader wants them, with their PNGs, on up to all cores; none where nothing
+     * was fitted, for each of them shows a model.
+     */
+    fun draw(): List<DiagnosisFigure> =
+        if (diagnosed.isFitted) drawConcurrently(drawings()) { it.figure } else emptyList()
 
     private fun drawings(): List<() -> DiagnosisFigure> = buildList {
         add { predicted() }

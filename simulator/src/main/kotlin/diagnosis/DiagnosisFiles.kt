@@ -9,7 +9,7 @@ import stillwater.report.writeFigures
  * Writes a [Diagnosed] log: diagnosis.json, extended-sensor.json, residuals.csv, the figures and report.html.
  *
  * extended-sensor.json is written where something was named; without it the base sensor is the best there is, and
- * stands in diagnosis.json.
+ * stands in diagnosis.json. Where nothing was fitted there are no figures, and residuals.csv has no model's columns.
  *
  * @param diagnosed what to write. @param command the command as typed, for the report. @param numbersOnly whether
  * figures and report are left out.
@@ -48,7 +48,7 @@ internal class DiagnosisFiles(
 
     private fun rows(table: CsvTable, globe: GlobeColumns) {
         val columns = diagnosed.log.columns
-        val base = diagnosed.result.baseline
+        val base = diagnosed.result.baseline.takeIf { diagnosed.isFitted }
         val extended = diagnosed.result.extended
         for (i in 0 until columns.size) {
             table.row(
@@ -58,9 +58,9 @@ internal class DiagnosisFiles(
                 columns.y[i],
                 columns.values[i],
                 columns.reference[i],
-                base.predicted[i],
-                columns.values[i] - base.predicted[i],
-                base.whitened[i],
+                base?.predicted?.get(i),
+                base?.let { columns.values[i] - it.predicted[i] },
+                base?.whitened?.get(i),
                 extended?.predicted?.get(i),
                 extended?.let { columns.values[i] - it.predicted[i] },
                 extended?.whitened?.get(i),

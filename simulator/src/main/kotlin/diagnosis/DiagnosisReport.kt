@@ -36,20 +36,25 @@ internal class DiagnosisReport(
         page.summary("Rows", "${diagnosed.log.columns.size}")
         val isHeldOut = !result.baseline.heldOutRmse.isNaN()
         val residuals = if (isHeldOut) "Residuals on held-out blocks" else "Residuals, nothing held out"
-        fun shown(model: ModelAssessment) =
+        fun shown(model: ModelAssessment) = if (diagnosed.isFitted) {
             three.format(if (isHeldOut) model.heldOutRmse else model.trainRmse) + diagnosed.unitAfter
+        } else {
+            "nothing was fitted"
+        }
         page.summary("$residuals, base", shown(result.baseline))
         if (!diagnosed.isBaseNamed) result.extended?.let { page.summary("The same, extended", shown(it)) }
         diagnosed.warnings.forEach(page::warning)
         page.section("The answer") { answer() }
-        page.section("Measured and predicted") { show("predicted") }
+        if (diagnosed.isFitted) page.section("Measured and predicted") { show("predicted") }
         if (figures.any { it.name.startsWith("cause-") }) {
             page.section("The causes") {
                 figures.filter { it.name.startsWith("cause-") }.forEach { figure(it.figure, it.caption) }
             }
         }
-        page.section("All causes tried") { tried() }
-        page.section("What the residuals depend on") { residuals() }
+        if (diagnosed.isFitted) {
+            page.section("All causes tried") { tried() }
+            page.section("What the residuals depend on") { residuals() }
+        }
         page.section("How it was done") { HOW.forEach(::paragraph) }
         return page.render()
     }

@@ -44,13 +44,36 @@ internal object MapCautions {
     /** What to say of a [mission] that [hasSurveyedNothing]; null for others. */
     fun nothing(mission: Mission): String? {
         if (!hasSurveyedNothing(mission)) return null
-        if (mission.readings.passed + mission.readings.leftOut > 0) {
+        val readings = mission.readings
+        if (readings.passed == 0L && readings.leftOut > 0) return "nothing was surveyed: ${allRefused(mission)}"
+        if (readings.passed + readings.leftOut > 0) {
             return "nothing was surveyed: the budget was spent before the boat came to a second cell; give it more"
         }
         val isNamed = mission.spec.probe.port != null
         val advice = if (isNamed) "" else "; name its port in the mission's probe: \"port\":1 to 3"
         return "nothing was surveyed: the probe was never heard$advice"
     }
+
+    /** That all readings of [mission], of which none passed, were refused, and why. */
+    private fun allRefused(mission: Mission): String {
+        val readings = mission.readings
+        val probe = mission.spec.probe
+        val space = if (probe.quantity.unit.isEmpty()) "" else " "
+        val range = "${number(probe.lowest)} to ${number(probe.highest)}$space${probe.quantity.unit}"
+        val why = listOf(
+            "outside of the probe's range, $range" to readings.outOfRange,
+            "alone in what they said" to readings.lone,
+            "of a probe that was stuck" to readings.stuck,
+            "without a value or a place" to readings.withoutValueOrPlace,
+        ).filter { it.second > 0 }
+        val count = readings.leftOut
+        val all = if (count == 1L) "the only reading was refused" else "all $count readings were refused"
+        val words = why.singleOrNull()?.first ?: why.joinToString { (reason, number) -> "$number $reason" }
+        return "$all: $words"
+    }
+
+    /** [value] as the mission has it. */
+    private fun number(value: Double) = value.toBigDecimal().stripTrailingZeros().toPlainString()
 
     private fun givenUp(mission: Mission): String? {
         val grid = mission.map.grid

@@ -79,8 +79,14 @@ internal class CsvLayout(
             val fields = content.head[last].trim().split(BLANKS)
             if (fields.size < 2 || fields.any { !CellText.isTime(it) && !CellText.isNumber(it, comma = true) }) return
             val expected = "commas, semicolons or tabs between columns"
-            throw LogProblem(content.file, last + 1L, null, expected, "blanks")
+            // The header is the last line of words alone; without one the first line is as wrong as any.
+            val header = (last downTo 0).firstOrNull { isHeader(content.head[it].trim().split(BLANKS)) }
+            val line = header ?: content.head.indexOfFirst { it.isNotBlank() }
+            throw LogProblem(content.file, line + 1L, null, expected, "blanks")
         }
+
+        private fun isHeader(fields: List<String>) = fields.size > 1 &&
+            fields.none { CellText.isMissing(it) || CellText.isTime(it) || CellText.isNumber(it, comma = true) }
 
         private class Header(val index: Int, val separator: Char)
 

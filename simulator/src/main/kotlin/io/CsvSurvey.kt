@@ -244,7 +244,7 @@ internal class CsvSurvey internal constructor(
             val hint = when {
                 text.trim() == columns.names[column] -> ", the header again: is this another log glued onto the first?"
                 row.numbers[slot].isInfinite() -> " (too large)"
-                else -> commaHint(text)
+                else -> (if (slot == TIME) times.zoneHint(text) else "") + commaHint(text)
             }
             val expected = if (slot == TIME) times.expected else "a finite number"
             return problem(row.line, column, expected, quoted(text) + hint, reason)

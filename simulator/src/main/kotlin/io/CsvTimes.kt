@@ -12,6 +12,14 @@ internal class CsvTimes(
     val expected: String,
     val expectedDate: String = "",
 ) {
+    /** What to add to a message about [text], which is no time: whether the name of a zone makes it none. */
+    fun zoneHint(text: String): String {
+        val name = ZONE.find(text)?.groupValues?.get(1) ?: return ""
+        if (name.lowercase() in READ) return ""
+        val isYearFirst = DateText.parts(text)?.order == DateOrder.YEAR_FIRST
+        return " (names of zones are not read, only ${if (isYearFirst) "Z or an offset as -05:00" else "UTC or none"})"
+    }
+
     companion object {
         /** Seconds from 1970 to the end of the year 9999, the last that ISO 8601 writes in four digits. */
         const val LATEST: Double = 253_402_300_800.0
@@ -21,6 +29,10 @@ internal class CsvTimes(
 
         /** What a time in seconds or ISO 8601 must be. */
         const val PLAIN = "seconds or a time as 2025-06-01T12:00:00Z"
+
+        /** Letters behind a time of day: a zone, such as EST or Europe/Berlin, or what is [READ]. */
+        private val ZONE = Regex("""(?i):\d{2}(?:[.,]\d+)?\s*(?:[ap]\.?m\.?)?\s*\[?([a-z][a-z_/]+)]?\s*$""")
+        private val READ = setOf("am", "pm", "utc", "gmt")
 
         /** Names of times without hours, which are read as hours and minutes if nobody looks. */
         private val MINUTES = Regex("""(?i)(?<!h:|hh)mm:ss""")

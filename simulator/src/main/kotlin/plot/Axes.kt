@@ -68,7 +68,8 @@ internal class Axes private constructor(
             scale == AxisScale.LOG10 -> DOUBLED
             else -> if (size > 0) size / 2 else 1.0
         }
-        return if (scale == AxisScale.LOG10) TEN.pow(low - room) to TEN.pow(high + room) else low - room to high + room
+        if (scale == AxisScale.LINEAR) return low - room to high + room
+        return maxOf(TEN.pow(low - room), 1 / LARGEST) to minOf(TEN.pow(high + room), LARGEST)
     }
 
     internal companion object {
@@ -101,9 +102,11 @@ internal class Axes private constructor(
                     }
                     if (shows(stroke.lower[i], y)) band.add(stroke.lower[i])
                     if (shows(stroke.upper[i], y)) band.add(stroke.upper[i])
+                    // A band may reach farther than its line.
+                    if (shows(stroke.lower[i], y) && shows(stroke.upper[i], y)) xs.add(stroke.x[i])
                 }
             }
-            if (xs.isEmpty) return null
+            if (ys.isEmpty) return null
             val foot = if (y == AxisScale.LOG10) maxOf(band.from, ys.from / BELOW) else band.from
             return Axes(x, y, xs.from, xs.to, minOf(ys.from, foot), maxOf(ys.to, band.to))
         }

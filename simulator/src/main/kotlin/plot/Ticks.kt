@@ -46,18 +46,23 @@ internal class Ticks private constructor(val places: List<Double>, val labels: L
             return Ticks(places, places.map { typeset(BigDecimal(it).setScale(decimals, RoundingMode.HALF_EVEN)) })
         }
 
-        /** At most [most] round numbers on a logarithmic axis from [from] to [to], both positive. */
+        /**
+         * At most [most] round numbers on a logarithmic axis from [from] to [to], both positive; an end that is 0 or
+         * infinite counts as the smallest or largest number.
+         */
         fun log(from: Double, to: Double, most: Int): Ticks {
-            val powers = floor(log10(from)).toInt()..floor(log10(to)).toInt()
+            val low = from.coerceIn(java.lang.Double.MIN_NORMAL, Double.MAX_VALUE)
+            val high = to.coerceIn(java.lang.Double.MIN_NORMAL, Double.MAX_VALUE)
+            val powers = floor(log10(low)).toInt()..floor(log10(high)).toInt()
             fun among(digits: DoubleArray) = powers
                 .flatMap { power -> digits.map { BigDecimal(it).scaleByPowerOfTen(power).toDouble() } }
-                .filter { it >= from * (1 - ROUNDING) && it <= to * (1 + ROUNDING) }
+                .filter { it >= low * (1 - ROUNDING) && it <= high * (1 + ROUNDING) && it.isFinite() }
             val sets = mantissas.map(::among)
             val set = sets.firstOrNull { it.size <= most } ?: sets.last().let { all ->
                 all.filterIndexed { index, _ -> index % (all.size / most + 1) == 0 }
             }
             val places = if (set.size >= FEWEST) set else among(fine).takeIf { it.size in FEWEST..most } ?: set
-            return if (places.size < 2) linear(from, to, FEWEST) else bare(places)
+            return if (places.size < 2) linear(low, high, FEWEST) else bare(places)
         }
 
         private fun bare(places: List<Double>) = Ticks(places, places.map(::label))

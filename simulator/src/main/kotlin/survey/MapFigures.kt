@@ -99,13 +99,14 @@ class MapFigures(private val map: SurveyMap) {
     }
 
     private fun estimate(kind: FilterKind, field: FieldMap): MapFigure {
-        val isBounded = kind == FilterKind.BOUNDED
         val title = "$quantity, ${kind.label} filter"
         val caption = when (kind) {
             FilterKind.BOUNDED ->
                 "Midpoint of the bounds in each visited cell with both. Where one was set only, the cell is drawn " +
-                    "small: its other end is that of the range taken for the water, so that its colour says as much " +
-                    "of the range as of the water. Of ${counts(field)}."
+                    (if (map.log.oneDimensional) "apart" else "small") + ": its other end is that of the range taken " +
+                    "for the water, so that its value says as much of the range as of the water. Where they crossed " +
+                    "it is the middle between two bounds that contradict each other, and the water need not be " +
+                    "there. Of ${counts(field)}."
             FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
             FilterKind.EXPONENTIAL -> "Exponential average of the readings in each visited cell."
             FilterKind.INTERVAL ->
@@ -119,11 +120,15 @@ class MapFigures(private val map: SurveyMap) {
                     "others from those around, where these narrow it to half of the range taken for the water."
         }
         val value: (Int) -> Double = { field.measuredValue(kind, it) }
-        val figure = if (map.log.oneDimensional) {
-            profile(title, where, field, value, legend, withBounds = isBounded)
-        } else {
+        val counts = BoundCounts.of(field, kind)
+        val below = if (counts.crossed == 0) where else "$where; crossed: ${counts.crossed} of ${counts.visited} cells"
+        val figure = if (!map.log.oneDimensional) {
             val shown = cells(field, field.shownCells(kind), value) { field.isHalfKnown(kind, it) }
-            CellMap(title, where, shown, legend, cellColours).draw()
+            CellMap(title, below, shown, legend, cellColours).draw()
+        } else if (kind == FilterKind.BOUNDED) {
+            boundedProfile(title, below, field, value)
+        } else {
+            profile(title, below, field, value, legend)
         }
         return MapFigure("estimate-${kind.label}", figure, caption)
     }
@@ -139,7 +144,7 @@ class MapFigures(private val map: SurveyMap) {
         val below = if (crossed == 0) where else "$where; crossed: $crossed, without width"
         val unit = "width of $legend"
         val figure = if (map.log.oneDimensional) {
-            profile(title, below, field, width, unit, withBounds = false)
+            profile(title, below, field, width, unit)
         } else {
             CellMap(title, below, cells(field, field.visitedCells(), width), unit).draw()
         }
@@ -160,26 +165,49 @@ class MapFigures(private val map: SurveyMap) {
         field: FieldMap,
         value: (Int) -> Double,
         label: String,
-        withBounds: Boolean,
     ): Figure {
+        val series = series("", field, field.visitedCells(), value, Mark.LINE_AND_POINTS)
+        return LinePlot(title, subtitle, listOf(series), map.log.xName, label).draw()
+    }
+
+    /** As [profile], of cells with bounds: each kind of cell has its colour, and a band where bounds have not crossed. */
+    private fun boundedProfile(title: String, subtitle: String, field: FieldMap, value: (Int) -> Double): Figure {
+        val cells = field.visitedCells().groupBy { field.status(FilterKind.BOUNDED, it) }
+        fun some(name: String, status: CellStatus, mark: Mark): List<Series> {
+            val members = cells[status] ?: return emptyList()
+            val values = series(name, field, members, value, mark)
+            return if (status == CellStatus.CROSSED) listOf(values) else listOf(values, bands(name, field, members))
+        }
+        val series = some("both bounds", CellStatus.BOTH, Mark.LINE_AND_POINTS) +
+            some("one bound only", CellStatus.ONE_SIDED, Mark.POINTS) +
+            some("crossed", CellStatus.CROSSED, Mark.POINTS)
+        return LinePlot(title, subtitle, series, map.log.xName, legend).draw()
+    }
+
+    /** The values of [members]; other cells that the boat entered interrupt the line. */
+    private fun series(name: String, field: FieldMap, members: List<Int>, value: (Int) -> Double, mark: Mark): Series {
         val cells = field.visitedCells()
-        val half = cells.filter { withBounds && field.isHalfKnown(FilterKind.BOUNDED, it) }
-        val series = Series(
-            if (half.isEmpty()) "" else "both bounds",
+        val own = members.toSet()
+        return Series(
+            name,
             cells.doubles { field.grid.centerX(it) },
-            cells.doubles { if (it in half) Double.NaN else value(it) },
-            // Bounds may have crossed.
-            cells.takeIf { withBounds }?.doubles { minOf(field.lower(it), field.upper(it)) },
-            cells.takeIf { withBounds }?.doubles { maxOf(field.lower(it), field.upper(it)) },
-            Mark.LINE_AND_POINTS,
+            cells.doubles { if (it in own) value(it) else Double.NaN },
+            mark = mark,
         )
-        val others = Series(
-            "one bound only",
-            half.doubles { field.grid.centerX(it) },
-            half.doubles(value),
-            mark = Mark.POINTS,
-        ).takeIf { half.isNotEmpty() }
-        return LinePlot(title, subtitle, listOfNotNull(series, others), map.log.xName, label).draw()
+    }
+
+    /** The bounds of [members], each over the whole width of its cell. */
+    private fun bands(name: String, field: FieldMap, members: List<Int>): Series {
+        val half = field.grid.cellWidth / 2
+        val nothing = DoubleArray(members.size * CORNERS) { Double.NaN }
+        fun each(of: (Int, Int) -> Double) = DoubleArray(nothing.size) { of(members[it / CORNERS], it % CORNERS) }
+        return Series(
+            name,
+            each { cell, corner -> field.grid.centerX(cell) + if (corner == 0) -half else half },
+            nothing,
+            each { cell, corner -> if (corner < 2) field.lower(cell) else Double.NaN },
+            each { cell, corner -> if (corner < 2) field.upper(cell) else Double.NaN },
+        )
     }
 
     /** The [shown] cells, merged into blocks where there are too many to draw. */
@@ -252,6 +280,9 @@ class MapFigures(private val map: SurveyMap) {
             listOf("track", "bounds-width", "leg-mismatch", "speed") + FilterKind.entries.map { "estimate-${it.label}" }
 
         private const val RARE = 0.01
+
+        /** Places at which the band of a cell is given: where it begins, where it ends, and one without a band. */
+        private const val CORNERS = 3
         private const val NOWHERE = -1
         private const val MOST_POINTS = 4000
         private const val MOST_CELLS = 20_000

@@ -1,5 +1,6 @@
 package stillwater.survey
 
+import stillwater.report.counted
 import stillwater.run.FilterKind
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
@@ -34,13 +35,18 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     private fun jumps(): String? {
         if (statistics.jumps == 0L) return null
-        return "${statistics.jumps} jumps in the positions are faster than 20 ${wording.speed}: " +
+        val are = if (statistics.jumps == 1L) "is" else "are"
+        return "${counted(statistics.jumps, "jump")} in the positions $are faster than 20 ${wording.speed}: " +
             "check the receiver's fixes"
     }
 
     private fun gap(): String? {
         val longest = map.gaps.longest?.takeIf { it.seconds >= LONG_GAP } ?: return null
-        val more = if (map.gaps.count > 1) "; ${map.gaps.count - 1} more gaps are shorter" else ""
+        val more = when (val others = map.gaps.count - 1) {
+            0L -> ""
+            1L -> "; 1 more gap is shorter"
+            else -> "; $others more gaps are shorter"
+        }
         return "no reading for ${duration(longest.seconds)} from ${digits(longest.start)} s after the first on, and " +
             "the next lies ${digits(longest.jump)} ${wording.length} away$more: nothing is known about the way between"
     }
@@ -72,7 +78,8 @@ internal class MapWarnings(private val map: SurveyMap) {
         // Before the first fix every log has some; that is no fault of its.
         val skipped = map.pass.skipped.filterKeys { it !in HARMLESS }.values.sum()
         if (skipped <= MANY_SKIPPED * map.pass.readings) return null
-        return "$skipped readings or lines were skipped, against ${map.pass.readings} readings used"
+        val were = if (skipped == 1L) "reading or line was" else "readings or lines were"
+        return "$skipped $were skipped, against ${map.pass.readings} readings used"
     }
 
     private fun epsilon(): List<String> = buildList {
@@ -98,7 +105,9 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     private fun standing(): String? {
         val isStanding = statistics.speeds.count > 0 && statistics.speeds.median < SLOW
-        if (!isStanding || statistics.east <= statistics.west) return null
+        if (!isStanding) return null
+        val isFixed = statistics.east <= statistics.west && statistics.north <= statistics.south
+        if (isFixed) return "the boat never moved: the map is of one place"
         return "the boat hardly moved (median speed ${digits(statistics.speeds.median)} ${wording.speed}): " +
             "the map shows little"
     }

@@ -14,6 +14,7 @@ import stillwater.estimate.EpsilonCalibration
 import stillwater.estimate.FieldEstimator
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
+import stillwater.io.FixReach
 import stillwater.io.LogPass
 import stillwater.io.LogProblem
 import stillwater.io.ReadingSink
@@ -105,6 +106,7 @@ class SurveyMap internal constructor(
 
     companion object {
         private const val PRIOR_MARGIN = 0.1
+        private const val METRES_A_KILOMETRE = 1000
 
         /** So many blocks of readings may wait for the first look. */
         private const val BLOCKS_AHEAD = 4
@@ -119,6 +121,13 @@ class SurveyMap internal constructor(
         fun of(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit = {}): SurveyMap =
             runBlocking { read(log, settings, progress) }
 
+        /** Refuses cells so large that their corners would have no latitude. */
+        private fun requireOnGlobe(log: SurveyLog, wish: GridWish) {
+            if (log.frame == null || wish.cell == null || wish.cell <= FixReach.LIMIT_METRES) return
+            val most = (FixReach.LIMIT_METRES / METRES_A_KILOMETRE).toInt()
+            throw UnfitGrid("expected cells of at most $most km in a log with latitudes, found ${wish.cell} m")
+        }
+
         private suspend fun read(log: SurveyLog, settings: MapSettings, progress: (Long) -> Unit) = coroutineScope {
             val look = FirstLook(settings)
             var bytes = 0L
@@ -131,6 +140,7 @@ class SurveyMap internal constructor(
             val mismatch = async(Dispatchers.Default) { LegComparison(statistics, track).compare(legs) }
             val stepSlope = stepSlope(statistics, settings)
             val calibration = look.epsilon.calibration(log)?.atLeast(stepSlope)
+            requireOnGlobe(log, settings.grid)
             val grid = GridChoice(statistics, track).grid(settings.grid)
             val prior = settings.prior ?: prior(statistics)
             val bounded = boundedSettings(settings, calibration)

@@ -165,6 +165,31 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun whereNothingWasFittedNoModelIsShown() {
+        val file = directory.resolve("anchor.csv")
+        Files.write(file, listOf("time_s,x_m,y_m,probe") + List(99) { "$it,5,5,${8 + sin(it / 9.0)}" })
+        val out = directory.resolve("out")
+        assertContains(diagnose("$file", "--out", "$out").stdout, "base: nothing was fitted")
+        val names = Files.list(out).use { files -> files.map { "${it.fileName}" }.sorted().toList() }
+        assertEquals(listOf("diagnosis.json", "report.html", "residuals.csv"), names)
+        val rows = Files.readAllLines(out.resolve("residuals.csv")).drop(1)
+        assertTrue(rows.size == 99 && rows.all { it.endsWith(",,,,,,,") }, rows[0])
+        assertFalse("whitened" in Files.readString(out.resolve("report.html")))
+    }
+
+    @Test
+    fun howManyRowsItTakesIsSaid() {
+        for (flags in listOf(emptyList(), listOf("--reference", "sample"))) {
+            val file = directory.resolve("few.csv")
+            val lines = List(31) { "$it,$it,0,${8 + sin(it / 9.0)},${8 + sin(it / 7.0)}" }
+            Files.write(file, listOf("time_s,x_m,y_m,probe,sample") + lines)
+            val out = "${directory.resolve("out")}"
+            val result = diagnose("$file", "--value", "probe", "--numbers-only", "--out", out, *flags.toTypedArray())
+            assertContains(result.stdout, "there are 31 rows only, and 60 are needed")
+        }
+    }
+
+    @Test
     fun itWritesWhatTheIssueAsksFor() {
         val out = directory.resolve("out")
         val result = diagnose(bench(), "--value", "probe", "--reference", "sample", "--out", "$out")

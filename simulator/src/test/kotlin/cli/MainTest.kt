@@ -77,10 +77,25 @@ class MainTest {
     }
 
     @Test
+    fun anOptionThatThereIsNoneOfNamesItsCommandAndWhatIsNear() {
+        for ((typed, message) in listOf(
+            "--bogus" to "stillwater: no such option --bogus (see stillwater --help)",
+            "simulate pond.json --bogus 1" to
+                "stillwater simulate: no such option --bogus (see stillwater simulate --help)",
+            "map log.csv --val do" to
+                "stillwater map: no such option --val. Did you mean --value? (see stillwater map --help)",
+            "correct log.csv --refernce do" to
+                "stillwater correct: no such option --refernce. Did you mean --reference? (see stillwater correct --help)",
+        )) {
+            assertEquals(message, Stillwater().subcommands(commands()).test(typed, width = 200).stderr.trimEnd())
+        }
+    }
+
+    @Test
     fun allThatIsMissingIsSaidInOneLine() {
         val result = runBoatCommand("drive")
         val words = result.stderr.substringBefore(" (")
-        assertEquals("stillwater: missing argument <mission>; missing option --port", words)
+        assertEquals("stillwater drive: missing argument <mission>; missing option --port", words)
         assertEquals(1, result.stderr.trimEnd().lines().size)
     }
 

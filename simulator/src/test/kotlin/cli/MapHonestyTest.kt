@@ -91,6 +91,25 @@ class MapHonestyTest {
         val statuses = directory.out().resolve("cells.csv").readLines().map { it.split(',').last() }
         assertEquals(listOf("status", "measured", "measured", "crossed", "none"), statuses)
         assertContains(directory.out().resolve("bounds-width.svg").readText(), "crossed: 1, without width")
+        assertContains(directory.out().resolve("estimate-bounded.svg").readText(), "crossed: 1 of 2 cells")
+        assertFalse("crossed" in directory.out().resolve("estimate-averaging.svg").readText())
+    }
+
+    @Test
+    fun crossedBoundsOfATransectAreNoBand() {
+        fun figure(first: Double, second: Double): String {
+            json(thereAndBack(first, second).replace(",1,", ",").replace("y_m,", ""), "--x", "x_m", *flags)
+            return directory.out().resolve("estimate-bounded.svg").readText()
+        }
+        val bands = Regex("<path[^>]* fill=\"rgb\\(0,114,178\\)\"")
+        val crossed = figure(8.0, 9.0)
+        assertContains(crossed, "crossed: 1 of 2 cells")
+        assertContains(crossed, ">crossed<")
+        assertFalse("both bounds" in crossed || bands.containsMatchIn(crossed))
+        val ordered = figure(7.0, 9.5)
+        assertContains(ordered, ">both bounds<")
+        assertFalse("crossed" in ordered)
+        assertEquals(1, bands.findAll(ordered).count())
     }
 
     @Test
@@ -101,6 +120,29 @@ class MapHonestyTest {
         assertFalse(summary.warnings().any { "crossed (lower" in it })
         assertContains(directory.out().resolve("bounds-width.svg").readText(), "width of v")
         assertContains(report(), "of 2 visited cells 1 have both bounds")
+    }
+
+    @Test
+    fun aBoatThatDoesNotGoAnywhereIsTold() {
+        fun warnings(step: Double) = json(
+            "time_s,x_m,y_m,v\n" + (0 until 60).joinToString("") { "$it,${step * it},1,${8 + it % 5}\n" },
+        ).warnings()
+        assertContains(warnings(0.0), "the boat never moved: the map is of one place")
+        assertTrue(warnings(0.001).any { "the boat hardly moved (median speed 0.001 m/s)" in it })
+        assertFalse(warnings(0.5).any { "moved" in it })
+    }
+
+    @Test
+    fun oneJumpAndOneFurtherGapAreOne() {
+        fun warnings(jumps: Int, gaps: Int) = json(
+            "time_s,x_m,y_m,v\n" + (0 until 200).joinToString("") { i ->
+                "${i + 300 * minOf(i / 50, gaps)},${i + 500 * minOf(i / 60, jumps)},1,${8 + i % 5}\n"
+            },
+        ).warnings().joinToString("\n")
+        assertContains(warnings(jumps = 1, gaps = 2), "1 jump in the positions is faster than 20 m/s")
+        assertContains(warnings(jumps = 2, gaps = 3), "2 jumps in the positions are faster than 20 m/s")
+        assertContains(warnings(jumps = 0, gaps = 2), "; 1 more gap is shorter")
+        assertContains(warnings(jumps = 0, gaps = 3), "; 2 more gaps are shorter")
     }
 
     @Test

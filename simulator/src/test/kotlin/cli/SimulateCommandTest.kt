@@ -70,6 +70,19 @@ class SimulateCommandTest {
     }
 
     @Test
+    fun otherCommandsDoNotReplaceAMissionsFiles() {
+        val cells = sailed.resolve("cells.csv").readText()
+        val log = sailed.resolve("mission.txt").toString()
+        val commands = listOf("map", "correct", "diagnose").map { listOf(it, log) } + listOf(listOf("benchmark"))
+        for (arguments in commands) {
+            val result = Stillwater().subcommands(commands()).test(arguments + listOf("--out", "$sailed"))
+            assertEquals(BAD_INPUT, result.statusCode, "$arguments: ${result.output}")
+            assertTrue("$sailed has the log of a mission, $log; name another" in result.stderr, result.stderr)
+            assertEquals(cells, sailed.resolve("cells.csv").readText())
+        }
+    }
+
+    @Test
     fun theSummaryIsWhatItWas() {
         // To three digits: what is not exact may differ in its last bits on another machine.
         val found = shortened(summary()).toString().replace(",\"", ",\n\"") + "\n"
@@ -183,6 +196,17 @@ class SimulateCommandTest {
         assertTrue(", nothing surveyed\n" in result.stdout, result.stdout)
         assertTrue("warning: nothing was surveyed: the budget was spent before" in result.stderr, result.stderr)
         assertFalse("nothing was surveyed" in summary().getValue("warnings").toString())
+    }
+
+    @Test
+    fun readingsThatWereAllRefusedAreNoBudgetSpent() {
+        val stages = """[{"type": "first-order-lag", "time_constant_s": 10}, {"type": "saturation", "lower": 120}]"""
+        val sensor = directory.resolve("high.json").apply { writeText("""{"name": "high", "stages": $stages}""") }
+        val result = simulate(directory.resolve("high"), "--sensor", "$sensor")
+        assertEquals(0, result.statusCode, result.output)
+        val why = Regex("nothing was surveyed: all \\d+ readings were refused: outside of the probe's range, 0 to 15 ")
+        assertTrue(why.containsMatchIn(result.stderr), result.stderr)
+        assertFalse("budget" in result.stderr, result.stderr)
     }
 
     @Test

@@ -60,7 +60,7 @@ class CorrectCommandTest {
         assertEquals("time_s,x_m,y_m,slow,fast,note,corrected,corrected_low,corrected_high", lines[0])
         assertTrue(lines[8].endsWith(",,,"), lines[8])
         assertContains(lines[1], "\"a, b\"")
-        assertContains(result.stderr, "1 rows could not be used")
+        assertContains(result.stderr, "1 row could not be used and has empty cells")
         for (name in listOf("sensor.json", "summary.json", "report.html", "corrected.svg", "corrected.png")) {
             assertTrue(out.resolve(name).exists(), name)
         }
@@ -189,7 +189,7 @@ class CorrectCommandTest {
         assertEquals(listOf(true, false), lines[8].split(',').takeLast(6).chunked(3).map { it.all(String::isEmpty) })
         assertContains(both.stdout, "slow, as slow_corrected")
         assertContains(both.stdout, " A either way")
-        assertContains(both.stderr, "slow: 1 rows could not be used")
+        assertContains(both.stderr, "slow: 1 row could not be used and has empty cells")
         val pairs = lines.drop(1).map { it.split(',').takeLast(6).chunked(3) }
         for ((i, column) in listOf("slow", "fast").withIndex()) {
             for (file in listOf("sensor.json", "summary.json", "report.html", "corrected.png")) {

@@ -223,7 +223,22 @@ class MisreadLogTest {
                 "blanks between columns",
                 "Model=made up\n\nDate & Time                  DO\n14-Jul-2025 08:00:00.000    8.1\n" +
                     "14-Jul-2025 08:01:00.000    8.2\n",
-                "log.csv:5: expected commas, semicolons or tabs between columns, found blanks",
+                "log.csv:3: expected commas, semicolons or tabs between columns, found blanks",
+            ),
+            Case(
+                "many rows with blanks between columns",
+                "time_s x_m y_m v\n" + (0 until 800).joinToString("") { "$it.0 ${it % 40}.25 1.0 8.$it\n" },
+                "log.csv:1: expected commas, semicolons or tabs between columns, found blanks",
+            ),
+            Case(
+                "names of zones",
+                "Date Time,x_m,y_m,v\n2018-07-12T14:00:00 EST,0,0,8.1\n2018-07-12T14:00:01 EST,1,0,8.2\n",
+                "found '2018-07-12T14:00:00 EST' (names of zones are not read, only Z or an offset as -05:00)",
+            ),
+            Case(
+                "names of zones behind other dates",
+                "Date Time,x_m,y_m,v\n07/13/2018 14:00:00 EST,0,0,8.1\n07/13/2018 14:00:01 EST,1,0,8.2\n",
+                "found '07/13/2018 14:00:00 EST' (names of zones are not read, only UTC or none)",
             ),
             Case(
                 "times since 1970",

@@ -44,6 +44,13 @@ class MissionFileTest {
                 "\"minutes\": 15",
                 "8:14: budget: expected one of metres, seconds, reserve, found 'minutes'",
             ),
+            Triple("900", "1e300", "8:25: budget: seconds (1.0E300 s) must be above 0 and at most 1000000.0"),
+            Triple("900", "0", "8:25: budget: seconds (0.0 s) must be above 0 and at most 1000000.0"),
+            Triple(
+                "\"seconds\": 900",
+                "\"metres\": 2e6",
+                "8:24: budget: metres (2000000.0 m) must be above 0 and at most 1000000.0",
+            ),
             Triple("{\"seconds\": 900}", "{}", "8:13: budget: a budget needs either metres or seconds"),
             Triple(
                 "\"home\": {",

@@ -1,5 +1,6 @@
 package stillwater.plot
 
+import kotlin.math.pow
 import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -153,5 +154,22 @@ class ChartsTest {
         assertEquals(listOf("1", "10", "100", "1000"), Ticks.log(1.0, 2000.0, 6).labels)
         assertEquals(listOf("0.05", "0.1", "0.2"), Ticks.log(0.04, 0.25, 8).labels)
         assertEquals(listOf("0", "1e299", "2e299", "3e299"), Ticks.linear(0.0, 3e299, 4).labels)
+    }
+
+    @Test
+    fun anAxisThatEndsBeyondAllNumbersHasAFewTicks() {
+        for ((from, to) in listOf(1e-3 to Double.POSITIVE_INFINITY, 0.0 to 1e300, 0.0 to Double.POSITIVE_INFINITY)) {
+            val places = Ticks.log(from, to, 8).places
+            assertTrue(places.size in 2..8 && places.all { it.isFinite() && it > 0 }, "$from to $to: $places")
+        }
+    }
+
+    @Test
+    fun numbersFromTheSmallestToTheLargestHaveALogarithmicAxis() {
+        val wide = DoubleArray(100) { 10.0.pow(6.0 * it - 297) }
+        val plot = LinePlot("t", "", listOf(Series("s", time, wide)), "s", "u", yScale = AxisScale.LOG10)
+        val axis = SvgParts(plot.draw())
+        assertEquals(1, axis.strokes(SvgParts.BLUE).size)
+        assertFalse(axis.texts.any { "Infinity" in it || "NaN" in it }, "${axis.texts}")
     }
 }

@@ -21,12 +21,12 @@ class SensorContractTest {
         SensorStage.Lag(1e-3),
         SensorStage.Slew(0.01),
         SensorStage.LimitedLag(9.5, 0.01),
-        SensorStage.LimitedLag(1e-300, 1e300),
-        SensorStage.Slew(1e300),
+        SensorStage.LimitedLag(1e-300, SensorSpec.LARGEST_NUMBER),
+        SensorStage.Slew(SensorSpec.LARGEST_NUMBER),
         SensorStage.Noise(0.0),
         SensorStage.Noise(0.02),
         SensorStage.Quantum(0.005),
-        SensorStage.Quantum(1e300),
+        SensorStage.Quantum(SensorSpec.LARGEST_NUMBER),
         SensorStage.Asymmetric(7.0, 13.0),
         SensorStage.Asymmetric(1e-300, SensorSpec.LONGEST_TIME),
         SensorStage.Delay(0.0),
@@ -37,14 +37,14 @@ class SensorContractTest {
         SensorStage.FlowLag(9.5, 1.0, 0.5),
         SensorStage.TemperatureLag(9.5, 20.0, 0.03),
         SensorStage.Calibration(-1.1, 0.4),
-        SensorStage.Calibration(1e300, -1e300),
+        SensorStage.Calibration(SensorSpec.LARGEST_NUMBER, -SensorSpec.LARGEST_NUMBER),
         SensorStage.Cross("salinity", 30.0, 0.2),
         SensorStage.Drifting(1e-3),
-        SensorStage.Drifting(-1e300),
-        SensorStage.Jumps(listOf(3.0, 40.0), listOf(0.5, -1e300)),
+        SensorStage.Drifting(-SensorSpec.LARGEST_NUMBER),
+        SensorStage.Jumps(listOf(3.0, 40.0), listOf(0.5, -SensorSpec.LARGEST_NUMBER)),
         SensorStage.Backlash(0.2),
         SensorStage.Range(-1.0, null),
-        SensorStage.Outlying(0.1, 1e300),
+        SensorStage.Outlying(0.1, SensorSpec.LARGEST_NUMBER),
     )
     private val specs = stages.map { SensorSpec("$it", listOf(it)) } +
         SensorSpec("none", emptyList()) +
@@ -52,8 +52,17 @@ class SensorContractTest {
         SensorSpec("all the other way", stages.reversed())
 
     /** What can be built but not read from a file. */
-    private val beyond = listOf(SensorStage.Asymmetric(1e-300, 1e300), SensorStage.Delay(1e300))
-        .map { SensorSpec("$it", listOf(it)) }
+    private val beyond = listOf(
+        SensorStage.Asymmetric(1e-300, 1e300),
+        SensorStage.Delay(1e300),
+        SensorStage.LimitedLag(1e-300, 1e300),
+        SensorStage.Slew(1e300),
+        SensorStage.Quantum(1e300),
+        SensorStage.Calibration(1e300, -1e300),
+        SensorStage.Drifting(-1e300),
+        SensorStage.Jumps(listOf(3.0, 40.0), listOf(0.5, -1e300)),
+        SensorStage.Outlying(0.1, 1e300),
+    ).map { SensorSpec("$it", listOf(it)) }
 
     private fun forEverySensor(law: (SensorSpec) -> Unit): List<DynamicTest> =
         (specs + beyond).map { spec -> dynamicTest(spec.name) { law(spec) } }
