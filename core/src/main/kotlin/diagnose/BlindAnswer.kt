@@ -2,6 +2,7 @@ package stillwater.diagnose
 
 import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
 import kotlin.math.exp
 import kotlin.math.sqrt
 
@@ -38,6 +39,10 @@ internal class BlindAnswer(
         // What shifts readings by next to nothing, however surely, stays in the model.
         val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let(::isNothing) != true }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
+        // An unknown water may be as flat as the readings, so that the likelihood alone does not tell of an end.
+        val still = StillReadings(asFit(last))
+        val level = settings.level / (first.causes.size + 1)
+        val range = still.range(level).takeIf { told.none { set -> Cause.SATURATION in set } }
         // A drift or a jump that was chosen is held against such water already.
         val isChangeTold = told.any { Cause.TIME_VARYING_FIELD in it }
         val isChangeNamed = !isChangeTold && isNamedChange(end.changed, chosen)
@@ -46,6 +51,7 @@ internal class BlindAnswer(
             listOf(Cause.TIME_VARYING_FIELD, Cause.DRIFT).takeIf { isChangeNamed },
             listOf(Cause.OUTLIERS).takeIf { isLoose },
             listOf(Cause.QUANTISATION).takeIf { isRounded },
+            listOf(Cause.SATURATION).takeIf { range != null },
         )
         val strongest = order.first()
         // What goes with the boat alone is no lag's of either kind, nor the water's.
@@ -53,16 +59,17 @@ internal class BlindAnswer(
         val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
             (chosen.isEmpty() && (end.isOfBoat(strongest) || left.first().adjusted < certain))
         // Who gives one number for many readings shows nothing else; what hides in noise shows where nothing was found.
-        val unlisted = StillReadings(asFit(last)).words(settings.level / (first.causes.size + 1))
-            ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
+        val unlisted = still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
         val verdict = verdict(all, left.first(), looks[strongest].sureness, isOthers, chosen, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
         val shown = asFit(named)
-        val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded)
+        val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded, range = range)
         val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
-        val tried = candidates(first)
+        val tried = candidates(first).map { candidate ->
+            if (candidate.cause == Cause.SATURATION && range != null) ended(candidate, range, still) else candidate
+        }
         // Of what was only tried nobody need know that it ended at a bound.
         bounds.clear()
         val lagging = assessment(base)
@@ -116,7 +123,9 @@ internal class BlindAnswer(
             weakest != null -> sureness > LEFT * weakest
             else -> !isOpen
         }
-        val isStructured = left.adjusted < settings.structureLevel && outweighs
+        // An end at which readings stand still is in no model, and shows in what is left.
+        val isEnded = all.any { Cause.SATURATION in it } && chosen.none { it.trial.term?.cause == Cause.SATURATION }
+        val isStructured = left.adjusted < settings.structureLevel && outweighs && !isEnded
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }
             .firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
@@ -262,6 +271,22 @@ internal class BlindAnswer(
         }
         return listOfNotNull(givenCandidate()) + list.sortedByDescending { it.second }.map { it.first }
     }
+
+    /** The saturation that was tried as [candidate], whose ends are those of [range] at which readings stand [still]. */
+    private fun ended(candidate: Candidate, range: SensorStage.Range, still: StillReadings) = Candidate(
+        candidate.cause,
+        candidate.condition,
+        candidate.parameters.filter { it.name == "time_constant_s" } +
+            listOf("lower" to range.lower, "upper" to range.upper).mapNotNull { (name, end) ->
+                end?.let { Estimate(name, "sensor units", it, null) }
+            },
+        candidate.trainRmse,
+        candidate.heldOutRmse,
+        candidate.heldOutLogLikelihood,
+        still.atEnd,
+        still.atEnd,
+        candidate.predicted,
+    )
 
     private fun givenCandidate(): Candidate? = given?.state?.let {
         val free = assessment(base)

@@ -157,7 +157,8 @@ internal class CauseSearch(
         }
         val white = CorrelatedNoise.white(scales, rows)
         val inner = Fitting.fit(base.model, base.numbers, base.free, rows, longest, noise = white)
-        return model.carried(base.model, inner.numbers).also { start.copyInto(it, slot, slot, slot + model.width(term)) }
+        val numbers = model.carried(base.model, inner.numbers)
+        return start.copyInto(numbers, slot, slot, slot + model.width(term))
     }
 
     /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */

@@ -10,13 +10,15 @@ import kotlin.math.sqrt
  * A fitted model as a sensor that the simulator runs.
  *
  * @param spikes single readings that are far off; null for none. @param isRounded whether readings are rounded although
- *   the model says nothing of it. @param leftOut what of the model is no property of the sensor.
+ *   the model says nothing of it. @param leftOut what of the model is no property of the sensor. @param range of which
+ *   the model says nothing; null for none.
  */
 internal class ExtendedSensor(
     private val fit: ModelFit,
     private val spikes: SpikeSize?,
     private val isRounded: Boolean = false,
     private val leftOut: Set<Cause> = emptySet(),
+    private val range: SensorStage.Range? = null,
 ) {
     private val model = fit.model
     private val numbers = fit.numbers
@@ -113,6 +115,7 @@ internal class ExtendedSensor(
             val upper = value(Cause.SATURATION, 1) ?: 1e12
             if (lower < upper) add(SensorStage.Range(lower.takeIf { it > -1e11 }, upper.takeIf { it < 1e11 }))
         }
+        range?.let(::add)
         val spread = sqrt(maxOf(fit.variance, 0.0))
         if (spread > 0) add(SensorStage.Noise(spread))
         spikes?.let { add(SensorStage.Outlying(it.probability, it.size)) }

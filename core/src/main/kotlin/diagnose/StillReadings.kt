@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import org.hipparchus.special.Erf
+import stillwater.sensor.SensorStage
 import kotlin.math.pow
 import kotlin.math.sqrt
 
@@ -19,7 +20,7 @@ internal class StillReadings(private val fit: ModelFit) {
     private val lowest = values.min()
     private val highest = values.max()
 
-    private class Stretch(val rows: Int, val isAtEnd: Boolean)
+    private class Stretch(val value: Double, val rows: Int, val isAtEnd: Boolean)
 
     /** For how many rows each reading stands still. */
     private val runs: List<Int> = buildList {
@@ -72,15 +73,30 @@ internal class StillReadings(private val fit: ModelFit) {
     val atEnd: Double by lazy {
         val elsewhere = all.filter { !it.isAtEnd }.minOfOrNull(::pValue) ?: 1.0
         val there = all.filter { it.isAtEnd }.minOfOrNull(::pValue) ?: 1.0
-        if (elsewhere < ELSEWHERE) 1.0 else there
+        if (elsewhere < sqrt(sqrt(there)).coerceIn(CERTAIN, ELSEWHERE)) 1.0 else there
     }
 
-    private fun found(): List<Stretch> = buildList {
+    /** The range that the readings have where they stand still at an end of it, at [level]; null where they do not. */
+    fun range(level: Double): SensorStage.Range? {
+        if (atEnd >= level) return null
+        val ends = all.filter { it.isAtEnd && pValue(it) < level }.map { it.value }
+        val middle = (lowest + highest) / 2
+        return SensorStage.Range(ends.filter { it < middle }.minOrNull(), ends.filter { it >= middle }.maxOrNull())
+    }
+
+    private fun found(): List<Stretch> {
+        val stretches = ArrayList<Stretch>()
         var from = 0
         for (rows in runs) {
             // What a delayed sensor shows first has not changed yet.
-            if (from > 0 && rows >= FEWEST) add(Stretch(rows, isAtEnd(from, from + rows)))
+            if (from > 0 && rows >= FEWEST) stretches += Stretch(values[from], rows, isAtEnd(from, from + rows))
             from += rows
+        }
+        // What a model without an end foretells beside a longer stretch at the same end may be too low.
+        val ends = stretches.filter { it.isAtEnd }
+        return stretches.map { one ->
+            val isLike = ends.any { it.value == one.value && it.rows >= one.rows }
+            if (isLike) Stretch(one.value, one.rows, true) else one
         }
     }
 
@@ -109,6 +125,9 @@ internal class StillReadings(private val fit: ModelFit) {
 
         /** Standard deviations. */
         const val NEAR = 3.0
+
+        /** The same where they do so at an end for far more certain: its logarithm is four times that. */
+        const val CERTAIN = 1e-6
 
         /** The chance of readings that stand still elsewhere, below which an end of the range is not why they do. */
         const val ELSEWHERE = 0.01

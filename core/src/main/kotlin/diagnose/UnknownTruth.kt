@@ -123,8 +123,7 @@ internal class UnknownTruth private constructor(
             val usual = median(within)
             val spread = deviation(truth)
             val steps = DoubleArray(n) { if (it == 0 || isGap[it]) 0.0 else abs(truth[it] - truth[it - 1]) }
-            // Slow water that is rounded stands still and moves by a step of the rounding or some.
-            val far = maxOf(SUDDEN * median(steps), ROUNDED * Scales.resolution(truth))
+            val far = maxOf(SUDDEN * median(steps), ROUNDED * rounding(truth))
             val isBroken = BooleanArray(n) { i ->
                 val beside = maxOf(steps.getOrElse(i - 2) { 0.0 }, steps.getOrElse(i + 2) { 0.0 })
                 isGap[i] || (steps[i] > far && steps[i] > STEEPER * beside)
@@ -157,6 +156,10 @@ internal class UnknownTruth private constructor(
             if (one > 0) one / (most(far, i, 2) / one).coerceIn(1.0, ReferenceGaps.FASTEST) else 0.0
         }
 
+        /** What slow water moves by where it is rounded, which stands still in most rows; 0 where a few levels are all. */
+        private fun rounding(truth: DoubleArray): Double =
+            Scales.resolution(truth).takeIf { truth.max() - truth.min() > LEVELS * it } ?: 0.0
+
         private fun most(errors: DoubleArray, i: Int, reach: Int): Double {
             var most = 0.0
             for (k in maxOf(i - reach, 0)..minOf(i + reach, errors.size - 1)) most = maxOf(most, errors[k])
@@ -182,6 +185,9 @@ internal class UnknownTruth private constructor(
 
         /** Steps of a rounded reference that are no sudden ones. */
         private const val ROUNDED = 3.0
+
+        /** Steps from the lowest to the highest of a reference that is rounded; with fewer they are its own. */
+        private const val LEVELS = 30
 
         private const val OFTEN = 0.08
 

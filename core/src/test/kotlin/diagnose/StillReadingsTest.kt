@@ -3,6 +3,7 @@ package stillwater.diagnose
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.math.sqrt
+import stillwater.sensor.SensorStage
 import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -72,6 +73,7 @@ class StillReadingsTest {
         val ended = normal().map { minOf(it, 6.2) }.toDoubleArray()
         val fit = fit(ended)
         assertTrue(StillReadings(fit).atEnd < 1e-9, "${StillReadings(fit).atEnd}")
+        assertEquals(SensorStage.Range(upper = 6.2), StillReadings(fit).range(1e-3))
         ended.fill(ended[300], 300, 330)
         assertEquals(1.0, StillReadings(fit(ended)).atEnd)
     }
