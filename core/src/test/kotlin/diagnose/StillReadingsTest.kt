@@ -1,9 +1,9 @@
 package stillwater.diagnose
 
+import stillwater.sensor.SensorStage
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.math.sqrt
-import stillwater.sensor.SensorStage
 import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals

@@ -188,8 +188,9 @@ class Diagnosed(
         if (after === base) {
             "extended: the base's own lag$besideBase"
         } else {
+            val gain = after.heldOutLogLikelihood - base.heldOutLogLikelihood
             "extended: held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
-                "${three.format(after.heldOutLogLikelihood - base.heldOutLogLikelihood)} higher"
+                "${three.format(abs(gain))} ${if (gain < 0) "lower" else "higher"}"
         }
 
     private companion object {
