@@ -16,8 +16,13 @@ internal class BlindSearch private constructor(
     private val progress: (Double) -> Unit,
     private val ground: BlindGround,
 ) {
-    constructor(series: MeasuredSeries, loops: Loops = Loops.IN_TURN, progress: (Double) -> Unit = {}) :
-        this(series, loops, progress, BlindGround(series, loops))
+    /** The search along [track]. */
+    constructor(
+        series: MeasuredSeries,
+        loops: Loops = Loops.IN_TURN,
+        track: SmoothTrack = SmoothTrack.of(series),
+        progress: (Double) -> Unit = {},
+    ) : this(series, loops, progress, BlindGround(series, track, loops))
 
     private val n = series.size
 
