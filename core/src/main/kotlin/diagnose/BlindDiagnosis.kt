@@ -16,18 +16,8 @@ internal class BlindDiagnosis(
     private val loops: Loops = Loops.IN_TURN,
     private val progress: (Double) -> Unit = {},
 ) {
-    /** What finds the models along the likeliest track, with the likeliest of a lag alone. */
-    private val begun: Pair<BlindSearch, BlindState> by lazy {
-        val tracks = listOfNotNull(SmoothTrack.of(series), SmoothTrack.reckoned(series)).distinctBy { it.reach }
-        val found = tracks.mapIndexed { i, track ->
-            val search = BlindSearch(series, loops, track) { progress(SEARCH * (i + it) / tracks.size) }
-            search to search.best()
-        }
-        found.reduce { first, other -> if (other.second.score > first.second.score + CLEARLY) other else first }
-    }
-
     /** What finds the models, and counts their designs. */
-    val search: BlindSearch get() = begun.first
+    val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
     private var rounds = 0
 
     /** The share [done] of a round is behind: each takes half of what is left. */
@@ -41,7 +31,7 @@ internal class BlindDiagnosis(
     fun run(): DiagnosisResult {
         val why = TooLittle.why(series)
         if (why != null) return BlindAnswer.none(series, why)
-        val base = begun.second
+        val base = search.best()
         val wave = base.modes.shortest
         val share = Passes.share(search.track.x, search.track.y, wave)
         if (share < LEAST_PASSES) {
@@ -82,7 +72,7 @@ internal class BlindDiagnosis(
     /** What the log says of a lag alone, of the channel [name]; whatever else is at work beside. */
     fun channel(name: String): ChannelLag {
         if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
-        val (base, _) = prepared(begun.second)
+        val (base, _) = prepared(search.best())
         return lag(base, search.still(base)).channel(name).also { progress(1.0) }
     }
 
@@ -229,9 +219,6 @@ internal class BlindDiagnosis(
 
         /** Twice the gain in log-likelihood of water that changes that is none. */
         const val NO_CHANGE = 2.0
-
-        /** Twice a log-likelihood by which a track must be likelier than that by which fixes foretell each other. */
-        const val CLEARLY = 11.9
 
         /** Twice the gain in log-likelihood of water that changes that no cause in still water is asked to make up for. */
         const val FAR_CHANGE = 300.0

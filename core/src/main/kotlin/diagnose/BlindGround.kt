@@ -1,7 +1,8 @@
 package stillwater.diagnose
 
-/** What a log has whatever its readings are, which were taken along [track]. */
-internal class BlindGround(series: MeasuredSeries, val track: SmoothTrack, loops: Loops) {
+/** What a log has whatever its readings are. */
+internal class BlindGround(series: MeasuredSeries, loops: Loops) {
+    val track = SmoothTrack.of(series)
     val scales = Scales(series)
     val designs = BlindColumns(series, scales, loops)
     private val few = (series.size / 5).coerceIn(BlindSearch.FEWEST_WAVES, BlindSearch.MOST_WAVES / 2)

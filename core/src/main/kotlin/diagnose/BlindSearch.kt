@@ -16,13 +16,8 @@ internal class BlindSearch private constructor(
     private val progress: (Double) -> Unit,
     private val ground: BlindGround,
 ) {
-    /** The search along [track]. */
-    constructor(
-        series: MeasuredSeries,
-        loops: Loops = Loops.IN_TURN,
-        track: SmoothTrack = SmoothTrack.of(series),
-        progress: (Double) -> Unit = {},
-    ) : this(series, loops, progress, BlindGround(series, track, loops))
+    constructor(series: MeasuredSeries, loops: Loops = Loops.IN_TURN, progress: (Double) -> Unit = {}) :
+        this(series, loops, progress, BlindGround(series, loops))
 
     private val n = series.size
 

@@ -14,15 +14,13 @@ import kotlin.math.sin
  * A fix that is repeated until the receiver has a new one says nothing of the rows that repeat it: the parabolas go
  * through the others alone.
  *
- * @property x metres east, length n. @property y metres north, length n. @property reach of the parabolas, fixes to either
- *   side; less than 0 of those through what is off the reckoned way. @property behind how far behind the fixes these places
- *   are, m.
+ * @property x metres east, length n. @property y metres north, length n. @property behind how far behind the fixes these
+ *   places are, m.
  */
 internal class SmoothTrack private constructor(
     private val series: MeasuredSeries,
     val x: DoubleArray,
     val y: DoubleArray,
-    val reach: Int,
     val behind: Double = 0.0,
     boat: SmoothTrack? = null,
 ) {
@@ -56,7 +54,7 @@ internal class SmoothTrack private constructor(
             if (isFirst) for (k in 0 until i) put(k)
             put(i)
         }
-        return SmoothTrack(series, east, north, reach, distance, this)
+        return SmoothTrack(series, east, north, distance, this)
     }
 
     companion object {
@@ -71,49 +69,26 @@ internal class SmoothTrack private constructor(
             val known = RepeatedFixes.known(series)
             val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, known, it) }
             val best = fits.minBy { it.missed }
-            val plain = SmoothTrack(series, best.x, best.y, best.reach)
-            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return plain
-            val other = LONG_REACHES.map { off(series, fresh, reckoned, it) }.minBy { it.missed }
-            return if (other.missed > best.missed) plain else onTop(other, reckoned)
-        }
-
-        /**
-         * The way of [series] reckoned from speed and heading, and from the fixes no more than what changes over minutes; null
-         * where it has no speed and heading. Errors of fixes that wander are alike in fixes side by side, which foretell each
-         * other best where these errors are followed.
-         */
-        fun reckoned(series: MeasuredSeries): SmoothTrack? {
-            val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
-            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return null
-            return onTop(off(series, fresh, reckoned, LONG_REACHES.last()), reckoned)
-        }
-
-        /** Parabolas through what [fresh] fixes are off the [reckoned] way. */
-        private fun off(series: MeasuredSeries, fresh: TrackSeries, reckoned: DeadReckoning, reach: Int): Parabolas {
+            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(series, best.x, best.y)
             val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
             val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
-            return Parabolas(series, east, north, RepeatedFixes.known(series), reach)
-        }
-
-        /** [off] on top of the [reckoned] way. */
-        private fun onTop(off: Parabolas, reckoned: DeadReckoning): SmoothTrack {
-            val n = off.x.size
+            val other = LONG_REACHES.map { Parabolas(series, east, north, known, it) }.minBy { it.missed }
+            if (other.missed > best.missed) return SmoothTrack(series, best.x, best.y)
             return SmoothTrack(
-                off.series,
-                DoubleArray(n) { off.x[it] + reckoned.x[it] },
-                DoubleArray(n) { off.y[it] + reckoned.y[it] },
-                -off.reach,
+                series,
+                DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
+                DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
             )
         }
     }
 
     /** Parabolas through [reach] rows either side of those whose fix is [known]. */
     private class Parabolas(
-        val series: MeasuredSeries,
+        private val series: MeasuredSeries,
         from: DoubleArray,
         north: DoubleArray,
         private val known: BooleanArray,
-        val reach: Int,
+        private val reach: Int,
     ) {
         val x = from.copyOf()
         val y = north.copyOf()

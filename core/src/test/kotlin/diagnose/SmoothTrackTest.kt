@@ -55,13 +55,6 @@ class SmoothTrackTest {
         }
     }
 
-    /** Errors that wander by 0.5 m over twenty seconds: fixes side by side have the same, and foretell each other with it. */
-    @Test
-    fun whereFixesWanderTheReckonedWayIsNearer() {
-        val straight = error(headed = { course[it] }, wandering = 0.5) { checkNotNull(SmoothTrack.reckoned(it)) }
-        assertTrue(straight < 0.8 * error(headed = { course[it] }, wandering = 0.5), "$straight, seed $SEED")
-    }
-
     /** The boat rests at one place for ten rows, and has a fix every second row elsewhere. */
     @Test
     fun repeatedFixesSayNothingUnlessTheBoatRests() {
@@ -89,14 +82,7 @@ class SmoothTrackTest {
     }
 
     /** Root mean square of how far the smoothed way is off the true one, m. */
-    private fun error(
-        headed: ((Int) -> Double)?,
-        current: Double = 0.0,
-        rests: Int = 0,
-        held: Int = 1,
-        wandering: Double = 0.0,
-        smoothed: (MeasuredSeries) -> SmoothTrack = SmoothTrack::of,
-    ): Double {
+    private fun error(headed: ((Int) -> Double)?, current: Double = 0.0, rests: Int = 0, held: Int = 1): Double {
         val rested = DoubleArray(n) { (it * (rests + 1) / n).toDouble() }
         val x = DoubleArray(n)
         val y = DoubleArray(n)
@@ -108,11 +94,7 @@ class SmoothTrackTest {
         val late = DoubleArray(n) { times[it] + REST * rested[it] }
         val random = java.util.Random(SEED)
         val fixes = listOf(x, y).map { way ->
-            var wander = 0.0
-            val fresh = DoubleArray(n) {
-                if (wandering > 0) wander = KEPT * wander + sqrt(1 - KEPT * KEPT) * wandering * random.nextGaussian()
-                way[it] + wander + (if (wandering > 0) 0.05 else 0.5) * random.nextGaussian()
-            }
+            val fresh = DoubleArray(n) { way[it] + 0.5 * random.nextGaussian() }
             DoubleArray(n) { fresh[it - it % held] }
         }
         val conditions = if (headed == null) {
@@ -120,7 +102,7 @@ class SmoothTrackTest {
         } else {
             mapOf(Conditions.SPEED to speed, Conditions.HEADING to DoubleArray(n) { headed(it) })
         }
-        val smooth = smoothed(MeasuredSeries(late, fixes[0], fixes[1], DoubleArray(n), null, conditions))
+        val smooth = SmoothTrack.of(MeasuredSeries(late, fixes[0], fixes[1], DoubleArray(n), null, conditions))
         return sqrt((0 until n).sumOf { hypot(smooth.x[it] - x[it], smooth.y[it] - y[it]).let { d -> d * d } } / n)
     }
 
@@ -129,10 +111,6 @@ class SmoothTrackTest {
 
         /** A rest, s, and how far the boat is carried while it rests, m. */
         const val REST = 600.0
-
         const val CARRIED = 300.0
-
-        /** What is left of an error after a second where it wanders over twenty. */
-        const val KEPT = 0.951
     }
 }
