@@ -124,7 +124,8 @@ internal class BlindAnswer(
             else -> !isOpen
         }
         // An end at which readings stand still is in no model, and shows in what is left.
-        val isEnded = all.any { Cause.SATURATION in it } && chosen.none { it.trial.term?.cause == Cause.SATURATION }
+        val isEnded =
+            listOf(Cause.SATURATION) in all && chosen.none { it.trial.term?.cause == Cause.SATURATION }
         val isStructured = left.adjusted < settings.structureLevel && outweighs && !isEnded
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }

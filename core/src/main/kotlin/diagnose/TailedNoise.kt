@@ -17,8 +17,10 @@ import kotlin.math.sqrt
 internal data class TailedNoise(val freedom: Int, val share: Double) {
     private val spreads = DoubleArray(NODES)
     private val weights = DoubleArray(NODES)
-    private val height =
-        exp(Gamma.logGamma((freedom + 1) / 2.0) - Gamma.logGamma(freedom / 2.0)) * sqrt(2.0 / freedom)
+
+    /** The logarithm of t's density at 0 over that of a normal number. */
+    private val highest =
+        ln(exp(Gamma.logGamma((freedom + 1) / 2.0) - Gamma.logGamma(freedom / 2.0)) * sqrt(2.0 / freedom))
 
     init {
         // Where the density of the logarithm y of χ², e^(νy/2 − e^y/2), is more than e^−REACH of its highest.
@@ -35,7 +37,7 @@ internal data class TailedNoise(val freedom: Int, val share: Double) {
 
     /** The logarithm of the density at [z] over that of a normal number at 0. */
     fun logDensity(z: Double): Double {
-        if (share == 1.0) return ln(height) - (freedom + 1) / 2.0 * ln(1 + z * z / freedom)
+        if (share == 1.0) return highest - (freedom + 1) / 2.0 * ln(1 + z * z / freedom)
         var sum = 0.0
         for (k in 0 until NODES) {
             val scaled = z / spreads[k]

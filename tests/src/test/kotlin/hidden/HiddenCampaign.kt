@@ -59,10 +59,10 @@ private val KINDS = mapOf<String, (HiddenTruth) -> Boolean>(
 ) + HiddenEffect.entries.map { effect -> effect.label to { truth -> truth.isStrong && effect in truth.effects } }
 
 /**
- * `FIRST COUNT REGIME [CASES.tsv] [strong|two|outside|none|LABEL]`: prints the tables of a campaign;
- * CASES.tsv gets a line a case, CASES.tsv.md the tables so far. The regime is one of [Regime]. With the last word only some cases are asked about: single effects
- * at the detectable size and above, two at twice theirs and above, effects outside the list, or none; with the label of
- * an effect of the list those that are this one alone, at the detectable size and above.
+ * `FIRST COUNT REGIME [CASES.tsv] [strong|two|outside|none|LABEL]`: prints the tables of a campaign in one of the
+ * [Regime]s; CASES.tsv gets a line a case, CASES.tsv.md the tables so far. With the last word only some cases are asked
+ * about: single effects at the detectable size and above, two at twice theirs and above, effects outside the list, or
+ * none; with the label of an effect of the list those that are this one alone, at the detectable size and above.
  */
 fun main(arguments: Array<String>) {
     val first = arguments[0].toLong()

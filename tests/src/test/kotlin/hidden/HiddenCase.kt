@@ -280,11 +280,9 @@ internal class HiddenCase(
 internal class HiddenNoise(val spread: Double, val share: Double, val time: Double, private val period: Double) {
     /** [clean] with noise, whose uncorrelated part is what [white] draws, of unit spread. */
     fun added(clean: DoubleArray, random: Random, white: () -> Double): DoubleArray {
-        val keep = exp(-period / time)
-        var state = random.normal()
+        val wander = Wander(random, period, time)
         return DoubleArray(clean.size) { i ->
-            state = keep * state + sqrt(1 - keep * keep) * random.normal()
-            clean[i] + spread * (sqrt(share) * state + sqrt(1 - share) * white())
+            clean[i] + spread * (sqrt(share) * wander.next() + sqrt(1 - share) * white())
         }
     }
 

@@ -38,12 +38,8 @@ internal class HiddenConditions(seed: Long, private val rows: Int, private val p
 
     /** Errors of the fixes that wander, m, one a row. */
     fun wander(): DoubleArray {
-        val keep = exp(-period / wanderTime)
-        var state = random.normal()
-        return DoubleArray(rows) {
-            state = keep * state + sqrt(1 - keep * keep) * random.normal()
-            wandering * state
-        }
+        val wander = Wander(random, period, wanderTime)
+        return DoubleArray(rows) { wandering * wander.next() }
     }
 
     /** What a normal number is multiplied by for noise of the same spread with Student's tails; 1 without tails. */
