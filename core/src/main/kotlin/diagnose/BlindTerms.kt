@@ -18,12 +18,15 @@ internal object BlindTerms {
         Cause.POSITION_OFFSET,
     )
 
-    /** All that the log may show; of a lag's shape only where it [hasShape]. */
+    /**
+     * All that the log may show; of a lag's shape only where it [hasShape], but for a slow path, which lasts for far longer
+     * than a lag of either kind.
+     */
     fun of(search: BlindSearch, hasShape: Boolean): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
+        add(Term(Cause.TWO_PATH_RESPONSE))
         if (hasShape) {
             add(Term(Cause.SECOND_ORDER_RESPONSE))
-            add(Term(Cause.TWO_PATH_RESPONSE))
             add(Term(Cause.DEAD_TIME))
         }
         add(Term(Cause.SLEW_LIMIT))

@@ -17,6 +17,7 @@ import org.junit.jupiter.params.provider.CsvSource
 import java.nio.file.Path
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 /** Every survey and log of the data directory that STILLWATER_DATA names. */
@@ -93,20 +94,33 @@ class RealLogsTest {
         assertEquals("true", legs.child("best_shift").getValue("clear").jsonPrimitive.content)
     }
 
+    private fun diagnosis(file: String, vararg flags: String): JsonObject {
+        val given = listOf("diagnose", data().resolve(file).toString(), "--numbers-only", "--json")
+        val result = Stillwater().subcommands(DiagnoseCommand())
+            .test(given + listOf("--out", directory.out().toString()) + flags)
+        assertEquals(0, result.statusCode, result.output)
+        return Json.parseToJsonElement(result.stdout).jsonObject
+    }
+
     @Test
     fun findsTheLagOfTheOxygenSensorOfLacHertelWithoutAReference() {
-        val out = directory.out().toString()
-        val log = data().resolve("lac_hertel_asv/survey.csv").toString()
-        val flags = listOf("--value", "odo_percent_sat", "--numbers-only", "--json", "--out", out)
-        val result = Stillwater().subcommands(DiagnoseCommand()).test(listOf("diagnose", log) + flags)
-        assertEquals(0, result.statusCode, result.output)
-        val answer = Json.parseToJsonElement(result.stdout).jsonObject
+        val answer = diagnosis("lac_hertel_asv/survey.csv", "--value", "odo_percent_sat")
         assertEquals("ambiguous", answer.getValue("verdict").jsonPrimitive.content)
         assertEquals("""[["time-constant","dead-time"]]""", answer.getValue("ambiguity").toString())
         val lag = answer.child("baseline").getValue("parameters").jsonArray.single().jsonObject
         // By shifting opposite legs others found 11 s (9 to 12).
         assertTrue(lag.number("lower") < 11.0 && lag.number("upper") > 11.0, "$lag")
         assertEquals(14.0, lag.number("value"), 3.0)
+    }
+
+    @Test
+    fun theFloatsOptodeLagsByATimeConstantOrADeadTimeAndIsNoFasterUpThanDown() {
+        val answer = diagnosis("gordon2020_float/profiles.csv", "--x", "pres_dbar", "--value", "doxy_umol")
+        assertEquals("ambiguous", answer.getValue("verdict").jsonPrimitive.content)
+        val sets = answer.getValue("ambiguity").jsonArray.map { set -> set.jsonArray.map { it.jsonPrimitive.content } }
+        assertContains(sets, listOf("time-constant", "dead-time"))
+        val causes = answer.getValue("causes").jsonArray.map { it.jsonPrimitive.content }
+        assertFalse("asymmetric-response" in causes + sets.flatten(), "$causes $sets")
     }
 
     @Test
