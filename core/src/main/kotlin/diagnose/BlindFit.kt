@@ -8,12 +8,10 @@ import kotlin.math.ln
  * @property spread relative standard deviation of each row's noise, length n, above 0.
  */
 internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
-    private val even = noise.over(spread)
-
     /** Whitens [column] into [out], which may be the same. */
     fun whiten(column: DoubleArray, out: DoubleArray) {
         for (i in column.indices) out[i] = column[i] / spread[i]
-        even.whiten(out, out)
+        noise.whiten(out, out)
     }
 
     /** Whitens [columns] from [from] until [to] where they are, two together: each waits for its own row before. */
@@ -26,7 +24,7 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
                 one[i] /= spread[i]
                 two[i] /= spread[i]
             }
-            even.whitenBoth(one, two)
+            noise.whitenBoth(one, two)
         }
     }
 
@@ -34,7 +32,7 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
     fun turned(whitened: DoubleArray): DoubleArray = DoubleArray(whitened.size).also { turned(whitened, it) }
 
     private fun turned(whitened: DoubleArray, out: DoubleArray) {
-        even.turned(whitened, out)
+        noise.turned(whitened, out)
         for (i in out.indices) out[i] /= spread[i]
     }
 
@@ -53,7 +51,7 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
         this === other || (noise.isSame(other.noise) && spread.contentEquals(other.spread))
 
     /** Sum of ln of the variances that whitening divides by. */
-    val logDeterminant: Double = even.logDeterminant + 2 * spread.sumOf { ln(it) }
+    val logDeterminant: Double = noise.logDeterminant + 2 * spread.sumOf { ln(it) }
 }
 
 /**

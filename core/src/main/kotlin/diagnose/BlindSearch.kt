@@ -48,10 +48,7 @@ internal class BlindSearch private constructor(
     fun noise(share: Double, steps: Double) = noiseOver(share, steps * series.period)
 
     private fun noiseOver(share: Double, time: Double) =
-        CorrelatedNoise(series.times, share, time, used.copyOf(), shocks, wander)
-
-    /** Fixes that wander; null while that is not asked, and where they do not. */
-    var wander: FixWander? = null
+        CorrelatedNoise(series.times, share, time, used.copyOf(), shocks)
 
     /** [state] with gaps after which the sensor may show anything, for as long as its lag takes. */
     private fun shaken(state: BlindState): BlindState {
@@ -74,7 +71,6 @@ internal class BlindSearch private constructor(
         other.fine = fine
         other.steps = steps
         other.shocks = shocks
-        other.wander = wander
         other.lastVariance = lastVariance
         return other
     }
@@ -103,7 +99,6 @@ internal class BlindSearch private constructor(
         // Few waves may have told wrongly whether steps are held.
         state = stepped(state)
         if (steps != was) state = improved(requieted(evened(state)))
-        state = wandering(state)
         state = restarted(state)
         lastVariance = state.variance
         return state
@@ -120,8 +115,7 @@ internal class BlindSearch private constructor(
         return redone((others.map { at(best.modes, it) } + best).maxBy { it.score })
     }
 
-    /** [state] with as many waves as its own tell. */
-    fun redone(state: BlindState) = WaterDetail(this, most).of(state)
+    private fun redone(state: BlindState) = WaterDetail(this, most).of(state)
 
     /** [state] with finer waves where those it has may be too few, as likely as can be; null where they are not. */
     fun deeper(state: BlindState): BlindState? {

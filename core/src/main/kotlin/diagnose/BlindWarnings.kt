@@ -1,7 +1,6 @@
 package stillwater.diagnose
 
 import stillwater.diagnose.BlindAnswer.Companion.three
-import kotlin.math.sqrt
 
 /** What a reader must know beside the verdict of a log without a reference. */
 internal class BlindWarnings(
@@ -55,13 +54,6 @@ internal class BlindWarnings(
             add(
                 "The water has finer structure than these numbers show, or the response another shape: the interval " +
                     "of the lag may be too narrow.",
-            )
-        }
-        last.fit.design.noise.noise.wander?.let {
-            val size = sqrt(it.variance * last.variance)
-            add(
-                "Passes over the same water differ as if positions were off by ${three(size)} ${series.placeUnit}, " +
-                    "which wanders over ${three(it.time)} s: what such errors do to readings counts as noise.",
             )
         }
         if (isNamed && left.adjusted < settings.structureLevel) {

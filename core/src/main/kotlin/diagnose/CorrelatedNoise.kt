@@ -19,19 +19,16 @@ import kotlin.math.sqrt
  * @property share φ, dimensionless, within 0..1. @property time τ, s, above 0.
  */
 internal class CorrelatedNoise(
-    private val times: DoubleArray,
+    times: DoubleArray,
     val share: Double,
     val time: Double,
     private val used: BooleanArray,
     private val shocks: UnknownTruth.Shocks? = null,
-    val wander: FixWander? = null,
 ) {
     private val keep = DoubleArray(times.size)
     private val gain = DoubleArray(times.size)
     private val scale = DoubleArray(times.size)
-
-    /** Filters all processes where there are more than one. */
-    private val filter: ProcessFilter?
+    private val second = if (shocks == null) gain else DoubleArray(times.size)
 
     /** Number of rows in use. */
     val rows: Int = used.count { it }
@@ -44,6 +41,8 @@ internal class CorrelatedNoise(
 
     init {
         var variance = share
+        var both = 0.0
+        var shaken = 0.0
         var sum = 0.0
         var step = Double.NaN
         var factor = 1.0
@@ -60,9 +59,14 @@ internal class CorrelatedNoise(
             }
             variance = factor * factor * variance + share * (1 - factor * factor)
             keep[i] = factor
+            if (shocks != null) {
+                both *= factor * shocks.keep[i]
+                shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]
+            }
             if (!used[i]) continue
-            val innovation = variance + 1 - share + SMALLEST
-            gain[i] = variance / innovation
+            val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
+            val first = variance + both
+            gain[i] = first / innovation
             // Among even rows the filter soon stands still: what it takes then need not be worked out again.
             if (abs(innovation - lastInnovation) > SAME_VARIANCE * innovation) {
                 lastInnovation = innovation
@@ -70,26 +74,22 @@ internal class CorrelatedNoise(
                 lastLogarithm = ln(innovation)
             }
             scale[i] = lastScale
-            variance -= gain[i] * variance
+            variance -= gain[i] * first
+            if (shocks != null) {
+                second[i] = (both + shaken) / innovation
+                both -= gain[i] * (both + shaken)
+                shaken -= second[i] * (second[i] * innovation)
+            }
             sum += lastLogarithm
             fresh += (1 - share) * lastScale * lastScale
         }
-        filter = filter()
-        logDeterminant = filter?.logDeterminant ?: sum
-        freshShare = (filter?.fresh(1 - share, rows) ?: (fresh / maxOf(rows, 1))).coerceIn(0.0, 1.0)
-    }
-
-    private fun filter(): ProcessFilter? {
-        if (shocks == null && wander == null) return null
-        val own = ProcessFilter.Process(keep, DoubleArray(keep.size) { share * (1 - keep[it] * keep[it]) }, share)
-        val shaken = shocks?.let { ProcessFilter.Process(it.keep, it.variance, 0.0) }
-        val wandering = wander?.processes(times).orEmpty()
-        return ProcessFilter(1 - share + SMALLEST, used, listOfNotNull(own, shaken) + wandering)
+        logDeterminant = sum
+        freshShare = (fresh / maxOf(rows, 1)).coerceIn(0.0, 1.0)
     }
 
     /** Whitens [column] into [out], which may be the same, both of length n; rows not in use become 0. */
     fun whiten(column: DoubleArray, out: DoubleArray) {
-        if (filter != null) return filter.whiten(column, out)
+        if (shocks != null) return whiten(column, out, shocks.keep)
         var state = 0.0
         for (i in column.indices) {
             state *= keep[i]
@@ -105,9 +105,9 @@ internal class CorrelatedNoise(
 
     /** Whitens [one] and [two], which are modified, at the price of little more than one. */
     fun whitenBoth(one: DoubleArray, two: DoubleArray) {
-        if (filter != null) {
-            filter.whiten(one, one)
-            return filter.whiten(two, two)
+        if (shocks != null) {
+            whiten(one, one)
+            return whiten(two, two)
         }
         var state = 0.0
         var stateTwo = 0.0
@@ -133,7 +133,7 @@ internal class CorrelatedNoise(
      * column is what [out] is with the column.
      */
     fun turned(whitened: DoubleArray, out: DoubleArray) {
-        if (filter != null) return filter.turned(whitened, out)
+        if (shocks != null) return turned(whitened, out, shocks.keep)
         var state = 0.0
         for (i in whitened.indices.reversed()) {
             val innovation = if (used[i]) gain[i] * state + scale[i] * whitened[i] else 0.0
@@ -142,20 +142,41 @@ internal class CorrelatedNoise(
         }
     }
 
+    private fun turned(whitened: DoubleArray, out: DoubleArray, fade: DoubleArray) {
+        var state = 0.0
+        var shaken = 0.0
+        for (i in whitened.indices.reversed()) {
+            val innovation =
+                if (used[i]) gain[i] * state + second[i] * shaken + scale[i] * whitened[i] else 0.0
+            out[i] = innovation
+            state = keep[i] * (state - innovation)
+            shaken = fade[i] * (shaken - innovation)
+        }
+    }
+
+    private fun whiten(column: DoubleArray, out: DoubleArray, fade: DoubleArray) {
+        var state = 0.0
+        var shaken = 0.0
+        for (i in column.indices) {
+            state *= keep[i]
+            shaken *= fade[i]
+            if (used[i]) {
+                val innovation = column[i] - state - shaken
+                out[i] = innovation * scale[i]
+                state += gain[i] * innovation
+                shaken += second[i] * innovation
+            } else {
+                out[i] = 0.0
+            }
+        }
+    }
+
     /** Whether [other], of the same log, whitens in the same way. */
     fun isSame(other: CorrelatedNoise): Boolean =
-        share == other.share && time == other.time && shocks === other.shocks && wander === other.wander &&
-            used.contentEquals(other.used)
+        share == other.share && time == other.time && shocks === other.shocks && used.contentEquals(other.used)
 
     /** The same noise where [rows] alone are in use. */
-    fun over(times: DoubleArray, rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks, wander)
-
-    /** The same noise of readings of which each is divided by its [spread], which fixes that wander are not. */
-    fun over(spread: DoubleArray): CorrelatedNoise =
-        if (wander == null) this else CorrelatedNoise(times, share, time, used, shocks, wander.over(spread))
-
-    /** The same noise beside fixes that wander as [wander] has it. */
-    fun beside(wander: FixWander?) = CorrelatedNoise(times, share, time, used, shocks, wander)
+    fun over(times: DoubleArray, rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks)
 
     /**
      * Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled.

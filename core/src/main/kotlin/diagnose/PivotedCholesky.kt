@@ -16,27 +16,6 @@ internal class PivotedCholesky private constructor(
     val pivots: List<Int>,
     val left: Double,
 ) {
-    /** The factor's rows that were pivots. */
-    val ends: Ends by lazy {
-        Ends(pivots, Array(pivots.size) { a -> DoubleArray(a + 1) { b -> columns[b][pivots[a]] } })
-    }
-
-    /** L, the [lower] half, of the rows [pivots] of a factor. */
-    class Ends(val pivots: List<Int>, val lower: Array<DoubleArray>) {
-        /**
-         * L⁻ᵀ [heights]: by these the covariances with the pivots are multiplied in the sum that is the factor's columns
-         * times [heights], at the rows and anywhere else.
-         */
-        fun shares(heights: DoubleArray): DoubleArray {
-            val out = heights.copyOf()
-            for (a in out.indices.reversed()) {
-                out[a] /= lower[a][a]
-                for (b in 0 until a) out[b] -= lower[a][b] * out[a]
-            }
-            return out
-        }
-    }
-
     /** What two rows have in common. */
     fun interface Covariance {
         /** Between rows [a] and [b]. */

@@ -13,24 +13,19 @@ internal object SteepNoise {
     fun of(state: BlindState, noise: CorrelatedNoise): BlindNoise {
         val series = state.model.series
         val n = series.size
-        val steep = felt(state, state.modes.steepness(state.fit.heights).also { for (i in it.indices) it[i] *= it[i] })
+        val steep = state.modes.steepness(state.fit.heights)
+        val tau = maxOf(state.timeConstant, series.period)
+        var felt = 0.0
+        for (i in 0 until n) {
+            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
+            felt += (1 - exp(-dt / tau)) * (steep[i] * steep[i] - felt)
+            steep[i] = felt
+        }
         val usual = maxOf(steep.average(), 1e-290)
         val z = DoubleArray(n)
         return UNEVEN.map { share -> BlindNoise(noise, DoubleArray(n) { sqrt(1 + share * steep[it] / usual) }) }.maxBy {
             it.whiten(state.residuals, z)
             -noise.rows * ln(squares(z) / noise.rows) - it.logDeterminant
-        }
-    }
-
-    /** What the lag of [state], of a row at least, shows of [column] at each row; new. */
-    fun felt(state: BlindState, column: DoubleArray): DoubleArray {
-        val series = state.model.series
-        val tau = maxOf(state.timeConstant, series.period)
-        var felt = 0.0
-        return DoubleArray(column.size) { i ->
-            val dt = if (i == 0) 0.0 else series.times[i] - series.times[i - 1]
-            felt += (1 - exp(-dt / tau)) * (column[i] - felt)
-            felt
         }
     }
 }

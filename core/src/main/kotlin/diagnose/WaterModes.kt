@@ -1,11 +1,8 @@
 package stillwater.diagnose
 
 import kotlin.math.abs
-import kotlin.math.atan2
-import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.hypot
-import kotlin.math.sin
 import kotlin.math.sqrt
 
 /**
@@ -41,10 +38,6 @@ internal class WaterModes private constructor(
     private val bandOf = ArrayList<Int>()
     private val ringOf = ArrayList<Int>()
 
-    /** The processes that change, with the ends of their factors, and the columns of the rings; none where the track is a line. */
-    private val changing = ArrayList<Pair<SmoothWater, PivotedCholesky.Ends>>()
-    private var waves: WaterRings.Columns? = null
-
     /** How far behind the fixes the water is that these tell, m. */
     val behind: Double get() = track.behind
 
@@ -74,10 +67,7 @@ internal class WaterModes private constructor(
         val room = ((if (isLine) LINE_MOVING else MOVING) * most / (TIMES.size * SHARES.size)).toInt()
         for (part in TIMES) {
             for (share in if (isLine) LINE_SHARES else SHARES) {
-                val process = SmoothWater(track, series.times, extent / share, series.duration / part)
-                val factor = process.factor(room)
-                if (!isLine) changing += process to factor.ends
-                add(factor.columns, next++)
+                add(factor(extent / share, series.duration / part, room), next++)
             }
         }
         moving = 1 until next
@@ -87,7 +77,6 @@ internal class WaterModes private constructor(
             ladder(still).forEach { add(it, next++) }
         } else {
             val found = rings.columns(spectrum, left, still)
-            waves = found
             isCut = !isFlat && found.left > MOST_CUT
             val columns = found.all.groupBy({ it.first }, { it.second }).toSortedMap()
             lengths = List(next) { Double.POSITIVE_INFINITY } + columns.keys.map { rings.lengths[it] }
@@ -153,7 +142,7 @@ internal class WaterModes private constructor(
         val ladder = ArrayList<List<DoubleArray>>()
         var free = most
         while (length < extent && free > 0) {
-            ladder += still(length).factor(free).columns.also { free -= it.size }
+            ladder += factor(length, Double.POSITIVE_INFINITY, free).also { free -= it.size }
             length *= FACTOR
         }
         return ladder.reversed()
@@ -164,10 +153,10 @@ internal class WaterModes private constructor(
         var low = SHORTEST * maxOf(step, 1e-9 * extent)
         var high = maxOf(extent / 2, 2 * low)
         val thin = maxOf(1, n / PivotedCholesky.THINNED)
-        if (still(low).factor(columns + 1, thin).columns.size <= columns) return low
+        if (factor(low, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns) return low
         repeat(HALVINGS) {
             val middle = sqrt(low * high)
-            val isEnough = still(middle).factor(columns + 1, thin).columns.size <= columns
+            val isEnough = factor(middle, Double.POSITIVE_INFINITY, columns + 1, thin).size <= columns
             if (isEnough) high = middle else low = middle
         }
         return high
@@ -197,42 +186,23 @@ internal class WaterModes private constructor(
     /** Each column along the track at height 1. */
     val columns: Array<DoubleArray> = found.toTypedArray()
 
-    private fun still(length: Double) = SmoothWater(track, series.times, length)
+    /** The first columns of the pivoted Cholesky factor of the process with [length], m, and [time], s. */
+    private fun factor(length: Double, time: Double, most: Int, thin: Int = 1): List<DoubleArray> =
+        PivotedCholesky.of((n + thin - 1) / thin, 1.0, ENOUGH, most) { a, b -> alike(a * thin, b * thin, length, time) }
+            .columns
+
+    private fun alike(a: Int, b: Int, length: Double, time: Double): Double {
+        val dx = (track.x[a] - track.x[b]) / length
+        val dy = (track.y[a] - track.y[b]) / length
+        val dt = (series.times[a] - series.times[b]) / time
+        return exp(-(dx * dx + dy * dy + dt * dt) / 2)
+    }
 
     /** The water along the track with heights [beta], of which the first [size] count. */
     fun along(beta: DoubleArray): DoubleArray {
         val out = DoubleArray(n)
         Combination.add(found, beta, out)
         return out
-    }
-
-    /**
-     * The slopes to the east and to the north of the water with heights [beta] at each row, sensor units/m; null where
-     * the track is a line, on which nothing is known across.
-     */
-    fun slopes(beta: DoubleArray): Pair<DoubleArray, DoubleArray>? {
-        val (east, north) = fromProcesses(beta) ?: return null
-        val along = steepness(beta)
-        for (i in 0 until n) {
-            val from = maxOf(i - 1, 0)
-            val to = minOf(i + 1, n - 1)
-            val course = atan2(track.y[to] - track.y[from], track.x[to] - track.x[from])
-            // Along the way the water itself tells; it is across that a process is asked.
-            val across = north[i] * cos(course) - east[i] * sin(course)
-            east[i] = along[i] * cos(course) - across * sin(course)
-            north[i] = along[i] * sin(course) + across * cos(course)
-        }
-        return east to north
-    }
-
-    private fun fromProcesses(beta: DoubleArray): Pair<DoubleArray, DoubleArray>? {
-        val columns = waves ?: return null
-        fun heights(isOf: (Int) -> Boolean) = band.indices.filter { isOf(band[it]) }.map { beta[it] }.toDoubleArray()
-        val (east, north) = checkNotNull(rings).slopes(spectrum, columns.shares(heights { it > moving.last }))
-        changing.forEachIndexed { k, (process, ends) ->
-            process.addSlopes(ends, heights { it == moving.first + k }, east, north)
-        }
-        return east to north
     }
 
     /** How steep the water with heights [beta] is along the way at each row, sensor units/m. */
@@ -322,6 +292,7 @@ internal class WaterModes private constructor(
         /** So many of the shortest waves across the track are more than columns can show, where fixes stand still. */
         private const val MOST_WAVES_ACROSS = 500.0
         private const val SHORTEST = 2.0
+        private const val ENOUGH = 1e-4
         private const val MOVING = 0.15
         private const val LINE = 1e-3
         private const val LINE_MOVING = 0.6

@@ -61,22 +61,8 @@ internal class WaterRings(
         return low
     }
 
-    /**
-     * Columns along the track and the ring of each in [all], and the variance that they leave of some row, [left]: they
-     * are those of a factor that ends in [ends] times each of [turns].
-     */
-    class Columns(
-        val all: List<Pair<Int, DoubleArray>>,
-        val left: Double,
-        private val ends: PivotedCholesky.Ends,
-        private val turns: List<DoubleArray>,
-    ) {
-        /** By rows, what their covariances are multiplied by in the water whose columns have [heights]. */
-        fun shares(heights: DoubleArray): List<Pair<Int, Double>> {
-            val turned = DoubleArray(ends.pivots.size) { a -> heights.indices.sumOf { heights[it] * turns[it][a] } }
-            return ends.pivots.zip(ends.shares(turned).toList())
-        }
-    }
+    /** Columns along the track and the ring of each in [all], and the variance that they leave of some row, [left]. */
+    class Columns(val all: List<Pair<Int, DoubleArray>>, val left: Double)
 
     /**
      * Columns along the track and the ring of each, the longest waves first.
@@ -88,51 +74,23 @@ internal class WaterRings(
         val factor = factor(spectrum, left, most, 1)
         val turned = SymmetricEigen(order(factor, spectrum), loops)
         val rings = List(factor.pivots.size) { turned.values[it].roundToInt().coerceIn(0, size - 1) }
-        val columns = turned(factor, turned.vectors)
-        val order = rings.indices.sortedBy { rings[it] }
-        return Columns(
-            order.map { rings[it] to columns[it] },
-            factor.left,
-            factor.ends,
-            order.map { turned.vectors[it] },
-        )
-    }
-
-    /**
-     * The slopes to the east and to the north at each row of the water that is a sum of covariances with some rows, each
-     * times its share, where rings have the variances [spectrum]; in its units/m.
-     */
-    fun slopes(spectrum: DoubleArray, shares: List<Pair<Int, Double>>): Pair<DoubleArray, DoubleArray> {
-        val step = step(spectrum)
-        // The covariance's own slope over the distance, by central differences; even about 0.
-        val bend = DistanceCurve(step) { d ->
-            if (d < step) {
-                2 * (covariance(spectrum, step) - covariance(spectrum, 0.0)) / (step * step)
-            } else {
-                (covariance(spectrum, d + step) - covariance(spectrum, d - step)) / (2 * step * d)
-            }
-        }
-        val east = DoubleArray(n)
-        val north = DoubleArray(n)
-        for (i in 0 until n) {
-            for ((row, share) in shares) {
-                val slope = share * bend.at(distance(i, row))
-                east[i] += slope * (x[i] - x[row])
-                north[i] += slope * (y[i] - y[row])
-            }
-        }
-        return east to north
+        return Columns(rings.zip(turned(factor, turned.vectors)).sortedBy { it.first }, factor.left)
     }
 
     /** In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue. */
     private fun order(factor: PivotedCholesky, spectrum: DoubleArray): Array<DoubleArray> {
-        val lower = factor.ends.lower
+        val lower = lower(factor)
         val order = covariances(factor.pivots, DistanceCurve(step(spectrum)) { ordered(spectrum, it) })
         solve(lower, order)
         transpose(order)
         solve(lower, order)
         for (a in order.indices) for (b in 0 until a) order[b][a] = order[a][b]
         return order
+    }
+
+    /** L: the rows of [factor] that were its pivots. */
+    private fun lower(factor: PivotedCholesky) = Array(factor.pivots.size) { a ->
+        DoubleArray(a + 1) { b -> factor.columns[b][factor.pivots[a]] }
     }
 
     private fun covariances(places: List<Int>, curve: DistanceCurve) = Array(places.size) { a ->

@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import kotlin.math.cos
 import kotlin.math.exp
 import kotlin.math.sin
 
@@ -45,12 +44,6 @@ internal class CrossingTrack(private val rows: Int) {
             }
             states.last()
         }
-    }
-
-    /** The slopes of the water to the east and to the north at [row], 1/m. */
-    fun slope(row: Int): Pair<Double, Double> {
-        val both = cos((x[row] + y[row]) / 7) / 7
-        return cos(x[row] / 4) / 4 + both to cos(y[row] / 5 + 1) / 5 + both
     }
 
     private fun east(time: Double) = 15 * sin(time / 19)
