@@ -79,6 +79,11 @@ class CorrelatedNoiseTest {
         assertEquals(dot(w, white), dot(turned, c), 1e-8 * (1 + abs(dot(w, white))), "seed $seed")
     }
 
+    private fun shocks(n: Int, random: Random) = UnknownTruth.Shocks(
+        DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
+        DoubleArray(n) { random.nextDouble(0.0, 1.0) },
+    )
+
     /** Asks [law] of noise on so many [rows] at uneven times, some not in use, a truth in doubt or not. */
     private fun ofAnyNoise(first: Long, rows: Arb<Int>, law: (CorrelatedNoise, Int, Random, Int) -> Unit) =
         runBlocking<Unit> {
@@ -86,10 +91,7 @@ class CorrelatedNoiseTest {
                 val random = Random(seed)
                 var now = 0.0
                 val times = DoubleArray(n) { now.also { now += random.nextDouble(0.1, 9.0) } }
-                val shocks = UnknownTruth.Shocks(
-                    DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
-                    DoubleArray(n) { random.nextDouble(0.0, 1.0) },
-                )
+                val shocks = shocks(n, random)
                 val some = BooleanArray(n) { random.nextInt(5) > 0 }
                 val share = random.nextDouble(0.0, 1.0)
                 val time = random.nextDouble(0.1, 50.0)
@@ -117,10 +119,7 @@ class CorrelatedNoiseTest {
             val time = random.nextDouble(0.1, 50.0)
             val some = BooleanArray(n) { random.nextInt(5) > 0 }
             val rows = times.indices.filter { some[it] }
-            val shocks = UnknownTruth.Shocks(
-                DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
-                DoubleArray(n) { random.nextDouble(0.0, 1.0) },
-            ).takeIf { random.nextBoolean() }
+            val shocks = shocks(n, random).takeIf { random.nextBoolean() }
             val shaken = shocks?.let(::variances)
             fun covariance(a: Int, b: Int): Double {
                 val even = share * exp(-(times[a] - times[b]) / time) + if (a == b) 1 - share else 0.0
