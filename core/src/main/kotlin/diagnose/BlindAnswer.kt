@@ -31,7 +31,11 @@ internal class BlindAnswer(
     ): DiagnosisResult {
         val looks = end.looks
         val adjustedLooks = end.adjustedLooks
-        val order = looks.indices.sortedWith(compareBy<Int> { looks[it].pValue }.thenByDescending { looks[it].ratio })
+        // Fits without stretches say whether something is left, not what it goes with most.
+        val order = looks.indices.sortedWith(
+            compareBy<Int>({ adjustedLooks[it] >= settings.structureLevel }, { looks[it].chance })
+                .thenByDescending { looks[it].ratio },
+        )
         val left = order.map { i ->
             Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, adjustedLooks[i])
         }

@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import kotlin.math.sqrt
+
 /** How strongly residuals speak where the noise is not what its model says. */
 internal object BlindEvidence {
     /** Stretches of a log that must agree. */
@@ -26,6 +28,24 @@ internal object BlindEvidence {
             total += if (rows > 0) squares(sums) / rows else 1.0
         }
         return if (columns.isEmpty()) 1.0 else maxOf(1.0, total / columns.size)
+    }
+
+    /**
+     * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
+     * Student's t, whatever the noise.
+     */
+    fun agreed(unlike: DoubleArray, z: DoubleArray): Double {
+        val n = z.size
+        val scores = DoubleArray(STRETCHES)
+        val weights = DoubleArray(STRETCHES)
+        for (i in 0 until n) {
+            val stretch = (i.toLong() * STRETCHES / n).toInt()
+            scores[stretch] += unlike[i] * z[i]
+            weights[stretch] += unlike[i] * unlike[i]
+        }
+        val size = scores.sum() / maxOf(weights.sum(), 1e-300)
+        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
+        return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
     }
 
     /**

@@ -136,6 +136,27 @@ internal class BlindFit private constructor(
      */
     fun halfRows(from: Int, to: Int): Array<DoubleArray> = design.rows(from, to).also(factor::halves)
 
+    /**
+     * The lower half of I − R_b H⁻¹ R_bᵀ, row by row, R_b the rows [from] until [to] of the derivatives: what is left of
+     * these rows, whitened, is that times what all others foretell them wrong by.
+     */
+    fun unforeseen(from: Int, to: Int): Array<DoubleArray> {
+        val count = to - from
+        val rest = Array(count) { a -> DoubleArray(a + 1) { b -> if (a == b) 1.0 else 0.0 } }
+        val halves = halfRows(from, to)
+        val none = DoubleArray(count)
+        for (k in halves.indices step AT_ONCE) {
+            fun half(c: Int) = halves.getOrElse(k + c) { none }
+            val first = half(0)
+            val second = half(1)
+            val third = half(2)
+            val fourth = half(3)
+            val four = FourColumns(first, second, third, fourth)
+            for (a in 0 until count) four.add(rest[a], 0, a + 1, -first[a], -second[a], -third[a], -fourth[a])
+        }
+        return rest
+    }
+
     /** H⁻¹ [pulled], H the posterior's precision. */
     fun solved(pulled: DoubleArray): DoubleArray = factor.back(factor.half(pulled))
 
@@ -154,6 +175,7 @@ internal class BlindFit private constructor(
 
     private companion object {
         const val TINY = 1e-290
+        const val AT_ONCE = 4
 
         fun factored(design: BlindDesign, precisions: DoubleArray): Cholesky {
             val matrix = Array(design.size) { design.gram[it].copyOf() }

@@ -13,7 +13,6 @@ import kotlin.math.sqrt
  */
 internal object BlindHeldOut {
     private const val STRETCHES = 16
-    private const val AT_ONCE = 4
 
     /**
      * The score of [state]. Its errors are those with which a row is foretold by other passes and by the rows before
@@ -43,20 +42,7 @@ internal object BlindHeldOut {
 
         /** Number of rows. */
         val count = to - from
-        private val factor = Array(count) { a -> DoubleArray(a + 1) { b -> if (a == b) 1.0 else 0.0 } }.let { own ->
-            val halves = fit.halfRows(from, to)
-            val none = DoubleArray(count)
-            for (k in halves.indices step AT_ONCE) {
-                fun half(c: Int) = halves.getOrElse(k + c) { none }
-                val first = half(0)
-                val second = half(1)
-                val third = half(2)
-                val fourth = half(3)
-                val four = FourColumns(first, second, third, fourth)
-                for (a in 0 until count) four.add(own[a], 0, a + 1, -first[a], -second[a], -third[a], -fourth[a])
-            }
-            Cholesky(own)
-        }
+        private val factor = Cholesky(fit.unforeseen(from, to))
 
         /** ln det of what the errors are multiplied by. */
         val logDeterminant = factor.logDeterminant

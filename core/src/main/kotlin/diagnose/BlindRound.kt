@@ -277,7 +277,9 @@ internal class BlindRound(
 
     /** What no cause explains. */
     val looks: List<BlindTrial> by lazy { looks() }
-    private val adjusted by lazy { Evidence.holm((causes + looks).map { it.pValue }) }
+    private val adjusted by lazy {
+        (causes + looks).let { all -> all.zip(Evidence.holm(all.map { it.chance }), BlindTrial::sure) }
+    }
 
     /**
      * What no cause explains, with water and noise of its own where it may be something: both would take it
@@ -305,7 +307,7 @@ internal class BlindRound(
         val looked = begun + listOfNotNull(quieter)
         loops.all(looked, ::refitted).forEachIndexed { i, next ->
             val index = looked[i].index
-            if (next.pValue < found[index].pValue) found[index] = next
+            found[index] = if (next.pValue < found[index].pValue) next else found[index].leftOut(next)
         }
         return found
     }

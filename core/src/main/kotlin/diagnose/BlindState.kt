@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import java.util.concurrent.ConcurrentHashMap
 import kotlin.math.abs
 import kotlin.math.ln
 
@@ -58,6 +59,11 @@ internal class BlindState(
         }
         out
     }
+
+    private val sure = ConcurrentHashMap<String, Double>()
+
+    /** How sure [term] is by [Jackknife], which [ask] tells where that was not asked before. */
+    fun sure(term: Term, ask: () -> Double): Double = sure.getOrPut(term.key, ask)
 
     /** The lag's time, s. */
     val timeConstant: Double get() = numbers[ResponseModel.TIME_CONSTANT]

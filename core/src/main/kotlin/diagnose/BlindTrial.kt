@@ -8,8 +8,8 @@ import kotlin.math.abs
  * @property term the cause; null for a look. @property name what was tried, in words. @property point its numbers; null
  *   for a look. @property model the model with it. @property change what it adds to the prediction, length n.
  * @property ratio twice the gain in log-likelihood over what the scores' correlation inflates it.
- * @property inflation that. @property degrees numbers added. @property pValue of [ratio] by chance, and of how
- *   stretches of the log agree about it. @property state the model with it where water and noise were fitted to it.
+ * @property inflation that. @property degrees numbers added. @property chance the probability of [ratio] by chance, and
+ *   of how stretches of the log agree about it. @property state the model with it where water and noise were fitted to it.
  *   @property sureness the ratio against water that does not change, where the trial is on such; else [ratio].
  */
 internal class BlindTrial(
@@ -21,11 +21,18 @@ internal class BlindTrial(
     val ratio: Double,
     val inflation: Double,
     val degrees: Int,
-    val pValue: Double,
+    val chance: Double,
     val state: BlindState? = null,
     val sureness: Double = ratio,
     private val halves: Double = 0.0,
+    private val leftOut: Double = 0.0,
 ) {
+    /** [chance], or that of what fits without each stretch of the log say, where that is larger. */
+    val pValue: Double get() = sure(chance)
+
+    /** [pValue] where [chance] is [adjusted] for all that was tried: fits without stretches are asked of what was chosen. */
+    fun sure(adjusted: Double): Double = maxOf(adjusted, leftOut)
+
     /** Whether the two halves of the log contradict each other about the size of it, at 1 %. */
     val isContradicted: Boolean get() = abs(halves) > NORMAL_99
 
@@ -48,28 +55,49 @@ internal class BlindTrial(
     fun instead(score: Double): BlindTrial = atMost(ratio + score / inflation)
 
     /** This trial, as sure as it is, where others are held against a model whose score is lower by [score]. */
-    fun among(score: Double) = changed(ratio + score / inflation, pValue)
+    fun among(score: Double) = changed(ratio + score / inflation, chance)
 
     /** This trial where its p-value is too small by [times]. */
-    fun lessSure(times: Double) = changed(ratio, minOf(1.0, times * pValue))
+    fun lessSure(times: Double) = changed(ratio, minOf(1.0, times * chance))
 
     /** This trial where the model that it is on is less likely by [score] than the one that others are held against. */
-    fun onLess(score: Double) = changed(ratio, pValue, sureness = sureness + score / inflation)
+    fun onLess(score: Double) = changed(ratio, chance, sureness = sureness + score / inflation)
+
+    /** This trial, where fits without each stretch of the log have it by chance with the probability [pValue]. */
+    fun leftOut(pValue: Double) = changed(ratio, chance, leftOut = pValue)
+
+    /** This trial, of which fits without each stretch of the log say what they do of [other]. */
+    fun leftOut(other: BlindTrial) = leftOut(other.leftOut)
 
     /** This trial, as sure as it is, in the model [other]. */
-    fun beside(other: BlindState) = changed(ratio, pValue, other)
+    fun beside(other: BlindState) = changed(ratio, chance, other)
 
     private fun changed(
         ratio: Double,
-        pValue: Double,
+        chance: Double,
         state: BlindState? = this.state,
         sureness: Double = this.sureness,
-    ) = BlindTrial(term, name, model, point, change, ratio, inflation, degrees, pValue, state, sureness, halves)
+        leftOut: Double = this.leftOut,
+    ) = BlindTrial(
+        term,
+        name,
+        model,
+        point,
+        change,
+        ratio,
+        inflation,
+        degrees,
+        chance,
+        state,
+        sureness,
+        halves,
+        leftOut,
+    )
 
     /** This trial where its ratio is [most] at most. */
     fun atMost(most: Double): BlindTrial {
         val weaker = minOf(ratio, maxOf(most, 0.0))
-        return changed(weaker, maxOf(pValue, Evidence.pValue(weaker, degrees)), sureness = minOf(sureness, weaker))
+        return changed(weaker, maxOf(chance, Evidence.pValue(weaker, degrees)), sureness = minOf(sureness, weaker))
     }
 
     private companion object {

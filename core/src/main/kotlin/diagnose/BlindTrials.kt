@@ -115,15 +115,21 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val change = added(term, found)
         val unlike = Evidence.without(found.fit.unlike(change), basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
-        val agreed = pValue(term, ratio, trial.degrees, between(unlike, without), unlike, change)
+        val agreed = pValue(term, ratio, trial.degrees, BlindEvidence.agreed(unlike, without), unlike, change)
         // Few stretches may be at an end of the range, but to the last digit.
         val isEnd = term.cause == Cause.SATURATION && ratio > 0
         val p = if (isEnd) minOf(agreed, StillReadings(found.asFit(search.free(found.model))).atEnd) else agreed
         val point = BlindPoint(found.numbers, found.residuals, found.left)
         val halves = contradiction(unlike, without, found.variance)
         val degrees = trial.degrees
+        val leftOut = if (p < Jackknife.SURE && term.cause !in LOCAL) {
+            byStretches(degrees, found.sure(term) { Jackknife.t(found.fit, z, change, others.map(found::derivative)) })
+        } else {
+            0.0
+        }
         val settled =
             BlindTrial(term, trial.name, found.model, point, change, ratio, inflation, degrees, p, found, ratio, halves)
+                .leftOut(leftOut)
         val isNone = (term.cause == Cause.SATURATION && goOn(found)) ||
             (BlindTerms.isLittle(term, found) && ratio < BEYOND_FIXES)
         // What a second number is says nothing where the one that makes an effect of it may be nothing: a share's time.
@@ -215,25 +221,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val ratio = maxOf(gain / inflation - searched, 0.0)
         val degrees = maxOf(columns.size, 1)
         val unlike = Evidence.without(state.fit.unlike(change), ownBasis)
-        val p = pValue(what.term, ratio, degrees, between(unlike, z), unlike, change)
+        val p = pValue(what.term, ratio, degrees, BlindEvidence.agreed(unlike, z), unlike, change)
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
-    }
-
-    /**
-     * How sure stretches of the log together are of the change [unlike], whitened, where [z] is left without it:
-     * Student's t, whatever the noise.
-     */
-    private fun between(unlike: DoubleArray, z: DoubleArray): Double {
-        val scores = DoubleArray(STRETCHES)
-        val weights = DoubleArray(STRETCHES)
-        for (i in 0 until n) {
-            val stretch = (i.toLong() * STRETCHES / n).toInt()
-            scores[stretch] += unlike[i] * z[i]
-            weights[stretch] += unlike[i] * unlike[i]
-        }
-        val size = scores.sum() / maxOf(weights.sum(), 1e-300)
-        val error = scores.indices.sumOf { (scores[it] - size * weights[it]).let { e -> e * e } }
-        return scores.sum() / sqrt(maxOf(error * STRETCHES / (STRETCHES - 1), 1e-300))
     }
 
     /** The jumps that serve best, one after the other while each is worth it. */
@@ -296,8 +285,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             val whole = DoubleArray(n) { next.residuals[it] + found.change[it] }
             val z = next.fit.residual(whole)
             val heights = at.heights(z)
-            val basis = Evidence.orthonormal(own.map { next.fit.unlike(it) })
-            found = RefittedLook(next, at.sum(heights), at.gained(heights), at.columns, basis)
+            found = RefittedLook(next, at.sum(heights), at.gained(heights), at.columns, own)
         }
         return found
     }
@@ -311,9 +299,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }
         val degrees = maxOf(found.columns.size, 1)
-        val p = pValue(null, ratio, degrees, between(unlike, without), unlike, found.change)
+        val p = pValue(null, ratio, degrees, BlindEvidence.agreed(unlike, without), unlike, found.change)
+        val leftOut = if (p < Jackknife.SURE) byStretches(degrees, found.sure) else 0.0
         val settled = BlindTrial(null, look.name, null, null, found.change, ratio, inflation, degrees, p)
-        return settled.lessSure(look.doubt)
+        return settled.lessSure(look.doubt).leftOut(leftOut)
     }
 
     /** By chance, of the [ratio] and of how stretches of the log agree about the change [unlike], by [t], the larger. */
@@ -335,12 +324,13 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             val few = there * Evidence.pValue(ratio * (1 - strongest(unlike)), degrees)
             return maxOf(Evidence.pValue(ratio, degrees), few)
         }
-        // Several numbers give the sum of what they change a good look of chance: the t is held against that. What was
-        // searched is in the ratio; stretches tell whether all of it is in a few.
-        val fewer = sqrt(maxOf(t * t - 2 * (degrees - 1), 0.0))
-        val agreed = if (t > 0) Evidence.student(fewer, STRETCHES - 1) else 1.0
-        return maxOf(Evidence.pValue(ratio, degrees), agreed)
+        // What was searched is in the ratio; stretches tell whether all of it is in a few.
+        return maxOf(Evidence.pValue(ratio, degrees), if (t > 0) byStretches(degrees, t) else 1.0)
     }
+
+    /** By chance, of [t] of stretches; several numbers give the sum of what they change a good look of chance. */
+    private fun byStretches(degrees: Int, t: Double): Double =
+        Evidence.student(sqrt(maxOf(t * t - 2 * (degrees - 1), 0.0)), BlindEvidence.STRETCHES - 1)
 
     /** The share of the squares of [unlike] that the [SINGLE] strongest readings have: whitened, each is in the row behind, too. */
     private fun strongest(unlike: DoubleArray): Double {
@@ -366,6 +356,10 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         /** Twice a gain in log-likelihood over inflation that errors of the smoothed way do not give. */
         const val BEYOND_FIXES = 30.0
 
+        /** Causes that may show in a few stretches of a log alone: where the water reaches a threshold, or at single rows. */
+        val LOCAL =
+            setOf(Cause.SLEW_LIMIT, Cause.SATURATION, Cause.OFFSET_STEPS, Cause.QUANTISATION, Cause.OUTLIERS)
+
         /** Deviations of the noise that no reading at an end of the range is beyond it; and so many rows are none. */
         const val BEYOND_NOISE = 4.0
         const val FEW_BEYOND = 2.0
@@ -378,7 +372,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val DRAWS = 24
         const val REFITS = 2
         const val STEPS = 6
-        const val STRETCHES = BlindEvidence.STRETCHES
 
         /** Readings that may be wrong. */
         const val SINGLE = 2

@@ -15,6 +15,10 @@ import kotlin.math.sqrt
  * Where a sensor is given ([isGiven], with [offset]) its numbers are not unknown: only the first state is.
  * Without a reference nobody knows the water either, nor where the boat was better than its fixes say: [unseen] then
  * takes the place of P W.
+ *
+ * No effect is hidden whose size is below [least] at 1x: a shift of less than one step of the generator, of which there
+ * are 20 to a row, is no effect. A log without any has one where another simulation stepped the sensor, or a clock
+ * stamped the rows, and a perfect reference tells even a hundredth of a row.
  */
 internal class DetectableSize(
     private val noise: HiddenNoise,
@@ -23,6 +27,7 @@ internal class DetectableSize(
     private val timeConstant: Double,
     private val isGiven: Boolean,
     private val offset: Double,
+    private val least: Map<HiddenEffect, Double>,
     private val unseen: ((List<DoubleArray>) -> UnseenWater)? = null,
 ) {
     private val clean = base(timeConstant)
@@ -74,7 +79,10 @@ internal class DetectableSize(
             if (reach(effect, exp(middle)) < DETECTABLE) low = middle else high = middle
         }
         // Times the strength where the effect is in proportion to it, and times its reach where it has a threshold.
-        if (effect !in THRESHOLD) return (exp(high) * multiple).takeIf { it <= largest }
+        if (effect !in THRESHOLD) {
+            val size = maxOf(exp(high), least[effect] ?: 0.0)
+            return (size * multiple).takeIf { it <= largest }
+        }
         low = ln(largest * 1e-5)
         high = ln(largest)
         repeat(HALVINGS) {

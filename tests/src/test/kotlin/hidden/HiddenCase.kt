@@ -162,6 +162,7 @@ internal class HiddenCase(
             timeConstant,
             isGiven,
             offset,
+            SHIFTS.associateWith { step } + (HiddenEffect.POSITION to speed * step),
             if (withReference) null else { flat -> UnseenWater(world, noise, timeConstant, length, jitter, flat) },
         )
         val found = wanted.associateWith { effect ->
@@ -259,6 +260,9 @@ internal class HiddenCase(
 
     private companion object {
         const val GIVEN_SHARE = 0.15
+
+        /** Effects whose strength is a shift, s. */
+        val SHIFTS = listOf(HiddenEffect.DEAD_TIME, HiddenEffect.SECOND_ORDER)
 
         /** The dice for which side a probe is on. */
         const val SIDE = 3
