@@ -31,11 +31,7 @@ internal class BlindAnswer(
     ): DiagnosisResult {
         val looks = end.looks
         val adjustedLooks = end.adjustedLooks
-        // Fits without stretches say whether something is left, not what it goes with most.
-        val order = looks.indices.sortedWith(
-            compareBy<Int>({ adjustedLooks[it] >= settings.structureLevel }, { looks[it].chance })
-                .thenByDescending { looks[it].ratio },
-        )
+        val order = order(looks, adjustedLooks)
         val left = order.map { i ->
             Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, adjustedLooks[i])
         }
@@ -98,6 +94,12 @@ internal class BlindAnswer(
             lag = lag.channel(""),
         )
     }
+
+    /** Places of [looks], the surest first: fits without stretches say whether something is left, not what it goes with most. */
+    private fun order(looks: List<BlindTrial>, adjusted: List<Double>): List<Int> = looks.indices.sortedWith(
+        compareBy<Int>({ adjusted[it] >= settings.structureLevel }, { looks[it].chance })
+            .thenByDescending { looks[it].ratio },
+    )
 
     /**
      * Whether water that changes in time, worth [changed] beside those [chosen], is named. Beside rounding nothing else can
