@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import java.util.concurrent.ConcurrentHashMap
 import kotlin.math.abs
 import kotlin.math.ln
 
@@ -60,9 +59,10 @@ internal class BlindState(
         out
     }
 
-    private val sure = ConcurrentHashMap<String, Double>()
+    private val sure = HashMap<String, Double>()
 
     /** How sure [term] is by [Jackknife], which [ask] tells where that was not asked before. */
+    @Synchronized
     fun sure(term: Term, ask: () -> Double): Double = sure.getOrPut(term.key, ask)
 
     /** The lag's time, s. */
