@@ -59,11 +59,11 @@ internal class BlindState(
         out
     }
 
-    private val sure = HashMap<String, Double>()
+    @Volatile
+    private var sure = emptyMap<String, Double>()
 
     /** How sure [term] is by [Jackknife], which [ask] tells where that was not asked before. */
-    @Synchronized
-    fun sure(term: Term, ask: () -> Double): Double = sure.getOrPut(term.key, ask)
+    fun sure(term: Term, ask: () -> Double): Double = sure[term.key] ?: ask().also { sure = sure + (term.key to it) }
 
     /** The lag's time, s. */
     val timeConstant: Double get() = numbers[ResponseModel.TIME_CONSTANT]

@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertContentEquals
@@ -10,13 +9,7 @@ import kotlin.test.assertTrue
 /** Designs give up their columns, and are given up themselves, where others were asked for since; their answers stay. */
 class BlindColumnsTest {
     private val n = 150
-    private val series = MeasuredSeries(
-        DoubleArray(n) { it.toDouble() },
-        DoubleArray(n) { 15 * sin(it / 9.0) },
-        DoubleArray(n) { 15 * sin(it / 13.0 + 1) },
-        DoubleArray(n) { sin(it / 7.0) },
-        null,
-    )
+    private val series = SineTrack(n).series
     private val scales = Scales(series)
     private val used = BooleanArray(n) { true }
     private val track = SmoothTrack.of(series)

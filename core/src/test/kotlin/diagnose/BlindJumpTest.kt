@@ -8,23 +8,7 @@ import kotlin.test.assertEquals
 /** Products of jumps are told without making a column of each, and are those of the columns. */
 class BlindJumpTest {
     private val n = 150
-    private val series = MeasuredSeries(
-        DoubleArray(n) { it.toDouble() },
-        DoubleArray(n) { 15 * sin(it / 9.0) },
-        DoubleArray(n) { 15 * sin(it / 13.0 + 1) },
-        DoubleArray(n) { sin(it / 7.0) },
-        null,
-    )
-    private val noise = BlindNoise(
-        CorrelatedNoise(series.times, 0.6, 5.0, BooleanArray(n) { it !in 60..62 }),
-        DoubleArray(n) { 1.0 + it % 2 },
-    )
-    private val fit = WaterModes.flat(series, SmoothTrack.of(series), 30).let { waves ->
-        val columns = BlindColumns(series, Scales(series), Loops.IN_TURN)
-        val shown = columns.shown(emptyList(), doubleArrayOf(4.0, 1.0, 0.0, 0.0), waves, Steps.EVEN)
-        val design = columns.designed(shown, null, noise)
-        BlindFit(design, DoubleArray(design.size) { 0.1 + it % 3 }, DoubleArray(design.size))
-    }
+    private val fit = SineTrack(n).fit(BooleanArray(n) { it !in 60..62 })
     private val rows = listOf(3, 40, 41, 61, 62, 100, n - 1)
     private val columns = rows.map { row -> fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 }) }
     private val rest = DoubleArray(n) { sin(it * it / 3.0) }

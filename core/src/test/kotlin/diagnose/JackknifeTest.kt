@@ -15,23 +15,7 @@ import kotlin.test.assertTrue
 class JackknifeTest {
     private val n = 240
     private val stretches = BlindEvidence.STRETCHES
-    private val series = MeasuredSeries(
-        DoubleArray(n) { it.toDouble() },
-        DoubleArray(n) { 15 * sin(it / 9.0) },
-        DoubleArray(n) { 15 * sin(it / 13.0 + 1) },
-        DoubleArray(n) { sin(it / 7.0) },
-        null,
-    )
-    private val noise = BlindNoise(
-        CorrelatedNoise(series.times, 0.6, 5.0, BooleanArray(n) { it != 61 }),
-        DoubleArray(n) { 1.0 + it % 2 },
-    )
-    private val fit = WaterModes.flat(series, SmoothTrack.of(series), 30).let { waves ->
-        val columns = BlindColumns(series, Scales(series), Loops.IN_TURN)
-        val shown = columns.shown(emptyList(), doubleArrayOf(4.0, 1.0, 0.0, 0.0), waves, Steps.EVEN)
-        val design = columns.designed(shown, null, noise)
-        BlindFit(design, DoubleArray(design.size) { 0.1 + it % 3 }, DoubleArray(design.size))
-    }
+    private val fit = SineTrack(n).fit(BooleanArray(n) { it != 61 })
     private val drift = DoubleArray(n) { it / n.toDouble() }
     private val other = DoubleArray(n) { sin(it / 4.0) * it / n }
     private val rows = fit.design.rows(0, n)
