@@ -195,7 +195,7 @@ internal class BlindAnswer(
             .map { i -> estimate(model.parameters[i], numbers[i], errors[i]) }
 
     private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
-        val reach = REACH * error
+        val reach = BlindErrors.REACH * error
         if (!reach.isFinite()) return Estimate(parameter.name, parameter.unit, value, null)
         val isLowest = value <= parameter.lower * (1 + AT_END) && parameter.logarithmic
         val isHighest = value >= parameter.upper * (1 - AT_END) && parameter.logarithmic
@@ -231,7 +231,7 @@ internal class BlindAnswer(
         val noise = state.fit.design.noise.noise
         val heldOut = heldOut(state)
         return ModelAssessment(
-            estimates(state.model, state.numbers, BlindErrors.of(search, state), state.model.terms),
+            estimates(state.model, state.numbers, assessed(state).errors, state.model.terms),
             rmse(state.residuals),
             heldOut.rmse,
             heldOut.logLikelihood,
@@ -243,9 +243,11 @@ internal class BlindAnswer(
         )
     }
 
-    private val scores = HashMap<BlindState, HeldOutScore>()
+    private val assessed = HashMap<BlindState, BlindAssessed>()
 
-    private fun heldOut(state: BlindState) = scores.getOrPut(state) { BlindHeldOut.score(state) }
+    private fun assessed(state: BlindState) = assessed.getOrPut(state) { BlindAssessed(search, state) }
+
+    private fun heldOut(state: BlindState) = assessed(state).heldOut
 
     private fun candidates(first: BlindRound): List<Candidate> {
         val state = first.state
@@ -257,11 +259,13 @@ internal class BlindAnswer(
             // What was chosen may be right only beside others, and with steps that are held otherwise.
             val kept = last.model.terms.firstOrNull { it.key == term.key }
             val numbers = if (kept != null) {
-                estimates(last.model, last.numbers, BlindErrors.of(search, last), listOf(kept))
+                estimates(last.model, last.numbers, assessed(last).errors, listOf(kept))
             } else {
                 val fit = trial.state?.fit ?: state.fit
                 val z = trial.state?.whitened ?: fit.residual(point.residuals)
+                // Of what was only tried stretches are not asked.
                 val errors = BlindErrors.of(search, fit, model, point.numbers, z)
+                for (k in errors.indices) errors[k] *= BlindErrors.WIDER
                 estimates(model, point.numbers, errors, listOf(model.terms.last()))
             }
             Candidate(
@@ -346,12 +350,6 @@ internal class BlindAnswer(
         private const val MOST_STEPS = 3
         private const val NORMAL_95 = 1.96
 
-        /**
-         * Standard errors to either end of an interval of 95 %, 1.6 times the usual ones: rings and lengths of the waves,
-         * noise and their spread are chosen by the same readings and then taken for known. Set on 28 simulated surveys,
-         * of which 22 held the true lag without it; docs/diagnosis.md.
-         */
-        const val REACH = 1.6 * NORMAL_95
         private const val MOST_REACH = 50.0
         private const val MOST_FACTOR = 1e9
         private const val AT_END = 1e-6

@@ -4,9 +4,31 @@ import kotlin.math.sqrt
 
 /** How far the numbers of a model of a log without a reference may be off. */
 internal object BlindErrors {
+    /**
+     * By how much errors of the curvature are made larger: rings and lengths of the waves, noise and their spread are
+     * chosen by the same readings and then taken for known. Set on 28 simulated surveys; docs/diagnosis.md.
+     */
+    const val WIDER = 1.5
+
+    /** Errors to either end of an interval of 95 %: Student's t of stretches, with 23 degrees of freedom. */
+    const val REACH = 2.07
+
     /** Standard errors of the numbers of [state] on their fitted scales, as correlation inflates them; 0 of those fixed. */
     fun of(search: BlindSearch, state: BlindState): DoubleArray =
         of(search, state.fit, state.model, state.numbers, state.whitened)
+
+    /**
+     * How far the numbers of [state] may be off, in the same way and with the [stretches] of its fit: the larger of
+     * [WIDER] such errors and of those by [Jackknife], which know nothing of the noise; 0 of those fixed.
+     */
+    fun of(search: BlindSearch, state: BlindState, stretches: Stretches): DoubleArray {
+        val errors = of(search, state)
+        val free = search.free(state.model).let { f -> f.indices.filter { f[it] } }
+        val left = Jackknife.of(state.fit, state.whitened, free.map(state::derivative), stretches)
+        for (i in errors.indices) errors[i] *= WIDER
+        free.forEachIndexed { k, i -> errors[i] = maxOf(errors[i], left.error(k)) }
+        return errors
+    }
 
     /** The same of [model] with [numbers] on the water of [fit], where [z] is left, whitened. */
     fun of(

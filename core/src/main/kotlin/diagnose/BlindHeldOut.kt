@@ -12,21 +12,19 @@ import kotlin.math.sqrt
  * (I − R_b H⁻¹ R_bᵀ)⁻¹ z_b, H the posterior's precision; the sensor's numbers stay as they are.
  */
 internal object BlindHeldOut {
-    private const val STRETCHES = 16
-
     /**
-     * The score of [state]. Its errors are those with which a row is foretold by other passes and by the rows before
-     * it in its stretch, of all rows the geometric mean: an error where no other pass comes near counts by how little
-     * could be foretold there, and models with other noise or rougher water are measured alike.
+     * The score of [state], with the [stretches] of its fit. Its errors are those with which a row is foretold by other
+     * passes and by the rows before it in its stretch, of all rows the geometric mean: an error where no other pass comes
+     * near counts by how little could be foretold there, and models with other noise or rougher water are measured alike.
      */
-    fun score(state: BlindState): HeldOutScore {
+    fun score(state: BlindState, stretches: Stretches = Stretches(state.fit)): HeldOutScore {
         val fit = state.fit
         val z = state.whitened
         val variance = maxOf(state.variance, 1e-300)
         var errors = 0.0
         var twice = 0.0
         var spread = fit.design.noise.logDeterminant
-        for (stretch in fit.design.loops.all((0 until STRETCHES).toList()) { Stretch(fit, z, it) }) {
+        for (stretch in stretches.each { from, to, unforeseen -> Stretch(unforeseen, z.copyOfRange(from, to)) }) {
             errors += stretch.squares
             twice += stretch.squares / variance + stretch.count * ln(2 * PI * variance)
             spread -= stretch.logDeterminant
@@ -35,19 +33,17 @@ internal object BlindHeldOut {
         return HeldOutScore(sqrt(errors / rows) * exp(spread / (2 * rows)), -(twice + spread) / 2)
     }
 
-    /** The forecast of the [index]-th stretch of the whitened residuals [z]. */
-    private class Stretch(fit: BlindFit, z: DoubleArray, index: Int) {
-        private val from = (index.toLong() * z.size / STRETCHES).toInt()
-        private val to = ((index + 1).toLong() * z.size / STRETCHES).toInt()
+    /** The forecast of a stretch that has [own] of the whitened residuals, of which the others leave [unforeseen]. */
+    private class Stretch(unforeseen: Array<DoubleArray>, own: DoubleArray) {
+        private val factor = Cholesky(unforeseen)
 
         /** Number of rows. */
-        val count = to - from
-        private val factor = Cholesky(fit.unforeseen(from, to))
+        val count = own.size
 
         /** ln det of what the errors are multiplied by. */
         val logDeterminant = factor.logDeterminant
 
         /** Square sum of the errors, each over how well it could be foretold. */
-        val squares = squares(factor.half(DoubleArray(count) { z[from + it] }))
+        val squares = squares(factor.half(own))
     }
 }

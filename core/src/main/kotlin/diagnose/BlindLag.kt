@@ -78,12 +78,14 @@ internal class BlindLag(
     /** How late the readings are as a dead time, s, with the small lag that the model has besides, as [none] has it. */
     val delay: Double get() = deadTime.numbers.last() + deadTime.timeConstant
 
-    /** Standard error of [delay], s, with what correlation inflates. */
-    val delayError: Double get() {
+    /** How far [delay] may be off, s, as [BlindErrors] says it of a number. */
+    private val delayError: Double get() {
         val state = deadTime
-        val column = state.fit.unlike(state.derivative(state.numbers.size - 1))
-        val inflation = BlindEvidence.inflation(listOf(column), state.whitened)
-        return sqrt(state.variance * inflation / maxOf(squares(column), 1e-300))
+        val column = state.derivative(state.numbers.size - 1)
+        val unlike = state.fit.unlike(column)
+        val inflation = BlindEvidence.inflation(listOf(unlike), state.whitened)
+        val error = sqrt(state.variance * inflation / maxOf(squares(unlike), 1e-300))
+        return maxOf(BlindErrors.WIDER * error, Jackknife.of(state.fit, state.whitened, listOf(column)).error(0))
     }
 
     /** The highest score of all these; of both kinds together only where there is a lag at all. */

@@ -25,7 +25,7 @@ public class ChannelLag internal constructor(
     internal companion object {
         /** The interval of 95 % about a delay of [seconds] with the standard error [error], s. */
         fun ends(seconds: Double, error: Double): Interval {
-            val reach = BlindAnswer.REACH * error
+            val reach = BlindErrors.REACH * error
             return Interval(maxOf(seconds - reach, 0.0), seconds + reach)
         }
     }

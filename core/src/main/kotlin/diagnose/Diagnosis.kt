@@ -143,24 +143,29 @@ public class Diagnosis private constructor(
 
     /**
      * The weighing with a reference that is late by less than a row put right, where the log is then as likely without
-     * the shifts and second paths among what was chosen in [first], or, where there are none, as with readings that are
-     * ahead of the reference for certain; null where it is not.
+     * some of the shifts and second paths among what was chosen in [first], or, where there are none, as with readings
+     * that are ahead of the reference for certain; null where it is not.
      */
     private fun led(first: Weighing): Weighing? {
         if (unknown.isSharp || series.isSparse) return null
-        val (shifts, kept) = first.chosen.partition { it.term.cause in ReferenceLead.ALIKE }
+        val shifts = first.chosen.filter { it.term.cause in ReferenceLead.ALIKE }
         // A time constant that was given and is too long does by itself what a late reference does.
         if (settings.base != null && shifts.isEmpty()) return null
         // What else is at work beside a late reference shows only once that is put right.
         val explained = (if (shifts.isEmpty()) first.lateness else first.explained) ?: return null
-        val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER
         // With a slow path beside it the time constant is that of the fast one.
         val shocks = scales(first.base, Steps.EVEN).shocks
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
             fit.without(gone, tau, Scales(ahead(rows), shaken, shocks), Steps.EVEN, used, longest)
-        val (rows, best) = ReferenceLead.likeliest { led(first.last, shifts, it).score } ?: return null
-        if (best - kept.sumOf { it.cost } < least) return null
+        val small = SmallShifts(first.last, first.base)
+        val (rows, least) = (listOf(shifts) + shifts.map { listOf(it) }).distinct().mapNotNull { gone ->
+            val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
+            val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER -
+                if (gone.isNotEmpty() && gone.all { small.isLikeLate(it.term) }) LIKELIER else 0.0
+            val best = ReferenceLead.likeliest { led(first.last, gone, it).score }
+            best?.takeIf { it.second - kept >= least }?.let { Triple(it.first, least, it.second - kept) }
+        }.maxByOrNull { it.third } ?: return null
         val second = weighing(led(first.base, emptyList(), rows), first.spikes, rows * series.period)
         return second.takeIf { it.explained >= least }
     }
@@ -375,6 +380,9 @@ public class Diagnosis private constructor(
 
         /** Twice the log-likelihood that a number gains by chance. */
         const val NUMBER = 2.0
+
+        /** Twice the log of the odds, ten to one, of a reference that is late by less than half a row and a probe ahead. */
+        const val LIKELIER = 4.6
 
         /** Twice the log-likelihood by which readings must look late before they are shaken later. */
         const val SHAKEN = 25.0

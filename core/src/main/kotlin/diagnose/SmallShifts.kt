@@ -48,6 +48,16 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
     fun isLikeHeld(term: Term): Boolean =
         !model.steps.isHeld && shift(term, emptyList())?.let { abs(it / period + Steps.HELD.lead) < NEARLY } == true
 
+    /**
+     * Whether [term] does what a reference does that is late by less than a log may be stamped off: it puts readings ahead of
+     * where the truth goes evenly, or a part of them is there at once.
+     */
+    fun isLikeLate(term: Term): Boolean {
+        val reach = STAMPED_ROWS * period
+        if (term.cause == Cause.TWO_PATH_RESPONSE) return last.numbers[ResponseModel.TIME_CONSTANT] < reach
+        return shift(term, emptyList())?.let { it - lead < 0 && lead - it < reach } == true
+    }
+
     /** [small] effects in words for the reader; none if there are none. */
     fun words(small: List<Trial>): List<String> = small.map { trial ->
         val why = when {
@@ -159,6 +169,9 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
          * is ahead or late by half a step, 0.025 rows, and no boat's clock and fixes are that good.
          */
         const val SIMULATED_ROWS = 0.03
+
+        /** Rows; a row may be stamped at the beginning of what it is of, in the middle, or at the end. */
+        const val STAMPED_ROWS = 0.5
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

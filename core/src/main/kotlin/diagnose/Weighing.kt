@@ -142,6 +142,7 @@ internal class Weighing(
         }
         scales.unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
+        faults.caution(explained)?.let(::add)
         val off = spikes.size + series.wild.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }
@@ -191,8 +192,7 @@ internal class Weighing(
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
-            // How a log is sampled may do as much as a tenth of a row.
-            all.isEmpty() && late > SmallShifts.LEAST_ROWS * series.period -> Verdict.Unexplained(
+            all.isEmpty() && late > SmallShifts.STAMPED_ROWS * series.period -> Verdict.Unexplained(
                 ReferenceLead.words(late),
             )
             all.isEmpty() -> passing()?.let(Verdict::Unexplained) ?: Verdict.Consistent

@@ -35,17 +35,38 @@ class JackknifeTest {
         return QRDecomposition(matrix).solver.solve(right).toArray().takeLast(2).toDoubleArray()
     }
 
-    /** Student's t of [drift] in [readings] by fits without each stretch, and as it is told. */
-    private fun both(readings: DoubleArray): Pair<Double, Double> {
+    /** Standard errors of the sizes of [drift] and [other] in [readings] by fits without each stretch. */
+    private fun errors(readings: DoubleArray): List<Double> {
         val all = sizes(readings, IntRange.EMPTY)
         val moves = (0 until stretches).map { stretch ->
-            all[0] - sizes(readings, stretch * n / stretches until (stretch + 1) * n / stretches)[0]
+            val without = sizes(readings, stretch * n / stretches until (stretch + 1) * n / stretches)
+            DoubleArray(2) { all[it] - without[it] }
         }
-        val mean = moves.average()
-        val error = sqrt(moves.sumOf { (it - mean) * (it - mean) } * (stretches - 1) / stretches)
-        val z = fit.residual(DoubleArray(n) { readings[it] - all[0] * drift[it] - all[1] * other[it] })
-        val change = DoubleArray(n) { all[0] * drift[it] }
-        return abs(all[0]) / error to Jackknife.t(fit, z, change, listOf(other))
+        return List(2) { k ->
+            val mean = moves.sumOf { it[k] } / stretches
+            sqrt(moves.sumOf { (it[k] - mean) * (it[k] - mean) } * (stretches - 1) / stretches)
+        }
+    }
+
+    /** What is left of [readings], whitened. */
+    private fun left(readings: DoubleArray): DoubleArray {
+        val all = sizes(readings, IntRange.EMPTY)
+        return fit.residual(DoubleArray(n) { readings[it] - all[0] * drift[it] - all[1] * other[it] })
+    }
+
+    /** Student's t of [drift] in [readings] by fits without each stretch, and as it is told. */
+    private fun both(readings: DoubleArray): Pair<Double, Double> {
+        val size = sizes(readings, IntRange.EMPTY)[0]
+        val change = DoubleArray(n) { size * drift[it] }
+        return abs(size) / errors(readings)[0] to Jackknife.t(fit, left(readings), change, listOf(other))
+    }
+
+    @Test
+    fun errorsOfAllNumbersAreThoseOfFitsWithoutEachStretch() {
+        val random = java.util.Random(20261128)
+        val readings = DoubleArray(n) { sin(it / 30.0) + 0.4 * drift[it] - other[it] + 0.1 * random.nextGaussian() }
+        val told = Jackknife.of(fit, left(readings), listOf(drift, other), Stretches(fit))
+        errors(readings).forEachIndexed { k, refitted -> assertEquals(refitted, told.error(k), 1e-5 * refitted) }
     }
 
     @Test

@@ -18,21 +18,30 @@ class ReferenceLeadTest {
 
     private fun water(time: Double) = 5 + sin(time / 9) + 0.7 * sin(time / 23 + 1) + 0.3 * sin(time / 4.1 + 2)
 
-    /** What a lag of [lag] s shows of the water each second, stepped a hundred times as often. */
-    private fun shown(lag: Double): DoubleArray {
-        var state = water(0.0)
+    /** What [lags], s, one behind the other, show of the water each second, stepped a hundred times as often. */
+    private fun shown(vararg lags: Double): DoubleArray {
+        val states = DoubleArray(lags.size) { water(0.0) }
         return DoubleArray(n) { row ->
             if (row > 0) {
-                for (k in 0 until 100) state += (1 - exp(-0.01 / lag)) * (water(row - 1 + (k + 0.5) / 100) - state)
+                for (k in 0 until 100) {
+                    var seen = water(row - 1 + (k + 0.5) / 100)
+                    for (i in lags.indices) {
+                        states[i] += (1 - exp(-0.01 / lags[i])) * (seen - states[i])
+                        seen = states[i]
+                    }
+                }
             }
-            state
+            states.last()
         }
     }
 
-    /** A sensor with a lag of [lag] s that drifts by [drift] sensor units a second beside a reference with one of 0.2 s. */
+    /** [values] with noise of a deviation of 0.005. */
+    private fun noisy(values: DoubleArray) = DoubleArray(n) { values[it] + 0.005 * random.nextGaussian() }
+
+    /** A sensor with a lag of [lag] s that drifts by [drift] units a second, beside a reference with one of 0.2 s. */
     private fun diagnosed(lag: Double, drift: Double): DiagnosisResult {
-        val values = shown(lag)
-        for (i in values.indices) values[i] += drift * i + 0.005 * random.nextGaussian()
+        val values = noisy(shown(lag))
+        for (i in values.indices) values[i] += drift * i
         return diagnosed(values, shown(0.2))
     }
 
@@ -45,9 +54,27 @@ class ReferenceLeadTest {
     @Test
     fun aReferenceThatIsLateByAFractionOfARowIsNoSecondPath() {
         val result = diagnosed(2.3, 0.0)
-        val reason = assertIs<Verdict.Unexplained>(result.verdict, "${result.verdict}").what
-        assertContains(reason, late)
+        assertEquals(Verdict.Consistent, result.verdict)
+        assertTrue(result.warnings.any { late in it }, "${result.warnings}")
         assertEquals(2.3, result.baseline.parameters.first { it.name == "time_constant_s" }.value, 0.05)
+    }
+
+    @Test
+    fun aReferenceThatIsLateByMoreThanARowMayBeStampedOffIsUnexplained() {
+        val result = diagnosed(noisy(shown(8.0)), DoubleArray(n) { water(it - 0.8) })
+        val reason = assertIs<Verdict.Unexplained>(result.verdict, "${result.verdict}").what
+        assertContains(reason, "a lag of its own")
+    }
+
+    @Test
+    fun besideAnotherCauseAReferenceThatIsLateByAFractionOfARowIsNoShift() {
+        val result = diagnosed(noisy(shown(6.0, 2.5)), shown(0.2))
+        val sets = result.verdict.let { verdict ->
+            if (verdict is Verdict.Named) verdict.causes.map { listOf(it) } else verdict.ambiguity
+        }
+        assertEquals(1, sets.size, "${result.verdict}")
+        assertTrue(Cause.SECOND_ORDER_RESPONSE in sets.single(), "${result.verdict}")
+        assertTrue(result.warnings.any { late in it }, "${result.warnings}")
     }
 
     @Test
