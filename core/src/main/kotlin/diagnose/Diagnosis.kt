@@ -142,7 +142,7 @@ public class Diagnosis private constructor(
     }
 
     /**
-     * The weighing with a reference that is late by less than a row put right, where the log is then as likely without
+     * The weighing with a reference that is late by a few rows at most put right, where the log is then as likely without
      * some of the shifts and second paths among what was chosen in [first], or, where there are none, as with readings
      * that are ahead of the reference for certain; null where it is not.
      */
@@ -381,7 +381,7 @@ public class Diagnosis private constructor(
         /** Twice the log-likelihood that a number gains by chance. */
         const val NUMBER = 2.0
 
-        /** Twice the log of the odds, ten to one, of a reference that is late by less than half a row and a probe ahead. */
+        /** Twice the log of the odds, ten to one, of a reference that is late as an ordinary one may be and a probe ahead. */
         const val LIKELIER = 4.6
 
         /** Twice the log-likelihood by which readings must look late before they are shaken later. */

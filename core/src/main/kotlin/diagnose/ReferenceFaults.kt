@@ -33,19 +33,19 @@ internal class ReferenceFaults(
         ahead > SmallShifts.LEAST_ROWS * series.period && late.pValue * tried < level && late.foretells &&
             lateness >= explained
 
-    /** Whether it is late by no more than a row may be stamped off. */
-    private val isStamped get() = ahead < SmallShifts.STAMPED_ROWS * series.period
+    /** Whether it is late by no more than an ordinary one may be. */
+    private val isOrdinary get() = ahead < ReferenceLead.ordinary(base)
 
     /** What is to be said of a reference that is late by so little, beside causes that are worth [explained]; else null. */
     fun caution(explained: Double): String? =
-        ReferenceLead.words(ahead).takeIf { isStamped && isLate(explained) }?.let { "The reference differs: $it." }
+        ReferenceLead.words(ahead).takeIf { isOrdinary && isLate(explained) }?.let { "The reference differs: $it." }
 
     /**
      * How the reference differs if that explains as much as causes do that are worth [explained], of which a slow path
      * may be one, [isTwoPath]; null if not.
      */
     fun words(explained: Double, isTwoPath: Boolean): String? = when {
-        isLate(explained) && !isStamped -> ReferenceLead.words(ahead)
+        isLate(explained) && !isOrdinary -> ReferenceLead.words(ahead)
         isTwoPath && slowest.second >= enough(explained, base.score) ->
             "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
                 "own, of about %.2g s".format(Locale.ROOT, slowest.first)

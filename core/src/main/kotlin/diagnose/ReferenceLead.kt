@@ -5,7 +5,7 @@ import kotlin.math.exp
 import kotlin.math.ln
 
 /**
- * The truth that a reference is late for by less than a row: fast sensors have a lag, too, and clocks differ. To the
+ * The truth that a reference is late for by a few rows at most: fast sensors have a lag, too, and clocks differ. To the
  * readings a lag much shorter than a row is a shift, which what a truth held over each step is ahead by, a probe in front,
  * or a part of the sensor that answers at once make as well.
  */
@@ -27,7 +27,14 @@ internal object ReferenceLead {
         }
     }
 
-    /** The lag in rows, of less than one, for which [explained] is most; and that. Null where it is a row or more. */
+    /**
+     * By how much a reference may be late and be an ordinary one, s: half a row, because a row may be stamped at the
+     * beginning of what it is of, in the middle, or at the end, or a small part of the lag that [base] has.
+     */
+    fun ordinary(base: ModelFit): Double =
+        maxOf(STAMPED_ROWS * base.model.series.period, PART_OF_LAG * base.numbers[ResponseModel.TIME_CONSTANT])
+
+    /** The lag in rows for which [explained] is most, and that; null where it is the longest that is tried. */
     fun likeliest(explained: (Double) -> Double): Pair<Double, Double>? {
         var best = LAGS.map { it to explained(it) }.maxBy { it.second }
         if (best.first == LAGS.last()) return null
@@ -49,8 +56,15 @@ internal object ReferenceLead {
     val ALIKE: Set<Cause> =
         setOf(Cause.DEAD_TIME, Cause.SECOND_ORDER_RESPONSE, Cause.POSITION_OFFSET, Cause.TWO_PATH_RESPONSE)
 
+    /** Of the lag: to so much it is found. */
+    const val PRECISION = 0.05
+    private const val STAMPED_ROWS = 0.5
+
+    /** Of the sensor's lag: a reference that is late by as much makes the lag shorter by no more. */
+    private const val PART_OF_LAG = 0.05
+
     /** Rows; those that are tried first. */
-    private val LAGS = listOf(1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0)
+    private val LAGS = List(9) { (1 shl it) / 32.0 }
     private const val REFINEMENTS = 4
 
     /** Of a row: how near the two places are between which the reference's slope is taken. */

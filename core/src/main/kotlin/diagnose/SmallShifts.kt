@@ -10,8 +10,10 @@ import kotlin.math.abs
  * Where the truth moves in sharp steps, each may have come anywhere between two rows: what changes the reading less
  * than a shift of a row does is then no cause. A truth taken as held smooths what noise its reference has left, and a
  * delay of half a step then puts it back where it was.
+ *
+ * @param late by how much the reference was late, s, before it was put right; 0 where it was not.
  */
-internal class SmallShifts(private val last: ModelFit, private val base: ModelFit) {
+internal class SmallShifts(private val last: ModelFit, private val base: ModelFit, private val late: Double = 0.0) {
     private val model = last.model
     private val period = model.series.period
 
@@ -39,7 +41,7 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
 
     /** Whether a delay of [shift] s by [term] differs from a given one by no more than a simulation in fine steps makes. */
     private fun isNothing(term: Term, shift: Double) =
-        abs(shift - given(term)) < SIMULATED_ROWS * period
+        abs(shift - given(term)) < maxOf(SIMULATED_ROWS * period, ReferenceLead.PRECISION * late)
 
     /** The delay by [term] that the base has already, s. */
     private fun given(term: Term) = late(term, base.model, base.numbers) ?: 0.0
@@ -49,11 +51,11 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
         !model.steps.isHeld && shift(term, emptyList())?.let { abs(it / period + Steps.HELD.lead) < NEARLY } == true
 
     /**
-     * Whether [term] does what a reference does that is late by less than a log may be stamped off: it puts readings ahead of
-     * where the truth goes evenly, or a part of them is there at once.
+     * Whether [term] does what a reference does that is late as an ordinary one may be: it puts readings ahead of where the
+     * truth goes evenly, or a part of them is there at once.
      */
     fun isLikeLate(term: Term): Boolean {
-        val reach = STAMPED_ROWS * period
+        val reach = ReferenceLead.ordinary(base)
         if (term.cause == Cause.TWO_PATH_RESPONSE) return last.numbers[ResponseModel.TIME_CONSTANT] < reach
         return shift(term, emptyList())?.let { it - lead < 0 && lead - it < reach } == true
     }
@@ -169,9 +171,6 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
          * is ahead or late by half a step, 0.025 rows, and no boat's clock and fixes are that good.
          */
         const val SIMULATED_ROWS = 0.03
-
-        /** Rows; a row may be stamped at the beginning of what it is of, in the middle, or at the end. */
-        const val STAMPED_ROWS = 0.5
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

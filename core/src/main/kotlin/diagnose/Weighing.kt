@@ -71,7 +71,7 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val shifts = SmallShifts(last, base)
+        val shifts = SmallShifts(last, base, late)
         val (equal, others) = chosen.zip(forward.alike(chosen)).partition { (trial, _) -> mayBeEqual(trial.term) }
         val (small, clear) = others.partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
@@ -188,12 +188,11 @@ internal class Weighing(
                 "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
                     "went in between might explain what is left",
             )
+            // A clock that is behind is no lag of a reference, and leaves something that is put right as one.
+            all.isEmpty() && late > ReferenceLead.ordinary(base) -> Verdict.Unexplained(ReferenceLead.words(late))
             structured && isMore(left) -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
-            )
-            all.isEmpty() && late > SmallShifts.STAMPED_ROWS * series.period -> Verdict.Unexplained(
-                ReferenceLead.words(late),
             )
             all.isEmpty() -> passing()?.let(Verdict::Unexplained) ?: Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)

@@ -8,7 +8,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertIs
 import kotlin.test.assertTrue
 
-/** A reference with a lag of a fraction of a row is fast, and yet late: that must not become a cause of the sensor's. */
+/** A reference with a short lag of its own is fast, and yet late: that must not become a cause of the sensor's. */
 class ReferenceLeadTest {
     private val n = 900
     private val random = java.util.Random(5)
@@ -57,6 +57,15 @@ class ReferenceLeadTest {
         assertEquals(Verdict.Consistent, result.verdict)
         assertTrue(result.warnings.any { late in it }, "${result.warnings}")
         assertEquals(2.3, result.baseline.parameters.first { it.name == "time_constant_s" }.value, 0.05)
+    }
+
+    @Test
+    fun aReferenceThatIsLateByRowsIsOrdinaryWhereTheSensorIsFarSlower() {
+        val result = diagnosed(noisy(shown(40.0)), shown(1.5))
+        assertEquals(Verdict.Consistent, result.verdict)
+        val said = Regex("ahead of the reference by 1\\.[456] s")
+        assertTrue(result.warnings.any { said in it }, "${result.warnings}")
+        assertEquals(40.0, result.baseline.parameters.first { it.name == "time_constant_s" }.value, 1.0)
     }
 
     @Test
