@@ -160,17 +160,25 @@ public class UndoableSensor private constructor(
          * quantisation and outliers anywhere. Of a hysteresis and of the ends of a range what can be known is kept:
          * [play] and [range].
          *
-         * @throws IllegalArgumentException if [spec] has a stage that cannot be undone; the message names it.
+         * @throws UnfitStage if [spec] has a stage that cannot be undone.
          */
         public fun of(spec: SensorSpec): UndoableSensor {
             val found = Gathering()
-            for (stage in spec.stages) take(stage, found)
-            val isMixed = found.changing != null &&
-                (found.response.deadTime > 0 || found.response.slewRate.isFinite() || !isAlone(found.response))
-            require(!isMixed) { WITH_OTHERS }
+            spec.stages.forEachIndexed { index, stage ->
+                try {
+                    take(stage, found)
+                    require(!isMixed(found)) { WITH_OTHERS }
+                } catch (wrong: IllegalArgumentException) {
+                    throw UnfitStage(index, wrong)
+                }
+            }
             val range = found.range
             return UndoableSensor(found.response, found.shown, found.changing, found.needs, range, found.play)
         }
+
+        /** Whether a lag that changes with conditions stands beside something else that takes time. */
+        private fun isMixed(found: Gathering) = found.changing != null &&
+            (found.response.deadTime > 0 || found.response.slewRate.isFinite() || !isAlone(found.response))
 
         private fun isAlone(response: Response) = response.lags.size == 1 || response.slowShare > 0
 

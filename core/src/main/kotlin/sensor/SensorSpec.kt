@@ -9,6 +9,7 @@ import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import stillwater.model.JsonForm
+import stillwater.model.JsonProblem
 import kotlin.math.abs
 import kotlin.random.Random
 
@@ -71,10 +72,20 @@ public data class SensorSpec(val name: String, val stages: List<SensorStage>) {
         /**
          * Reads the JSON form.
          *
-         * @throws stillwater.model.JsonProblem if [json] is not of that form or a number is out of its range; the message
+         * @throws JsonProblem if [json] is not of that form or a number is out of its range; the message
          *   is one line that says where and what was expected.
          */
         public fun fromJson(json: String): SensorSpec = FORM.read(json).also { requireSizes(json, it) }
+
+        /**
+         * That the spec in [json] is of no use for its stage [index], from 0: [expected] tells what would be, [why] what
+         * is wrong with that one.
+         */
+        public fun problem(json: String, index: Int, expected: String, why: String): JsonProblem {
+            val stage = Json.encodeToJsonElement(SensorStage.serializer(), FORM.read(json).stages[index])
+            val type = stage.jsonObject.getValue("type").jsonPrimitive.content
+            return FORM.problem(json, "$.stages[$index]", "expected $expected, found $type: $why")
+        }
 
         private fun requireSizes(json: String, spec: SensorSpec) {
             val stages = Json.encodeToJsonElement(serializer(), spec).jsonObject.getValue("stages").jsonArray

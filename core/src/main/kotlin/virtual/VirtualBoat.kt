@@ -1,6 +1,7 @@
 package stillwater.virtual
 
 import stillwater.field.Field
+import stillwater.model.Actuation
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.model.LatLon
@@ -115,6 +116,12 @@ public class VirtualBoat(
         link.board.write(it.encodeToByteArray())
     }
 
+    /**
+     * Whether there is power for the motors. Without it they turn nothing, whatever the board tells them, and the boat
+     * drifts; the board goes on and does not know.
+     */
+    public var hasMotorPower: Boolean = true
+
     private val fixNoise = GaussianNoise(spec.pose.fixDeviation, Random(random.nextLong()))
     private val wanderNoise = GaussianNoise(1.0, Random(random.nextLong()))
     private val compassNoise = GaussianNoise(spec.pose.compassDeviation, Random(random.nextLong()))
@@ -154,7 +161,7 @@ public class VirtualBoat(
 
     private fun tick() {
         ticks++
-        dynamics.advance(TICK, board.actuation)
+        dynamics.advance(TICK, if (hasMotorPower) board.actuation else REST)
         reading = probe.step(field.truth(dynamics.x, dynamics.y, time), TICK, Conditions.NONE)
         link.advance(TICK)
         board.receive(inbound, 0, link.board.read(inbound))
@@ -188,5 +195,8 @@ public class VirtualBoat(
         public const val TICK: Double = 0.02
 
         private const val ROUNDING = 1e-9
+
+        /** No thrust and no torque, of a hull with either kind of thrusters. */
+        private val REST = Actuation.Differential(0.0, 0.0)
     }
 }

@@ -111,11 +111,15 @@ class UndoableSensorTest {
             UndoableSensor.of(SensorSpec("", listOf(SensorStage.Range(0.0, 5.0), SensorStage.Lag(6.0))))
         }
         assertContains(problem.message.orEmpty(), "after a saturation cannot be undone")
-        assertFailsWith<IllegalArgumentException> {
-            UndoableSensor.of(SensorSpec("", listOf(SensorStage.Delay(2.0), SensorStage.FlowLag(6.0, 1.0, 0.5))))
-        }
-        assertFailsWith<IllegalArgumentException> {
-            UndoableSensor.of(SensorSpec("", listOf(SensorStage.Drifting(1e-3), SensorStage.Lag(6.0))))
+        for ((unfit, stages) in listOf(
+            1 to listOf(SensorStage.Delay(2.0), SensorStage.FlowLag(6.0, 1.0, 0.5), SensorStage.Slew(0.1)),
+            1 to listOf(SensorStage.FlowLag(6.0, 1.0, 0.5), SensorStage.Delay(2.0), SensorStage.Noise(0.1)),
+            1 to listOf(SensorStage.Drifting(1e-3), SensorStage.Lag(6.0)),
+            3 to listOf(SensorStage.Lag(6.0), SensorStage.Noise(0.1), SensorStage.Lag(2.0), SensorStage.Lag(1.0)),
+        )) {
+            val found = assertFailsWith<UnfitStage> { UndoableSensor.of(SensorSpec("", stages)) }
+            assertEquals(unfit, found.index, "$stages")
+            assertTrue(found.message.orEmpty().isNotEmpty())
         }
     }
 

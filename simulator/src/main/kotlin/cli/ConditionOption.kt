@@ -22,18 +22,19 @@ internal fun ParameterHolder.conditions(help: String) = option("--condition", me
     }
 
 /**
- * Refuses those of [conditions] on which [sensor] does not depend. Where it depends on some that are not there, or cannot
- * be undone at all, that is for others to say.
+ * Refuses [conditions] that lack one on which [sensor], read from [file], depends, and those on which it does not. The
+ * speed, where it is not among them, is taken from the positions.
  */
-internal fun requireNeeded(conditions: List<Pair<String, String>>, sensor: SensorSpec) {
-    val needs = try {
-        UndoableSensor.of(sensor).needs
-    } catch (_: IllegalArgumentException) {
-        return
-    }
+internal fun requireNeeded(conditions: List<Pair<String, String>>, file: String, sensor: SensorSpec) {
+    val needs = UndoableSensor.of(sensor).needs
     val names = conditions.map { it.first }
+    val missing = needs - names.toSet() - Conditions.SPEED
+    if (missing.isNotEmpty()) {
+        val options = missing.joinToString(" and ") { "--condition $it=COLUMN" }
+        throw BadFlag("--sensor: $file", "$options, which undoing it takes", "none")
+    }
     val unused = names - needs
-    if (unused.isEmpty() || (needs - names.toSet() - Conditions.SPEED).isNotEmpty()) return
+    if (unused.isEmpty()) return
     val expected = if (needs.isEmpty()) {
         "none, for the sensor given depends on none"
     } else {

@@ -95,7 +95,7 @@ class CorrectCommand : WorkCommand("correct") {
         requireUsed()
         val choices = logOptions.choices()
         requireFitting(choices.size)
-        val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
+        val spec = sensor?.let { file -> SensorFile.readUndoable(file).also { requireNeeded(conditions, file, it) } }
         val file = Path.of(log)
         val logs = choices.map { open(file, it) }
         if (logs.size > 1 && logs[0].format.startsWith("Platypus")) {
@@ -171,7 +171,7 @@ class CorrectCommand : WorkCommand("correct") {
                 CorrectedLog.of(opened, spec, reference != null, conditions.toMap(), progress::advance)
             } catch (wrong: IllegalArgumentException) {
                 if (spec == null) throw wrong
-                throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
+                throw SensorFile.unfit(sensor, wrong)
             }
         }
     }

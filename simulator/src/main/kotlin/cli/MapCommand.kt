@@ -114,7 +114,7 @@ class MapCommand : WorkCommand("map") {
         if (isContrary) throw failure("--calibrate: expected --epsilon auto, found a number")
         requireUsed()
         val file = Path.of(log)
-        val spec = sensor?.let(SensorFile::read)?.also { requireNeeded(conditions, it) }
+        val spec = sensor?.let { file -> SensorFile.readUndoable(file).also { requireNeeded(conditions, file, it) } }
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
         requireNoMission(Path.of(out))
@@ -165,7 +165,7 @@ class MapCommand : WorkCommand("map") {
         val cautions = CorrectCautions(corrected, unit?.let { " $it" }.orEmpty())
         GivenCorrection(spec.name, corrected.track.values, cautions.lines)
     } catch (wrong: IllegalArgumentException) {
-        throw BadFlag("--sensor", "a sensor that can be undone", wrong.message.orEmpty())
+        throw SensorFile.unfit(sensor, wrong)
     }
 
     private fun read(opened: SurveyLog, file: Path, correction: GivenCorrection?): SurveyMap {

@@ -90,7 +90,8 @@ class VirtualBoatOptions : OptionGroup(name = "Virtual boat") {
     private val capacity by option(
         "--battery-capacity",
         metavar = "WH",
-        help = "energy in the battery, W h (300); its voltage falls to 5/6 of the full one when it is used",
+        help = "energy in the battery, W h (300); its voltage falls to 5/6 of the full one when it is used, and " +
+            "then the motors stop",
     ).number("a number above 0") { it > 0 }
     private val vectored by vectoredFlag()
 

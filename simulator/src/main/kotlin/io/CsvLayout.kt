@@ -29,6 +29,9 @@ internal class CsvLayout(
         return rows.map { reader.number(fields(it, separator)?.getOrNull(column).orEmpty()) }
     }
 
+    /** What it is, for people. */
+    val kind: String get() = "survey CSV" + KINDS.getValue(separator)
+
     /** What is not plain about it, for people. */
     fun notes(): List<String> = buildList {
         if (headerLine > 1) add("header in line $headerLine")
@@ -40,6 +43,7 @@ internal class CsvLayout(
     companion object {
         /** Separators that are looked for, in the order in which they are preferred. */
         val SEPARATORS = listOf(',', ';', '\t')
+        private val KINDS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
         private const val MOST_UNITS = 3
         private const val LONGEST_ENTRY = 3
         private val STATED = Regex("""(?i)\s*"?sep=(.)"?\s*""")

@@ -50,10 +50,8 @@ internal class CsvSurvey internal constructor(
         slots[columns.conditions.getValue(conditionNames[i])]
     }
 
-    private fun kind(): List<String> {
-        val table = listOf("survey CSV" + SEPARATORS.getValue(layout.separator)) + layout.notes()
-        return content.seaBird?.let { listOf("Sea-Bird .cnv") + it.notes() } ?: table
-    }
+    private fun kind(): List<String> =
+        content.seaBird?.let { listOf("Sea-Bird .cnv") + it.notes() } ?: (listOf(layout.kind) + layout.notes())
 
     /** Reads the fields of one pass; a log that is written plainly needs none, and is read faster without. */
     internal fun fieldReader() = FieldReader(layout.decimalComma, times.form)
@@ -117,6 +115,7 @@ internal class CsvSurvey internal constructor(
         private var readings = 0L
         private var rows = 0L
         private var headerSeen = false
+        private val jumps = PositionJumps(speedUnit)
         private val far = FarFixes(::hand)
         private val order = TimeOrder(::use) { row, other, fault -> refuse(timeProblem(row, other, fault)) }
         private val unread = UnreadRows(order::take)
@@ -351,6 +350,7 @@ internal class CsvSurvey internal constructor(
         }
 
         private fun hand(row: TimedRow) {
+            jumps.take(row.line, row.seconds, row.x, row.y)
             sink.take(BoatTime(row.seconds), row.x, row.y, row.value, row.conditions)
             if (!row.value.isNaN()) readings++
         }
@@ -373,7 +373,8 @@ internal class CsvSurvey internal constructor(
             order.end()
             far.end()
             repeat(far.count.toInt()) { skips.count("single fixes far off") }
-            return LogPass(readings, skips.toMap(), listOfNotNull(order.note, nights.note, far.note) + codes.notes())
+            val notes = listOfNotNull(order.note, nights.note, far.note, jumps.note) + codes.notes()
+            return LogPass(readings, skips.toMap(), notes, jumps.count)
         }
     }
 
@@ -386,7 +387,6 @@ internal class CsvSurvey internal constructor(
         /** The year 5138, or 1973 in milliseconds. */
         private const val LARGEST_SECONDS = 1e11
         private const val LARGEST_MILLIS = 1e14
-        private val SEPARATORS = mapOf(',' to "", ';' to ", semicolon separated", '\t' to ", tab separated")
 
         // Where a row's numbers are kept; conditions follow.
         private const val TIME = 0

@@ -35,23 +35,27 @@ internal class PlatypusLog private constructor(
     private val places: MissionPlaces? by lazy {
         if (content.head.none { MISSION in it }) return@lazy null
         val fixes = MissionFixes()
-        pass({}, fixes) { time, _, _, _, _ -> fixes.reading(time.seconds) }
+        pass({}, fixes) { _, seconds, _, _, _ -> fixes.reading(seconds) }
         frame?.let { fixes.places(it) }
     }
 
     override fun read(progress: (Long) -> Unit, sink: ReadingSink): LogPass {
-        val places = places ?: return pass(progress, null, sink)
+        val places = places
+        val jumps = PositionJumps(speedUnit)
         var k = 0
-        val pass = pass(progress, null) { time, x, y, value, conditions ->
+        val pass = pass(progress, null) { line, seconds, trackX, trackY, value ->
             // A log that a mission still writes has more now.
-            val isPlaced = k < places.times.size && places.times[k] == time.seconds && !places.x[k].isNaN()
-            sink.take(time, if (isPlaced) places.x[k] else x, if (isPlaced) places.y[k] else y, value, conditions)
+            val placed = places?.takeIf { k < it.times.size && it.times[k] == seconds && !it.x[k].isNaN() }
+            val x = placed?.x?.get(k) ?: trackX
+            val y = placed?.y?.get(k) ?: trackY
             k++
+            jumps.take(line, seconds, x, y)
+            sink.take(BoatTime(seconds), x, y, value, Conditions.NONE)
         }
-        return pass.copy(warnings = pass.warnings + listOfNotNull(places.note))
+        return pass.copy(warnings = pass.warnings + listOfNotNull(places?.note, jumps.note), jumps = jumps.count)
     }
 
-    private fun pass(progress: (Long) -> Unit, fixes: MissionFixes?, sink: ReadingSink): LogPass {
+    private fun pass(progress: (Long) -> Unit, fixes: MissionFixes?, sink: PlacedSink): LogPass {
         val pass = Pass(fixes, sink)
         BoundedLines(content.reader(progress = progress)).use { lines ->
             for (line in lines) pass.take(line, lines.peek())
@@ -61,10 +65,15 @@ internal class PlatypusLog private constructor(
 
     private val poseAge = choice.maxPoseAge ?: LogChoice.USUAL_POSE_AGE
 
-    private data class Pending(val seconds: Double, val value: Double)
+    private data class Pending(val line: Long, val seconds: Double, val value: Double)
+
+    /** Takes the reading of a line, at a time in s, where the poses put it: metres east and north. */
+    private fun interface PlacedSink {
+        fun take(line: Long, seconds: Double, x: Double, y: Double, value: Double)
+    }
 
     /** One reading of the file from its beginning. */
-    private inner class Pass(private val inputs: MissionFixes?, private val sink: ReadingSink) {
+    private inner class Pass(private val inputs: MissionFixes?, private val sink: PlacedSink) {
         private val lines = PlatypusLine(version)
         private val clock = PlatypusClock()
         private val track = PoseTrack(poseAge)
@@ -168,7 +177,7 @@ internal class PlatypusLog private constructor(
                 }
                 else -> {
                     lastSensorSeconds = seconds
-                    pending.addLast(Pending(seconds, value))
+                    pending.addLast(Pending(number, seconds, value))
                 }
             }
         }
@@ -181,7 +190,7 @@ internal class PlatypusLog private constructor(
                 pending.removeFirst()
                 if (track.find(reading.seconds)) {
                     readings++
-                    sink.take(BoatTime(reading.seconds), track.x, track.y, reading.value, Conditions.NONE)
+                    sink.take(reading.line, reading.seconds, track.x, track.y, reading.value)
                 } else {
                     skips.count("readings without a pose")
                 }

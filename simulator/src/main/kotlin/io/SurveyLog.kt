@@ -26,9 +26,15 @@ fun interface ReadingSink {
  *
  * @property readings readings handed on.
  * @property skipped rows or lines that gave none although they could have, by reason.
- * @property warnings what the user should know of those, one sentence each, without a full stop.
+ * @property warnings what the user should know of those and of the positions, one sentence each, without a full stop.
+ * @property jumps steps between positions that are too fast for a boat, of which [warnings] tells.
  */
-data class LogPass(val readings: Long, val skipped: Map<String, Long>, val warnings: List<String> = emptyList())
+data class LogPass(
+    val readings: Long,
+    val skipped: Map<String, Long>,
+    val warnings: List<String> = emptyList(),
+    val jumps: Long = 0,
+)
 
 /**
  * A log on disk that yields the readings of one sensor, as often as it is read, in constant memory.
@@ -50,6 +56,12 @@ interface SurveyLog {
 
     /** Whether positions have only an x: a transect or a vertical profile. */
     val oneDimensional: Boolean
+
+    /** What positions are counted in: m, or the units of the only coordinate of a transect. */
+    val lengthUnit: String get() = if (oneDimensional) "units of $xName" else "m"
+
+    /** What speeds are counted in. */
+    val speedUnit: String get() = if (oneDimensional) "$lengthUnit per s" else "m/s"
 
     /** Frame the positions are in; null before the first [read], and for logs without latitudes. */
     val frame: LocalFrame?

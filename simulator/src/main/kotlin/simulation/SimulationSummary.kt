@@ -45,6 +45,9 @@ class SimulationSummary(private val result: SimulationResult, val unit: String) 
         if (!result.isOver) {
             add("the mission was not over after ${clock(result.longest)}; --longest gives it more time")
         }
+        run.world.emptySince?.let {
+            add("the battery was empty after ${clock(it.seconds)}: from then on the boat had no thrust and drifted")
+        }
         MapCautions.nothing(run.mission)?.let { add(it) }
         if (!result.readings.isComplete) add("the readings do not add up: ${result.readings}")
         val where = if (run.world.settings.water.isEvenInCells) "" else ", as where the water changes within a cell"

@@ -129,7 +129,7 @@ object MapJson {
         put("repeated_values_share", statistics.repeatedValues)
         quantiles("speed_mps", statistics.speeds)
         put("way_m", statistics.distance)
-        put("position_jumps", statistics.jumps)
+        put("position_jumps", map.pass.jumps)
         put("lowest", statistics.lowest)
         put("highest", statistics.highest)
         put("median", statistics.values.median)

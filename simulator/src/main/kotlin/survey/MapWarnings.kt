@@ -1,6 +1,5 @@
 package stillwater.survey
 
-import stillwater.report.counted
 import stillwater.run.FilterKind
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.duration
@@ -17,7 +16,7 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     /** The sentences, most important first. */
     fun list(): List<String> = map.pass.warnings + map.correction?.cautions.orEmpty() +
-        listOfNotNull(unevenCells(), jumps(), gap(), outliers(), outsideRange(), skipped()) +
+        listOfNotNull(unevenCells(), gap(), outliers(), outsideRange(), skipped()) +
         epsilon() + listOfNotNull(standing()) + bounds() + listOfNotNull(map.interval?.warning(wording::value)) +
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
 
@@ -31,13 +30,6 @@ internal class MapWarnings(private val map: SurveyMap) {
         val filter = if (FilterKind.SELF_CALIBRATING in map.maps) "self-calibrating" else "bayesian"
         return "$why, so $filter cannot learn the sensor: its bounds are wide, and its values may be as late as the " +
             "readings; `stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
-    }
-
-    private fun jumps(): String? {
-        if (statistics.jumps == 0L) return null
-        val are = if (statistics.jumps == 1L) "is" else "are"
-        return "${counted(statistics.jumps, "jump")} in the positions $are faster than 20 ${wording.speed}: " +
-            "check the receiver's fixes"
     }
 
     private fun gap(): String? {

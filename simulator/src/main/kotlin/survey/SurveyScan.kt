@@ -23,7 +23,6 @@ class SurveyScan : ReadingSink {
     private var longestStep = 0.0
     private var repeatedFixes = 0L
     private var repeatedValues = 0L
-    private var jumps = 0L
     private var west = Double.POSITIVE_INFINITY
     private var east = Double.NEGATIVE_INFINITY
     private var south = Double.POSITIVE_INFINITY
@@ -65,8 +64,6 @@ class SurveyScan : ReadingSink {
         if (step > longestStep) longestStep = step
         if (x == lastX && y == lastY) repeatedFixes++
         if (value == lastValue) repeatedValues++
-        val moved = hypot(x - lastX, y - lastY)
-        if (moved > JUMP_METRES && moved > JUMP_SPEED * step) jumps++
         // Over a gap nothing is known about the way.
         if (readings > 2 && step > GAP_SECONDS && step > GAP_STEPS * (last - first) / (readings - 1)) {
             distance += sinceAnchor()
@@ -113,7 +110,6 @@ class SurveyScan : ReadingSink {
             distance = distance + sinceAnchor(),
             repeatedFixes = repeatedFixes / (readings - 1.0),
             repeatedValues = repeatedValues / (readings - 1.0),
-            jumps = jumps,
             west = west,
             east = east,
             south = south,
@@ -132,7 +128,5 @@ class SurveyScan : ReadingSink {
         const val SPEED_SECONDS = 5.0
         const val GAP_SECONDS = 60.0
         const val GAP_STEPS = 10
-        const val JUMP_METRES = 10.0
-        const val JUMP_SPEED = 20.0
     }
 }

@@ -21,7 +21,6 @@ data class Stretch(val from: Double, val to: Double)
  * @property distance length of the track, from fixes at least 5 s or one step apart, m.
  * @property repeatedFixes share of readings at exactly the position of the one before, 0 to 1.
  * @property repeatedValues share of readings with exactly the value of the one before, 0 to 1.
- * @property jumps steps over more than 10 m that would need more than 20 m/s.
  * @property west smallest x, m. @property east largest x, m. @property south smallest y, m. @property north largest y, m.
  * @property lowest smallest value, sensor units. @property highest largest value, sensor units.
  * @property values quantiles of the values, sensor units.
@@ -37,7 +36,6 @@ class SurveyStatistics internal constructor(
     val distance: Double,
     val repeatedFixes: Double,
     val repeatedValues: Double,
-    val jumps: Long,
     val west: Double,
     val east: Double,
     val south: Double,

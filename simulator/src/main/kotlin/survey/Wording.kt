@@ -10,10 +10,10 @@ import java.util.Locale
  */
 internal class Wording(private val map: SurveyMap) {
     /** What positions are counted in: m, or the units of the only coordinate of a transect. */
-    val length: String = if (map.log.oneDimensional) "units of ${map.log.xName}" else "m"
+    val length: String = map.log.lengthUnit
 
     /** What speeds are counted in. */
-    val speed: String = if (map.log.oneDimensional) "$length per s" else "m/s"
+    val speed: String = map.log.speedUnit
 
     /** The quantity with its unit, where the user gave one, for legends and titles. */
     val quantity: String = map.unit?.let { "${map.log.quantity} ($it)" } ?: map.log.quantity

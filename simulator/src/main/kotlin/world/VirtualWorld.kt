@@ -11,7 +11,8 @@ import kotlin.math.cos
 import kotlin.math.sin
 
 /**
- * A virtual boat on its water: core's [VirtualBoat] with a drawn field, wind, a current that may turn, and a battery.
+ * A virtual boat on its water: core's [VirtualBoat] with a drawn field, wind, a current that may turn, and a battery,
+ * without which the boat has no thrust.
  *
  * Whoever plays the phone uses [boat]'s end of the link, its fixes and its compass, and lets time pass with [advance] only,
  * not with the boat's own. Deterministic, whatever the lengths of the steps. Confined to one thread.
@@ -49,6 +50,10 @@ class VirtualWorld(val settings: WorldSettings, val site: WorldSite) {
 
     /** What the motors have drawn. */
     val battery = Battery(settings.battery, settings.board.volts)
+
+    /** When the battery was first empty; null while it is not. From then on the boat drifts. */
+    var emptySince: BoatTime? = null
+        private set
     private var owed = 0.0
 
     init {
@@ -88,6 +93,10 @@ class VirtualWorld(val settings: WorldSettings, val site: WorldSite) {
             boat.advance(VirtualBoat.TICK)
             battery.advance(VirtualBoat.TICK, boat.board.actuation)
             boat.board.volts = battery.volts
+            if (battery.isEmpty && emptySince == null) {
+                emptySince = time
+                boat.hasMotorPower = false
+            }
         }
     }
 

@@ -105,11 +105,35 @@ class GivenSensorTest {
     }
 
     @Test
+    fun aSensorThatCannotBeUndoneIsRefusedWithItsFileAndPlace() {
+        val log = file("log.csv", survey(SensorStage.Lag(6.0)))
+        val lag = """{"type":"first-order-lag","time_constant_s":4}"""
+        val cases = listOf(
+            """{"type":"saturation","lower":0,"upper":12},
+                $lag""" to ":2:17: stages[1]: expected a stage that can be undone, found first-order-lag: a stage " +
+                "that takes time after a saturation cannot be undone",
+            "$lag,$lag,\n$lag" to ":2:1: stages[2]: expected a stage that can be undone, found first-order-lag: ",
+            """$lag,{"type":"flow-dependent-lag","time_constant_s":6,"reference_speed_m_per_s":1,"exponent":0.5}""" to
+                ":1:73: stages[1]: expected a stage that can be undone, found flow-dependent-lag: a lag that changes",
+        )
+        for ((stages, words) in cases) {
+            val sensor = file("bent.json", """{"name":"bent","stages":[$stages]}""")
+            for (command in listOf("correct", "map")) {
+                val result = run(command, log, "--value", "do_mg_l", "--sensor", sensor)
+                assertEquals(2, result.statusCode, result.output)
+                assertContains(result.stderr, "stillwater $command: --sensor: $sensor$words")
+                assertFalse(out.exists())
+            }
+        }
+    }
+
+    @Test
     fun missingOrWrongConditionIsNamed() {
         val stage = SensorStage.TemperatureLag(8.0, 15.0, -0.06)
         val log = file("log.csv", survey(stage))
         val cases = listOf(
-            emptyList<String>() to "--condition temperature=COLUMN",
+            emptyList<String>() to
+                "${spec(stage)}: expected --condition temperature=COLUMN, which undoing it takes, found none",
             listOf("--condition", "temperature=fog") to "fog",
             listOf("--condition", "salinity=temp_c") to "--condition temperature=COLUMN",
         )

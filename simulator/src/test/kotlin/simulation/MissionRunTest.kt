@@ -91,6 +91,24 @@ class MissionRunTest {
         for ((before, after) in states.zipWithNext()) assertEquals(before.until, after.from)
     }
 
+    /** Nobody watches the battery, or below a voltage that it has only when it is empty. */
+    @Test
+    fun aBoatWhoseBatteryIsEmptyGoesNoFartherAndThatIsSaid() {
+        for ((more, isSeen) in listOf("" to false, """"failsafe":{"lowest_volts":12.0},""" to true)) {
+            val settings = WorldSettings(seed = 527).let { it.copy(battery = it.battery.copy(capacity = 3.0)) }
+            val result = SmallMission.sail(SmallMission.pond("averaging", more), settings)
+            val run = result.run
+            val empty = assertNotNull(run.world.emptySince).seconds
+            // From then on the electronics' 8 W alone are used, and the boat loses its way.
+            assertEquals(3.0 + 8 * (run.time.seconds - empty) / 3600, run.world.battery.used, 0.01)
+            val labels = run.history.spans.filter { it.until > empty }.map { it.label }
+            assertEquals(isSeen, labels.any { "battery-low" in it }, "$labels")
+            assertEquals(0.0, run.world.boat.dynamics.surge, 1e-5)
+            val warnings = SimulationSummary(result, "mg/L").warnings
+            assertTrue(warnings.any { "the battery was empty after" in it }, "$warnings")
+        }
+    }
+
     @Test
     fun aMissionThatIsNotOverInItsTimeIsSaid() {
         val result = SmallMission.sail(SmallMission.pond("averaging"), WorldSettings(seed = 525), longest = 60.0)

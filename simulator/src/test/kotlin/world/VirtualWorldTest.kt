@@ -1,16 +1,21 @@
 package stillwater.world
 
 import org.junit.jupiter.api.Test
+import stillwater.model.Actuation
 import stillwater.model.BoatTime
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.model.LatLon
 import stillwater.model.Position
+import stillwater.virtual.BoardSpec
+import stillwater.virtual.Firmware
 import stillwater.virtual.PoseSpec
 import kotlin.math.abs
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertNotEquals
+import kotlin.test.assertNotNull
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 class VirtualWorldTest {
@@ -63,8 +68,56 @@ class VirtualWorldTest {
         // 3600 W for half a second of one watt hour is half of it.
         assertEquals(0.5, world.battery.used, 1e-9)
         assertEquals(15.3 * (1 - 1 / 12.0), world.boat.board.volts, 1e-6)
+        assertNull(world.emptySince)
+        world.advance(0.5)
+        // To a tick, 1/50 of the capacity here, by which the voltage is on its way from 3.5 to 3.0 of 4.2 V or there.
+        assertEquals(1.0, assertNotNull(world.emptySince).seconds, 0.021)
         world.advance(5.0)
-        assertEquals(15.3 * 5 / 6, world.boat.board.volts, 1e-9)
+        assertEquals(15.3 * 3.0 / 4.2, world.boat.board.volts, 1e-9)
+    }
+
+    @Test
+    fun theVoltageOfAnEmptyBatteryFallsOnByWhatTheElectronicsDraw() {
+        val battery = Battery(BatterySpec(capacity = 100.0, idlePower = 10.0, fullPower = 300.0), fullVolts = 16.8)
+        val full = Actuation.Differential(1.0, 1.0)
+        battery.advance(3600.0 * 100 / 310 + 1e-6, full)
+        assertTrue(battery.isEmpty)
+        assertEquals(14.0, battery.volts, 1e-6)
+        // Motors draw no more: half of the last watt hour is three minutes of 10 W.
+        battery.advance(180.0, full)
+        assertEquals(100.5, battery.used, 1e-6)
+        assertEquals(13.0, battery.volts, 1e-6)
+        battery.advance(3600.0, full)
+        assertEquals(12.0, battery.volts, 1e-9)
+    }
+
+    @Test
+    fun aBoatWithAnEmptyBatteryDrifts() {
+        val settings = WorldSettings(
+            current = Flow(0.0, 0.2),
+            board = BoardSpec(Firmware.MASTER, arming = 1.0),
+            battery = BatterySpec(capacity = 1.0, idlePower = 10.0, fullPower = 300.0),
+        )
+        for (isVectored in listOf(false, true)) {
+            val world = VirtualWorld(settings, site.copy(isVectored = isVectored))
+            val ahead = if (isVectored) """{"m0":{"v":1.0},"s0":{"p":0.5}}""" else """{"m0":{"v":1.0},"m1":{"v":1.0}}"""
+            fun sail(seconds: Int) = repeat(10 * seconds) {
+                world.boat.phone.write("$ahead\r\n".encodeToByteArray())
+                world.advance(0.1)
+            }
+            sail(8)
+            assertNull(world.emptySince)
+            assertTrue(world.boat.dynamics.surge > 0.5, "under way at ${world.boat.dynamics.surge} m/s")
+            // 310 W use a watt hour in 12 s.
+            sail(60)
+            assertNotNull(world.emptySince)
+            val before = world.boat.dynamics.y
+            sail(10)
+            // A hull of 15 kg and 5 N per m/s loses its way within e^-1 in 3 s at the latest: in 45 s all of it.
+            assertEquals(0.0, world.boat.dynamics.surge, 1e-5)
+            assertEquals(0.0, world.boat.dynamics.yawRate, 1e-5)
+            assertEquals(10 * 0.2, world.boat.dynamics.y - before, 1e-3)
+        }
     }
 
     @Test
