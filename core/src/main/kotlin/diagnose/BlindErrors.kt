@@ -8,7 +8,7 @@ internal object BlindErrors {
      * By how much errors of the curvature are made larger: rings and lengths of the waves, noise and their spread are
      * chosen by the same readings and then taken for known. Set on 28 simulated surveys; docs/diagnosis.md.
      */
-    const val WIDER = 1.5
+    const val WIDER = 1.515
 
     /** Errors to either end of an interval of 95 %: Student's t of stretches, with 23 degrees of freedom. */
     const val REACH = 2.07

@@ -169,8 +169,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     /**
      * By how many standard errors the halves of the log differ about the size of the change [unlike] in [z]. What
      * correlation inflates is told by what either half leaves with its own size: the other's would count as
-     * correlation. Sizes of which one is more than half of the other do not contradict each other, however sure they are:
-     * no model is exact.
+     * correlation.
      */
     private fun contradiction(unlike: DoubleArray, z: DoubleArray, variance: Double): Double {
         val scores = DoubleArray(2)
@@ -181,7 +180,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             weights[half] += unlike[i] * unlike[i]
         }
         val sizes = DoubleArray(2) { scores[it] / maxOf(weights[it], TINY) }
-        if (sizes.min() > LEAST_OF_OTHER * sizes.max()) return 0.0
         val rest = DoubleArray(n) { i -> z[i] - sizes[if (2 * i < n) 0 else 1] * unlike[i] }
         val inflated = variance * BlindEvidence.inflation(listOf(unlike), rest)
         val error = sqrt(inflated * (1 / maxOf(weights[0], TINY) + 1 / maxOf(weights[1], TINY)))
@@ -361,9 +359,6 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         /** Causes that may show in a few stretches of a log alone: where the water reaches a threshold, or at single rows. */
         val LOCAL =
             setOf(Cause.SLEW_LIMIT, Cause.SATURATION, Cause.OFFSET_STEPS, Cause.QUANTISATION, Cause.OUTLIERS)
-
-        /** Of the larger size that one half of the log shows: where the other's is less the halves may contradict each other. */
-        const val LEAST_OF_OTHER = 0.5
 
         /** Deviations of the noise that no reading at an end of the range is beyond it; and so many rows are none. */
         const val BEYOND_NOISE = 4.0

@@ -122,7 +122,7 @@ public class Diagnosis private constructor(
         val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) ||
             first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         // A place ahead by just what a held truth is ahead by is rather that.
-        val isLikeHeld = first.chosen.any { SmallShifts(first.last, first.base).isLikeHeld(it.term) }
+        val isLikeHeld = first.chosen.any { first.shifts.isLikeHeld(it.term) }
         val own = first.last.model.steps
         val turned = if (doubtful || isLikeHeld) better(first, if (isLikeHeld) HELD else 0.0, own.other) else first
         // What makes sharp steps look late may have hidden the third way.
@@ -158,16 +158,16 @@ public class Diagnosis private constructor(
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
             fit.without(gone, tau, Scales(ahead(rows), shaken, shocks), Steps.EVEN, used, longest)
-        val small = SmallShifts(first.last, first.base)
         val (rows, least) = (listOf(shifts) + shifts.map { listOf(it) }).distinct().mapNotNull { gone ->
             val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
             val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER -
-                if (gone.isNotEmpty() && gone.all { small.isLikeLate(it.term) }) LIKELIER else 0.0
+                if (gone.isNotEmpty() && gone.all { first.shifts.isLikeLate(it.term) }) LIKELIER else 0.0
             val best = ReferenceLead.likeliest { led(first.last, gone, it).score }
             best?.takeIf { it.second - kept >= least }?.let { Triple(it.first, least, it.second - kept) }
         }.maxByOrNull { it.third } ?: return null
         val second = weighing(led(first.base, emptyList(), rows), first.spikes, rows * series.period)
-        return second.takeIf { it.explained >= least }
+        // A clock that is behind is no lag of a reference.
+        return second.takeIf { it.explained >= maxOf(least, first.farLateness ?: least) }
     }
 
     /**
@@ -229,7 +229,7 @@ public class Diagnosis private constructor(
 
     /** Whether [second] has a truth held over each step, which [first] has not, and a delay that undoes that. */
     private fun isUndone(first: Weighing, second: Weighing) =
-        !first.last.model.steps.isHeld && SmallShifts(second.last, second.base).areUndone(second.chosen)
+        !first.last.model.steps.isHeld && second.shifts.areUndone(second.chosen)
 
     /** [fit] with steps held if they are not, and the other way round. */
     private fun turned(fit: ModelFit): ModelFit {

@@ -36,6 +36,9 @@ internal class ReferenceFaults(
     /** Whether it is late by no more than an ordinary one may be. */
     private val isOrdinary get() = ahead < ReferenceLead.ordinary(base)
 
+    /** Whether it is late for certain, and by more than that; of causes that are worth [explained] see [isLate]. */
+    fun isFarLate(explained: Double): Boolean = isLate(explained) && !isOrdinary
+
     /** What is to be said of a reference that is late by so little, beside causes that are worth [explained]; else null. */
     fun caution(explained: Double): String? =
         ReferenceLead.words(ahead).takeIf { isOrdinary && isLate(explained) }?.let { "The reference differs: $it." }
@@ -45,7 +48,7 @@ internal class ReferenceFaults(
      * may be one, [isTwoPath]; null if not.
      */
     fun words(explained: Double, isTwoPath: Boolean): String? = when {
-        isLate(explained) && !isOrdinary -> ReferenceLead.words(ahead)
+        isFarLate(explained) -> ReferenceLead.words(ahead)
         isTwoPath && slowest.second >= enough(explained, base.score) ->
             "part of the readings is there at once and the rest follows, as where the reference has a lag of its " +
                 "own, of about %.2g s".format(Locale.ROOT, slowest.first)

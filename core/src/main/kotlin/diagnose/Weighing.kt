@@ -47,6 +47,9 @@ internal class Weighing(
     /** Twice the log-likelihood of [last], less what its numbers would gain by chance. */
     val explained: Double get() = last.score - chosen.sumOf { it.cost }
 
+    /** What of the answer is a shift that may be none. */
+    val shifts: SmallShifts = SmallShifts(last, base, late)
+
     /** Whether the log's speeds differ enough to tell an offset of place. */
     val hasPlace: Boolean get() = terms.any { it.cause == Cause.POSITION_OFFSET }
 
@@ -58,6 +61,9 @@ internal class Weighing(
      * and explains as much; else null.
      */
     val lateness: Double? get() = faults.lateness.takeIf { faults.isLate(explained) }
+
+    /** [lateness] where that is more than an ordinary reference's. */
+    val farLateness: Double? get() = faults.lateness.takeIf { faults.isFarLate(explained) }
 
     /** The answer. */
     fun result(): DiagnosisResult {
@@ -71,7 +77,6 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val shifts = SmallShifts(last, base, late)
         val (equal, others) = chosen.zip(forward.alike(chosen)).partition { (trial, _) -> mayBeEqual(trial.term) }
         val (small, clear) = others.partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
