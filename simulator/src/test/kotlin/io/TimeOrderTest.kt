@@ -23,7 +23,7 @@ class TimeOrderTest {
     }
 
     private fun csv(times: List<Number>, skip: Boolean = true) = read(
-        "time_s,lat_deg,lon_deg,v\n" + times.withIndex().joinToString("") { (i, t) -> "$t,45.${i + 1},7,$i\n" },
+        "time_s,lat_deg,lon_deg,v\n" + times.withIndex().joinToString("") { (i, t) -> "$t,45.000${i + 10},7,$i\n" },
         LogChoice(skipBadRows = skip),
     )
 
