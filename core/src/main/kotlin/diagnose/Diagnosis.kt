@@ -166,7 +166,6 @@ public class Diagnosis private constructor(
             best?.takeIf { it.second - kept >= least }?.let { Triple(it.first, least, it.second - kept) }
         }.maxByOrNull { it.third } ?: return null
         val second = weighing(led(first.base, emptyList(), rows), first.spikes, rows * series.period)
-        // A clock that is behind is no lag of a reference.
         return second.takeIf { it.explained >= maxOf(least, first.farLateness ?: least) }
     }
 
