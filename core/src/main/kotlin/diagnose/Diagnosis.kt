@@ -158,7 +158,7 @@ public class Diagnosis private constructor(
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
             fit.without(gone, tau, Scales(ahead(rows), shaken, shocks), Steps.EVEN, used, longest)
-        val (rows, least) = (listOf(shifts) + shifts.map { listOf(it) }).distinct().mapNotNull { gone ->
+        val (rows, least) = shifts.allOrEach().mapNotNull { gone ->
             val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
             val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER -
                 if (gone.isNotEmpty() && gone.all { first.shifts.isLikeLate(it.term) }) LIKELIER else 0.0
@@ -182,7 +182,7 @@ public class Diagnosis private constructor(
         val isAtOnce = first.last.numbers[ResponseModel.TIME_CONSTANT] < series.period / 2
         if (isAtOnce && shifts.none { it.term.cause == Cause.TWO_PATH_RESPONSE }) return null
         val rows = used.copyOf()
-        val fewer = (listOf(shifts) + shifts.map { listOf(it) } + listOf(emptyList())).distinct()
+        val fewer = (shifts.allOrEach() + listOf(emptyList())).distinct()
         val (before, gone) = SHARES.flatMap { share ->
             val held = series.withQuieter(rowBefore(series, unknown.isGap, share))
             val before = Diagnosis(held, settings, loops, share) { }

@@ -24,3 +24,6 @@ internal fun ModelFit.without(
     val guess = CorrelatedNoise(scales.series.times, noise.share, noise.time, rows, scales.shocks)
     return Fitting.fit(fewer, start, open, rows, longest, guess = guess)
 }
+
+/** Which of these may be gone: all together, and each alone. */
+internal fun List<Trial>.allOrEach(): List<List<Trial>> = (listOf(this) + map { listOf(it) }).distinct()

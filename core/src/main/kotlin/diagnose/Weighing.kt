@@ -62,7 +62,10 @@ internal class Weighing(
      */
     val lateness: Double? get() = faults.lateness.takeIf { faults.isLate(explained) }
 
-    /** [lateness] where that is more than an ordinary reference's. */
+    /**
+     * [lateness] where that is more than an ordinary reference's: what is put right as a lag of the reference must explain
+     * as much, which it does not of a clock that is behind.
+     */
     val farLateness: Double? get() = faults.lateness.takeIf { faults.isFarLate(explained) }
 
     /** The answer. */
