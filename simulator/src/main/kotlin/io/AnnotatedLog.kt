@@ -137,7 +137,8 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
         val day = if (columns.date == CsvColumns.NONE) 0.0 else place.reader.day(text(columns.date))
         val time = ofRow + day
         val value = place.reader.number(text(columns.value))
-        return time == part.times[place.next] && value == part.values[place.next] && isPlace(place, fields)
+        val isTime = part.times[place.next] in time..time + (place.survey.times.rounding?.unit ?: 0.0)
+        return isTime && value == part.values[place.next] && isPlace(place, fields)
     }
 
     /** Degrees are compared by being there only: a row left out for its place may be the next one's twin. */

@@ -29,6 +29,26 @@ internal class CsvLayout(
         return rows.map { reader.number(fields(it, separator)?.getOrNull(column).orEmpty()) }
     }
 
+    /**
+     * The times that the head of the log has in [columns], written as [form], s, NaN for others. A line that is the one
+     * before it once more is left out.
+     */
+    fun times(columns: CsvColumns, form: TimeForm): List<Double> {
+        val reader = FieldReader(decimalComma, form)
+        return rows.filterIndexed { i, row -> i == 0 || row != rows[i - 1] }.map { row ->
+            val fields = fields(row, separator).orEmpty()
+            val day = if (columns.date == CsvColumns.NONE) 0.0 else reader.day(fields.getOrNull(columns.date).orEmpty())
+            reader.time(fields.getOrNull(columns.time).orEmpty()) + day
+        }
+    }
+
+    /** What to add to a message about [text], which is no number: whether its comma makes it none. */
+    fun commaHint(text: String): String = when {
+        DecimalText.parse(text.replace(',', '.')).isNaN() -> ""
+        decimalComma -> " (decimals have a comma in this log)"
+        else -> " (decimals need a point)"
+    }
+
     /** What it is, for people. */
     val kind: String get() = "survey CSV" + KINDS.getValue(separator)
 

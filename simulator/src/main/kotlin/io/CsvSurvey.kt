@@ -23,7 +23,7 @@ internal class CsvSurvey internal constructor(
     internal val content: LogContent,
     internal val layout: CsvLayout,
     internal val columns: CsvColumns,
-    private val times: CsvTimes,
+    internal val times: CsvTimes,
     private val skipBadRows: Boolean,
     private val keepsUnread: Boolean = false,
 ) : SurveyLog {
@@ -117,8 +117,8 @@ internal class CsvSurvey internal constructor(
         private var headerSeen = false
         private val jumps = PositionJumps(speedUnit)
         private val far = FarFixes(::hand)
-        private val order = TimeOrder(::use) { row, other, fault -> refuse(timeProblem(row, other, fault)) }
-        private val unread = UnreadRows(order::take)
+        private val inTime =
+            RowTimes(times.rounding, { row, other, fault -> refuse(timeProblem(row, other, fault)) }, ::use)
         private val local = DoubleArray(2)
         private val inDegrees = columns.latitude != CsvColumns.NONE
         private val northColumn = if (inDegrees) columns.latitude else columns.y
@@ -146,7 +146,7 @@ internal class CsvSurvey internal constructor(
                 val problem = if (reason == null) problemOf(row) else null
                 when {
                     reason != null -> passOver(row, reason)
-                    problem == null -> unread.read(placed(row))
+                    problem == null -> inTime.read(placed(row))
                     else -> refuse(problem)
                 }
             }
@@ -154,9 +154,10 @@ internal class CsvSurvey internal constructor(
 
         private fun passOver(row: CsvRow, reason: String) {
             skips.count(reason)
-            if (!keepsUnread || reason !in UnreadRows.REASONS) return
+            // Where times were cut to units, a row without a reading still shows the time of those around it.
+            if ((!keepsUnread && times.rounding == null) || reason !in UnreadRows.REASONS) return
             row.numbers[VALUE] = 0.0
-            if (problemOf(row) == null) unread.add(placed(row))
+            if (problemOf(row) == null) inTime.missed(placed(row))
         }
 
         /** Why [row] is right and yet holds no reading; null where it holds one, or is wrong. */
@@ -243,7 +244,7 @@ internal class CsvSurvey internal constructor(
             val hint = when {
                 text.trim() == columns.names[column] -> ", the header again: is this another log glued onto the first?"
                 row.numbers[slot].isInfinite() -> " (too large)"
-                else -> (if (slot == TIME) times.zoneHint(text) else "") + commaHint(text)
+                else -> (if (slot == TIME) times.zoneHint(text) else "") + layout.commaHint(text)
             }
             val expected = if (slot == TIME) times.expected else "a finite number"
             return problem(row.line, column, expected, quoted(text) + hint, reason)
@@ -252,12 +253,6 @@ internal class CsvSurvey internal constructor(
         /** Whether the row has about as many fields more as it would if commas stood in its numbers. */
         private fun splitsDecimals(row: CsvRow) = layout.separator == ',' &&
             row.fields > columns.names.size + 1 && row.fields <= 2 * columns.names.size
-
-        private fun commaHint(text: String) = when {
-            DecimalText.parse(text.replace(',', '.')).isNaN() -> ""
-            layout.decimalComma -> " (decimals have a comma in this log)"
-            else -> " (decimals need a point)"
-        }
 
         private fun conditionProblem(row: CsvRow): LogProblem? {
             for (i in conditionNames.indices) {
@@ -343,6 +338,7 @@ internal class CsvSurvey internal constructor(
 
         private fun use(row: TimedRow) {
             when {
+                row.value.isNaN() && !keepsUnread -> Unit
                 row.x.isNaN() -> skips.count("positions without a fix (0, 0)")
                 isFlat -> far.take(row)
                 else -> hand(row)
@@ -370,10 +366,10 @@ internal class CsvSurvey internal constructor(
 
         fun end(): LogPass {
             if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
-            order.end()
+            inTime.end()
             far.end()
             repeat(far.count.toInt()) { skips.count("single fixes far off") }
-            val notes = listOfNotNull(order.note, nights.note, far.note, jumps.note) + codes.notes()
+            val notes = inTime.notes + listOfNotNull(nights.note, far.note, jumps.note) + codes.notes()
             return LogPass(readings, skips.toMap(), notes, jumps.count)
         }
     }

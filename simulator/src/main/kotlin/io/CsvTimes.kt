@@ -5,13 +5,21 @@ package stillwater.io
  *
  * @property form how they are written. @property notes what was taken for what, for people.
  * @property expected what a time must be, for messages. @property expectedDate what a date must be, likewise.
+ * @property rounding what they were cut to; null where they are as good as they are written.
  */
 internal class CsvTimes(
     val form: TimeForm,
     val notes: List<String>,
     val expected: String,
     val expectedDate: String = "",
+    val rounding: TimeRounding? = null,
 ) {
+    /** The same with its [rounding] told from the times in the head of the log. */
+    fun rounded(layout: CsvLayout, columns: CsvColumns): CsvTimes {
+        val found = TimeRounding.of(layout.times(columns, form), form) ?: return this
+        return CsvTimes(form, notes + "times in ${found.words}", expected, expectedDate, found)
+    }
+
     /** What to add to a message about [text], which is no time: whether the name of a zone makes it none. */
     fun zoneHint(text: String): String {
         val name = ZONE.find(text)?.groupValues?.get(1) ?: return ""

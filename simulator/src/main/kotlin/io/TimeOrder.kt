@@ -15,7 +15,10 @@ internal class TimedRow(
     val y: Double,
     val value: Double,
     val conditions: Conditions,
-)
+) {
+    /** The same row with its time at [seconds]. */
+    fun at(seconds: Double) = TimedRow(line, seconds, x, y, value, conditions)
+}
 
 /** Why a row is refused for its time. */
 internal enum class TimeFault(val reason: String) {
@@ -36,14 +39,18 @@ internal enum class TimeFault(val reason: String) {
  * Of a row and the next, which lies before it but after the row before both, the first is refused if the row after them
  * lies between the two, and the second if not.
  *
- * @param use takes a row in the order of times. @param refuse takes a row that is out of order, the one it lies on the
- *   wrong side of, and how.
+ * @param most rows that may share one time: 1 unless times are rounded. @param use takes a row in the order of times.
+ * @param refuse takes a row that is out of order, the one it lies on the wrong side of, and how.
  */
 internal class TimeOrder(
+    private val most: Int,
     private val use: (TimedRow) -> Unit,
     private val refuse: (TimedRow, TimedRow, TimeFault) -> Unit,
 ) {
     private var before = Double.NEGATIVE_INFINITY
+
+    /** Rows let through at that time. */
+    private var sharing = 0
     private var latest: TimedRow? = null
     private var challenger: TimedRow? = null
     private val runs = BackwardRuns("rows")
@@ -51,24 +58,28 @@ internal class TimeOrder(
     /** What to say of long runs of refused rows; null where there are none. */
     val note: String? get() = runs.note
 
+    /** Rows let through that have the time of the one before. */
+    var shared = 0L
+        private set
+
     /** Takes the next row of the file. */
     fun take(row: TimedRow) {
         val held = latest
         val second = challenger
         when {
             held == null -> latest = row
-            row.seconds > held.seconds -> {
+            row.seconds == held.seconds && !mayShare(held) -> refuse(row, held, TimeFault.DUPLICATE)
+            row.seconds >= held.seconds -> {
                 if (second != null) back(second, held)
                 pass(held, row)
             }
-            row.seconds == held.seconds -> refuse(row, held, TimeFault.DUPLICATE)
-            second != null && row.seconds > second.seconds -> {
+            second != null && (row.seconds > second.seconds || (row.seconds == second.seconds && mayShare(second))) -> {
                 refuse(held, second, TimeFault.AHEAD)
                 pass(second, row)
             }
-            second == null && row.seconds > before -> challenger = row
+            second == null && isAfterThose(row) -> challenger = row
             // Both lie before the one that waits, and this one before the other: the first of them is told first.
-            second != null && row.seconds < second.seconds && row.seconds > before -> {
+            second != null && row.seconds < second.seconds && isAfterThose(row) -> {
                 back(second, held)
                 challenger = row
             }
@@ -83,6 +94,12 @@ internal class TimeOrder(
         pass(held, null)
     }
 
+    /** Whether one more may have the time of [row], which waits. */
+    private fun mayShare(row: TimedRow) = 1 + (if (row.seconds == before) sharing else 0) < most
+
+    /** Whether [row] may follow the rows let through. */
+    private fun isAfterThose(row: TimedRow) = row.seconds > before || (row.seconds == before && sharing < most)
+
     private fun back(row: TimedRow, held: TimedRow) {
         runs.refused(held.line)
         refuse(row, held, TimeFault.BACK)
@@ -90,6 +107,12 @@ internal class TimeOrder(
 
     private fun pass(row: TimedRow, next: TimedRow?) {
         use(row)
+        if (row.seconds == before) {
+            sharing++
+            shared++
+        } else {
+            sharing = 1
+        }
         before = row.seconds
         latest = next
         challenger = null

@@ -6,9 +6,9 @@ package stillwater.io
  *
  * Where they are not they are dropped: a row without a reading is no reason to refuse one that has one.
  *
- * @param take takes a row whose turn has come; without a reading its value is NaN.
+ * @param mayShare whether rows may share one time, which is rounded then. @param take takes a row whose turn has come; without a reading its value is NaN.
  */
-internal class UnreadRows(private val take: (TimedRow) -> Unit) {
+internal class UnreadRows(private val mayShare: Boolean, private val take: (TimedRow) -> Unit) {
     private val waiting = ArrayList<TimedRow>()
     private var last = Double.NEGATIVE_INFINITY
 
@@ -20,7 +20,7 @@ internal class UnreadRows(private val take: (TimedRow) -> Unit) {
     /** Hands [row], which has a reading, on after those that wait and lie before it. */
     fun read(row: TimedRow) {
         for (unread in waiting) {
-            if (unread.seconds > last && unread.seconds < row.seconds) {
+            if (isBetween(unread.seconds, row.seconds)) {
                 last = unread.seconds
                 take(unread)
             }
@@ -29,6 +29,9 @@ internal class UnreadRows(private val take: (TimedRow) -> Unit) {
         last = maxOf(last, row.seconds)
         take(row)
     }
+
+    private fun isBetween(seconds: Double, next: Double) =
+        (seconds > last && seconds < next) || (mayShare && seconds >= last && seconds <= next)
 
     companion object {
         /** Why a row may lack the reading, as it is counted. */

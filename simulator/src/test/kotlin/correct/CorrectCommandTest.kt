@@ -67,6 +67,17 @@ class CorrectCommandTest {
     }
 
     @Test
+    fun rowsThatShareAWholeSecondKeepTheirTimesAndAreAllCorrected() {
+        val rows = (0 until 120).map { "${it / 2},$it,0,${water(it - 5)}" }
+        val result = run(log((listOf("time_s,x_m,y_m,slow") + rows).joinToString("\n")), "--value", "slow")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "times are whole seconds (60 rows of the time of the row before)")
+        val lines = out.resolve("corrected.csv").readLines().drop(1)
+        assertEquals(rows, lines.map { it.split(',').take(4).joinToString(",") })
+        assertEquals(emptyList(), lines.filter { it.endsWith(",") })
+    }
+
+    @Test
     fun allBytesOfTheLogAreKept() {
         for ((name, charset, mark) in listOf(
             Triple("utf-8", Charsets.UTF_8, ""),
