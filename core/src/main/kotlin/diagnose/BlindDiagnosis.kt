@@ -103,10 +103,9 @@ internal class BlindDiagnosis(
         val once = BlindForward(search, settings) { round(it) }.of(first)
         val found = heldInstead(once.steps) ?: once
         val chosen = found.steps
-        if (base.model.steps !=
-            search.steps
-        ) {
+        if (base.model.steps != search.steps) {
             base = checkNotNull(search.turned(base, search.steps, Double.NEGATIVE_INFINITY))
+            lag = lag(base, search.still(base))
         }
         val last = chosen.lastOrNull()?.state ?: first.state
         val end = found.ended ?: round(last)
