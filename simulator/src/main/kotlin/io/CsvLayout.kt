@@ -29,18 +29,9 @@ internal class CsvLayout(
         return rows.map { reader.number(fields(it, separator)?.getOrNull(column).orEmpty()) }
     }
 
-    /**
-     * The times that the head of the log has in [columns], written as [form], s, NaN for others. A line that is the one
-     * before it once more is left out.
-     */
-    fun times(columns: CsvColumns, form: TimeForm): List<Double> {
-        val reader = FieldReader(decimalComma, form)
-        return rows.filterIndexed { i, row -> i == 0 || row != rows[i - 1] }.map { row ->
-            val fields = fields(row, separator).orEmpty()
-            val day = if (columns.date == CsvColumns.NONE) 0.0 else reader.day(fields.getOrNull(columns.date).orEmpty())
-            reader.time(fields.getOrNull(columns.time).orEmpty()) + day
-        }
-    }
+    /** Fields of the rows in the head of the log; a line that is the one before it once more is left out. */
+    fun body(): List<List<String>> =
+        rows.filterIndexed { i, row -> i == 0 || row != rows[i - 1] }.map { fields(it, separator).orEmpty() }
 
     /** What to add to a message about [text], which is no number: whether its comma makes it none. */
     fun commaHint(text: String): String = when {

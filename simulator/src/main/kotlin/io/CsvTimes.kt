@@ -5,7 +5,8 @@ package stillwater.io
  *
  * @property form how they are written. @property notes what was taken for what, for people.
  * @property expected what a time must be, for messages. @property expectedDate what a date must be, likewise.
- * @property rounding what they were cut to; null where they are as good as they are written.
+ * @property rounding what they were cut to; null where they are as good as they are written. @property label column
+ * that tells rows of one time apart; null where none does.
  */
 internal class CsvTimes(
     val form: TimeForm,
@@ -13,10 +14,19 @@ internal class CsvTimes(
     val expected: String,
     val expectedDate: String = "",
     val rounding: TimeRounding? = null,
+    val label: String? = null,
 ) {
-    /** The same with its [rounding] told from the times in the head of the log. */
+    /** The same with its [rounding], or [label], told from the head of the log. */
     fun rounded(layout: CsvLayout, columns: CsvColumns): CsvTimes {
-        val found = TimeRounding.of(layout.times(columns, form), form) ?: return this
+        val reader = FieldReader(layout.decimalComma, form)
+        val rows = layout.body()
+        val times = rows.map { row ->
+            val day = if (columns.date == CsvColumns.NONE) 0.0 else reader.day(row.getOrNull(columns.date).orEmpty())
+            reader.time(row.getOrNull(columns.time).orEmpty()) + day
+        }
+        val label = RowLabels.column(rows, times, columns)
+        if (label != null) return CsvTimes(form, notes, expected, expectedDate, label = columns.names[label])
+        val found = TimeRounding.of(times, form) ?: return this
         return CsvTimes(form, notes + "times in ${found.words}", expected, expectedDate, found)
     }
 

@@ -67,7 +67,7 @@ internal class RestoredTimes(private val unit: Double, private val use: (TimedRo
         return true
     }
 
-    /** Hands on the first [count] rows that wait, on a line of [slope] s a row from the knot, and ties the next knot. */
+    /** Hands on the first [count] rows that wait, [slope] s a row from the knot, and ties the next one. */
     private fun emit(count: Int, slope: Double) {
         handFirst()
         for (i in 1..count) hand(waiting[i - 1], knot + slope * i)

@@ -32,6 +32,7 @@ internal class TimeWording(private val times: CsvTimes, sample: String) {
     fun expected(seconds: Double, other: Double, fault: TimeFault): String {
         if (fault == TimeFault.AHEAD) return "a time before ${of(other)}, which the next row has"
         val hint = when {
+            fault == TimeFault.DUPLICATE && times.label != null -> ", or one ${times.label} alone, not several in turn"
             fault == TimeFault.DUPLICATE -> ""
             times.form.kind == TimeForm.Kind.OF_ANY_DAY -> ", or --overnight HOURS if the next day begins here"
             isLocal && other - seconds in SUMMER_TIME -> " (summer time may end here: only times with an offset tell)"

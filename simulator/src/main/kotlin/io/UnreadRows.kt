@@ -6,7 +6,8 @@ package stillwater.io
  *
  * Where they are not they are dropped: a row without a reading is no reason to refuse one that has one.
  *
- * @param mayShare whether rows may share one time, which is rounded then. @param take takes a row whose turn has come; without a reading its value is NaN.
+ * @param mayShare whether rows may share one time, which is rounded then. @param take takes a row whose turn has come;
+ *   without a reading its value is NaN.
  */
 internal class UnreadRows(private val mayShare: Boolean, private val take: (TimedRow) -> Unit) {
     private val waiting = ArrayList<TimedRow>()

@@ -66,6 +66,18 @@ class RoundedLogTest {
     }
 
     @Test
+    fun severalSensorsBelowEachOtherAreNoRounding() {
+        for ((name, labels) in listOf("parameter" to listOf("temp", "odo"), "sensor_id" to listOf("3", "12"))) {
+            val rows = (0 until 100).joinToString("") { "${it / 2},$it,0,${labels[it % 2]},${20 - it % 2 * 12}\n" }
+            val problem = assertFailsWith<LogProblem> { read("time_s,x_m,y_m,$name,v\n$rows") }
+            val expected = "expected a time after 0 s, or one $name alone, not several in turn, found 0 s"
+            assertContains(problem.message.orEmpty(), expected)
+        }
+        // Words that stay tell nothing apart.
+        assertEquals(100, read(seconds(100).replace("\n", ",ok\n").replace("v,ok", "v,state")).times.size)
+    }
+
+    @Test
     fun aWrongTimeAmongThemCostsItsRowOnly() {
         val rows = (0 until 100).map { if (it == 41) 5000 else it / 5 }
         val text = "time_s,x_m,y_m,v\n" + rows.withIndex().joinToString("") { (i, time) -> "$time,$i,0,$i\n" }
