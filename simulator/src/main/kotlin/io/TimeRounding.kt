@@ -30,21 +30,21 @@ internal class TimeRounding(val unit: Double, val most: Int) {
 
     /** Times in units from the first of a log, of which none goes back. */
     private class Steps(times: List<Double>, unit: Double) {
-        private val steps = times.zipWithNext { a, b -> ((b - a) / unit).roundToLong() }.filter { it >= 0 }
-        private val sorted = steps.filter { it > 0 }.sorted()
+        private val inUnits = times.zipWithNext { a, b -> ((b - a) / unit).roundToLong() }.filter { it >= 0 }
+        private val sorted = inUnits.filter { it > 0 }.sorted()
 
         /** The usual step to a later time. */
         val usual = if (sorted.isEmpty()) 0 else sorted[sorted.size / 2]
 
         /** How often a row has the time of the one before. */
-        val repeats = steps.count { it == 0L }
+        val repeats = inUnits.count { it == 0L }
 
         /** The usual number of rows that share a time that is shared. */
         val shared: Int
             get() {
                 val sizes = ArrayList<Int>()
                 var size = 1
-                for (step in steps + 1L) {
+                for (step in inUnits + 1L) {
                     if (step == 0L) {
                         size++
                     } else {
@@ -62,9 +62,9 @@ internal class TimeRounding(val unit: Double, val most: Int) {
         fun areRegular(): Boolean {
             if (usual !in 1..LONGEST) return false
             val others = listOf(usual - 1, usual + 1).filter { it > 0 }
-            val other = others.maxByOrNull { step -> steps.count { it == step } } ?: return false
-            if (steps.count { it != usual && it != other } > MOST_OTHERS * steps.size) return false
-            val gaps = steps.indices.filter { steps[it] == other }.zipWithNext { a, b -> (b - a).toDouble() }
+            val other = others.maxByOrNull { step -> inUnits.count { it == step } } ?: return false
+            if (inUnits.count { it != usual && it != other } > MOST_OTHERS * inUnits.size) return false
+            val gaps = inUnits.indices.filter { inUnits[it] == other }.zipWithNext { a, b -> (b - a).toDouble() }
             if (gaps.size < FEWEST_GAPS) return false
             val mean = gaps.average()
             val variance = gaps.sumOf { (it - mean) * (it - mean) } / (gaps.size - 1)
