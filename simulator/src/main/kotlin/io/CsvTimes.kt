@@ -27,6 +27,7 @@ internal class CsvTimes(
         val label = RowLabels.column(rows, times, columns)
         if (label != null) return CsvTimes(form, notes, expected, expectedDate, label = columns.names[label])
         val found = TimeRounding.of(times, form) ?: return this
+        if (RowLabels.areApart(rows, times, columns, FASTEST * maxOf(1.0, found.unit), reader::number)) return this
         return CsvTimes(form, notes + "times in ${found.words}", expected, expectedDate, found)
     }
 
@@ -41,6 +42,9 @@ internal class CsvTimes(
     companion object {
         /** Seconds from 1970 to the end of the year 9999, the last that ISO 8601 writes in four digits. */
         const val LATEST: Double = 253_402_300_800.0
+
+        /** No boat goes faster between two rows, m/s. */
+        private const val FASTEST = 20.0
 
         /** What such a date must be. */
         const val A_DATE = "a time before the year 5138"

@@ -78,6 +78,15 @@ class RoundedLogTest {
     }
 
     @Test
+    fun twoBoatsInTurnAreNoRounding() {
+        for ((names, place) in listOf("x_m,y_m" to "5,%d", "lat_deg,lon_deg" to "45.00%d,7")) {
+            val rows = (0 until 100).joinToString("") { "${it / 2},${place.format(it % 2 * 300)},$it\n" }
+            val problem = assertFailsWith<LogProblem> { read("time_s,$names,v\n$rows") }
+            assertContains(problem.message.orEmpty(), "expected a time after 0 s, found 0 s")
+        }
+    }
+
+    @Test
     fun aWrongTimeAmongThemCostsItsRowOnly() {
         val rows = (0 until 100).map { if (it == 41) 5000 else it / 5 }
         val text = "time_s,x_m,y_m,v\n" + rows.withIndex().joinToString("") { (i, time) -> "$time,$i,0,$i\n" }
