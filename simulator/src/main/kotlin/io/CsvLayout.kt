@@ -23,15 +23,17 @@ internal class CsvLayout(
     /** The unit of [column] by the line of units, without brackets; empty where there is none. */
     fun unit(column: Int): String = units.getOrNull(column).orEmpty().trim(' ', '(', ')', '[', ']', '<', '>')
 
+    private val split by lazy { rows.map { fields(it, separator).orEmpty() } }
+
     /** The numbers that the head of the log has in [column], NaN for others. */
     fun numbers(column: Int): List<Double> {
         val reader = FieldReader(decimalComma, TimeForm(TimeForm.Kind.PLAIN))
-        return rows.map { reader.number(fields(it, separator)?.getOrNull(column).orEmpty()) }
+        return split.map { reader.number(it.getOrNull(column).orEmpty()) }
     }
 
     /** Fields of the rows in the head of the log; a line that is the one before it once more is left out. */
     fun body(): List<List<String>> =
-        rows.filterIndexed { i, row -> i == 0 || row != rows[i - 1] }.map { fields(it, separator).orEmpty() }
+        split.filterIndexed { i, _ -> i == 0 || rows[i] != rows[i - 1] }
 
     /** What to add to a message about [text], which is no number: whether its comma makes it none. */
     fun commaHint(text: String): String = when {

@@ -1,12 +1,7 @@
 package stillwater.io
 
-import kotlin.math.hypot
-
 /** Columns that say of which sensor, quantity or boat a row is, in tables that hold several below each other. */
 internal object RowLabels {
-    /** Along a meridian; along a circle of latitude no more. */
-    private const val METRES_A_DEGREE = 111_195.0
-
     /** Names of columns whose numbers are such labels. */
     private val NAME =
         Regex("""(?i)(?<![a-z])(id|sensor|device|boat|node|channel|probe|station|serial|parameter)(?![a-z])""")
@@ -28,10 +23,8 @@ internal object RowLabels {
     }
 
     /**
-     * Whether most of the rows that share a time with the one before lie more than [far] m from it, as those of two
-     * boats in turn do.
-     *
-     * @param number reads a field.
+     * Whether most of the rows that share a time with the one before, [times] s, lie more than [far] m from it, as those
+     * of two boats in turn do; [number] reads a field.
      */
     fun areApart(
         rows: List<List<String>>,
@@ -40,16 +33,10 @@ internal object RowLabels {
         far: Double,
         number: (String) -> Double,
     ): Boolean {
-        val inDegrees = columns.latitude != CsvColumns.NONE
-        val north = if (inDegrees) columns.latitude else columns.y
-        val east = if (inDegrees) columns.longitude else columns.x
-        if (north == CsvColumns.NONE) return false
-        val unit = if (inDegrees) METRES_A_DEGREE else 1.0
-        fun step(row: Int, column: Int) =
-            number(rows[row].getOrNull(column).orEmpty()) - number(rows[row - 1].getOrNull(column).orEmpty())
-
-        val twins = twins(times)
-        return 2 * twins.count { unit * hypot(step(it, north), step(it, east)) > far } > twins.size
+        val places = HeadPlaces.of(columns) { column -> rows.map { number(it.getOrNull(column).orEmpty()) } }
+            ?: return false
+        val twins = twins(times).filter { places.isPlace(it) && places.isPlace(it - 1) }
+        return 2 * twins.count { places.metres(it - 1, it) > far } > twins.size
     }
 
     private fun twins(times: List<Double>) = times.indices.drop(1).filter { times[it] == times[it - 1] }

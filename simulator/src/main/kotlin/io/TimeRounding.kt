@@ -1,5 +1,6 @@
 package stillwater.io
 
+import org.hipparchus.stat.StatUtils
 import stillwater.report.counted
 import java.util.Locale
 import kotlin.math.abs
@@ -66,10 +67,10 @@ internal class TimeRounding(val unit: Double, val most: Int) {
             if (inUnits.count { it != usual && it != other } > MOST_OTHERS * inUnits.size) return false
             val gaps = inUnits.indices.filter { inUnits[it] == other }.zipWithNext { a, b -> (b - a).toDouble() }
             if (gaps.size < FEWEST_GAPS) return false
-            val mean = gaps.average()
-            val variance = gaps.sumOf { (it - mean) * (it - mean) } / (gaps.size - 1)
+            val lengths = gaps.toDoubleArray()
+            val mean = StatUtils.mean(*lengths)
             // By chance their lengths are distributed geometrically.
-            return variance < REGULAR * mean * (mean - 1)
+            return StatUtils.variance(*lengths) < REGULAR * mean * (mean - 1)
         }
     }
 
