@@ -2,6 +2,9 @@ package stillwater.io
 
 /** Columns that say of which sensor, quantity or boat a row is, in tables that hold several below each other. */
 internal object RowLabels {
+    /** A time or two that come twice are a fault of the log, whatever else differs there. */
+    private const val FEWEST_TWINS = 3
+
     /** Names of columns whose numbers are such labels. */
     private val NAME =
         Regex("""(?i)(?<![a-z])(id|sensor|device|boat|node|channel|probe|station|serial|parameter)(?![a-z])""")
@@ -14,6 +17,7 @@ internal object RowLabels {
      */
     fun column(rows: List<List<String>>, times: List<Double>, columns: CsvColumns): Int? {
         val twins = twins(times)
+        if (twins.size < FEWEST_TWINS) return null
         val others = columns.names.indices - setOf(columns.time, columns.date, columns.value)
         return others.firstOrNull { column ->
             val isLabel = NAME.containsMatchIn(columns.names[column].replace('_', ' '))

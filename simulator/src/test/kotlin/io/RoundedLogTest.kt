@@ -78,6 +78,15 @@ class RoundedLogTest {
     }
 
     @Test
+    fun aTimeThatComesTwiceBesideOtherWordsIsAFault() {
+        val rows = (0 until 50).map { "$it,$it,0,a,$it" }.toMutableList()
+        rows[20] = "19,20,0,b,20"
+        val text = "time_s,x_m,y_m,note,v\n" + rows.joinToString("\n")
+        val problem = assertFailsWith<LogProblem> { read(text) }
+        assertContains(problem.message.orEmpty(), "expected a time after 19 s, found 19 s")
+    }
+
+    @Test
     fun twoBoatsInTurnAreNoRounding() {
         for ((names, place) in listOf("x_m,y_m" to "5,%d", "lat_deg,lon_deg" to "45.00%d,7")) {
             val rows = (0 until 100).joinToString("") { "${it / 2},${place.format(it % 2 * 300)},$it\n" }
