@@ -19,9 +19,19 @@ internal class BlindJump(private val fit: BlindFit, private val row: Int, privat
     /** The sum of its products with those of [other]. */
     fun product(other: BlindJump): Double {
         val own = white()
-        val both = dot(own, if (other === this) own else other.white()) - dot(moved, other.pulled)
-        return both - moved.indices.sumOf { fit.precisions[it] * moved[it] * other.moved[it] }
+        return product(other, dot(own, if (other === this) own else other.white()))
     }
+
+    /** The same with each of [others]. */
+    fun products(others: List<BlindJump>): DoubleArray {
+        val all = DoubleArray(fit.design.noise.spread.size)
+        fit.design.noise.jumps(white(), all)
+        return DoubleArray(others.size) { product(others[it], all[others[it].row]) }
+    }
+
+    /** The same with [other], where [white] is the product of both, whitened. */
+    private fun product(other: BlindJump, white: Double): Double =
+        white - dot(moved, other.pulled) - moved.indices.sumOf { fit.precisions[it] * moved[it] * other.moved[it] }
 
     /** The sum of its products with [rest]. */
     fun product(rest: Rest): Double = rest.jumps[row] - dot(moved, rest.pulled)

@@ -17,7 +17,12 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
     private val n = z.size
     private val stride = maxOf(n / PLACES, 1)
     private val edge = JumpPlaces.edge(n)
-    private val striking by lazy { (edge until n - edge).sortedByDescending { abs(z[it]) }.take(STRIKING) }
+
+    /** Rows that are looked at first, which ascend. */
+    private val rows: List<Int> by lazy {
+        val striking = (edge until n - edge).sortedByDescending { abs(z[it]) }.take(STRIKING)
+        ((edge until n - edge step stride) + striking).distinct().sorted()
+    }
 
     /**
      * How many places a jump may be at: rows next to each other count as far as they can be told apart. No fewer than
@@ -39,10 +44,10 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
     fun searched(jumps: Int): Double = if (jumps == 0) 0.0 else jumps * 2 * ln(count)
 
     /**
-     * The best place, s after the first row, and what is unlike water of a jump there, where [rest] is to be explained;
-     * not near those [taken]. Null where there is no room.
+     * The best place, s after the first row, where [rest] is to be explained; not near those [taken]. Null where there is
+     * no room.
      */
-    fun best(rest: DoubleArray, taken: List<Double>): Pair<Double, DoubleArray>? {
+    fun best(rest: DoubleArray, taken: List<Double>): Double? {
         val explained = BlindJump.Rest(state.fit, rest)
 
         fun best(rows: List<Int>): Int? {
@@ -54,17 +59,55 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
         }
 
         fun isFree(row: Int) = taken.all { abs(it - (times[row] - times[0])) > duration / PLACES }
-        val rows = ((edge until n - edge step stride) + striking).distinct().filter(::isFree)
-        var row = best(rows) ?: return null
+        val row = best(rows.filter(::isFree)) ?: return null
+        return timeBefore(refined(row) { near -> best(near.filter(::isFree)) })
+    }
+
+    /**
+     * The best places of two jumps, s after the first row, where [rest] is to be explained: of two that undo each other
+     * passes contradict either by itself. Null where there is no room.
+     */
+    fun pair(rest: DoubleArray): List<Double>? {
+        val explained = BlindJump.Rest(state.fit, rest)
+        val all = known(rows)
+        val jumps = rows.map(all::getValue)
+        val shares = DoubleArray(rows.size) { jumps[it].product(explained) }
+        val lengths = DoubleArray(rows.size) { jumps[it].length }
+        val products = jumps.map { it.products(jumps) }
+        val pair = JumpPairs.best(rows, edge, shares, lengths) { i, j -> products[i][j] } ?: return null
+
+        fun beside(row: Int, range: IntRange, other: Int): Int {
+            val fixed = known(listOf(other)).getValue(other)
+            val own = fixed.product(explained)
+            return refined(row) { asked ->
+                val near = asked.filter { it in range }
+                val moved = known(near).let { found -> near.map(found::getValue) }
+                val common = fixed.products(moved)
+                near.indices.maxByOrNull {
+                    val share = moved[it].product(explained)
+                    JumpPairs.gain(share, own, moved[it].length, fixed.length, common[it])
+                }?.let(near::get)
+            }
+        }
+        val first = beside(pair.first, edge..pair.second - edge, pair.second)
+        val second = beside(pair.second, first + edge until n - edge, first)
+        return listOf(timeBefore(first), timeBefore(second))
+    }
+
+    /** [row], moved to where it is the best of those near it, as [best] tells of rows that ascend. */
+    private fun refined(row: Int, best: (List<Int>) -> Int?): Int {
+        var now = row
         var reach = stride
         while (reach > 0) {
             val step = maxOf(reach / FINER, 1)
-            val near = (maxOf(row - reach, edge)..minOf(row + reach, n - edge - 1)) step step
-            row = checkNotNull(best((near.filter(::isFree) + row).distinct()))
+            val near = (maxOf(now - reach, edge)..minOf(now + reach, n - edge - 1)) step step
+            now = best((near + now).distinct().sorted()) ?: now
             reach = if (step > 1) step else 0
         }
-        return (times[row] + times[row - 1]) / 2 - times[0] to column(row)
+        return now
     }
+
+    private fun timeBefore(row: Int) = (times[row] + times[row - 1]) / 2 - times[0]
 
     private val found = HashMap<Int, BlindJump>()
 
@@ -76,7 +119,9 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
         return rows.associateWith(found::getValue)
     }
 
-    private fun column(row: Int) = state.fit.unlike(DoubleArray(n) { if (it >= row) 1.0 else 0.0 })
+    /** What is unlike water of a jump at [time], s after the first row. */
+    fun column(time: Double): DoubleArray =
+        state.fit.unlike(DoubleArray(n) { if (times[it] - times[0] > time) 1.0 else 0.0 })
 
     companion object {
         private const val PLACES = 48

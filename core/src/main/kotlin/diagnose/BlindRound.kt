@@ -330,7 +330,7 @@ internal class BlindRound(
             FinerWaves.isNone(refitted.state, search)
         if (!isClear) return begun.trial.atMost(0.0)
         val first = tries.settled(begun.look, refitted, maxOf(state.score, still.score))
-        if (isMissing(begun.look, first)) return first.atMost(0.0)
+        if (isBlurred && isMissing(begun.look, first)) return first.atMost(0.0)
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
         val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }

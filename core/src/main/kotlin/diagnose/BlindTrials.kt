@@ -225,27 +225,30 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
-    /** The jumps that serve best, one after the other while each is worth it. */
+    /** The jumps that serve best, one after the other while each is worth it; or two at once, where these explain more. */
     private fun jumps(): BlindTrial {
-        val times = ArrayList<Double>()
-        var best: BlindTrial? = null
-        var rest = z
-        while (times.size < MOST_JUMPS) {
-            val (time, column) = places.best(rest, times) ?: break
-            times += time
-            val next = fitted(Term(Cause.OFFSET_STEPS, times = times.sorted()), searched(times.size))
-            if (best != null && next.ratio - best.ratio < JUMP_WORTH) break
-            best = next
-            rest = Evidence.without(rest, Evidence.orthonormal(listOf(column)))
-        }
-        return best ?: fitted(Term(Cause.OFFSET_STEPS, times = listOf(series.duration / 2)), 0.0)
+        val first = places.best(z, emptyList()) ?: return fitted(jumps(listOf(series.duration / 2)), 0.0)
+        val one = grown(fitted(jumps(listOf(first)), searched(1)))
+        val two = places.pair(z)?.let { fitted(jumps(it), searched(2)) }
+        return if (two != null && two.ratio > one.ratio + TWO_WORTH) grown(two) else one
+    }
+
+    private fun jumps(times: List<Double>) = Term(Cause.OFFSET_STEPS, times = times.sorted())
+
+    /** [trial], of jumps, with one more, and so on, while each is worth it. */
+    private fun grown(trial: BlindTrial): BlindTrial {
+        val times = checkNotNull(trial.term).times
+        if (times.size >= MOST_JUMPS) return trial
+        val rest = Evidence.without(z, Evidence.orthonormal(times.map(places::column)))
+        val next = places.best(rest, times)?.let { fitted(jumps(times + it), searched(times.size + 1)) }
+        return if (next == null || next.ratio - trial.ratio < JUMP_WORTH) trial else grown(next)
     }
 
     /** The jumps of [term], which this model has, and the one that serves best beside them; null where none is worth it. */
     fun oneMoreJump(term: Term): BlindTrial? {
         if (term.times.size >= MOST_JUMPS) return null
-        val (time, _) = places.best(z, term.times) ?: return null
-        val more = fitted(Term(Cause.OFFSET_STEPS, times = (term.times + time).sorted()), 0.0)
+        val time = places.best(z, term.times) ?: return null
+        val more = fitted(jumps(term.times + time), 0.0)
         return more.takeIf { it.ratio * it.inflation > JUMP_WORTH }
     }
 
@@ -385,5 +388,8 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         val CLOSER = doubleArrayOf(0.0, 2.0).toList()
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 20.0
+
+        /** The same, less what is searched, that two jumps must gain more than one: the best second one gains so much by chance. */
+        const val TWO_WORTH = 10.0
     }
 }

@@ -54,25 +54,7 @@ internal class JumpPlaces(
         val columns = rows.map(::column)
         val shares = DoubleArray(rows.size) { dot(columns[it], whitened) }
         val lengths = DoubleArray(rows.size) { squares(columns[it]) }
-        var best: Pair<Int, Int>? = null
-        var most = 0.0
-        for (i in rows.indices) {
-            for (j in i + 1 until rows.size) {
-                if (rows[j] - rows[i] < edge || !(lengths[i] > LEAST) || !(lengths[j] > LEAST)) continue
-                val common = dot(columns[i], columns[j])
-                val area = lengths[i] * lengths[j] - common * common
-                if (area < LEAST * lengths[i] * lengths[j]) continue
-                // bᵀ G⁻¹ b for the two columns' shares b and their inner products G.
-                val gain = (
-                    shares[i] * shares[i] * lengths[j] + shares[j] * shares[j] * lengths[i] -
-                        2 * shares[i] * shares[j] * common
-                    ) / area
-                if (gain > most) {
-                    most = gain
-                    best = rows[i] to rows[j]
-                }
-            }
-        }
+        val best = JumpPairs.best(rows, edge, shares, lengths) { i, j -> dot(columns[i], columns[j]) }
         return best?.let { (first, second) -> refined(first, second) }
     }
 

@@ -24,8 +24,10 @@ class BlindJumpTest {
         for (a in rows.indices) {
             assertNear(squares(columns[a]), jumps[a].length, "row ${rows[a]}")
             assertNear(dot(columns[a], rest), jumps[a].product(explained), "row ${rows[a]}")
+            val products = jumps[a].products(jumps)
             for (b in rows.indices) {
                 assertNear(dot(columns[a], columns[b]), jumps[a].product(jumps[b]), "rows ${rows[a]}, ${rows[b]}")
+                assertNear(dot(columns[a], columns[b]), products[b], "rows ${rows[a]}, ${rows[b]} of all")
             }
         }
     }

@@ -7,7 +7,7 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Jumps of the readings beside noise that wanders: they show at their own rows alone. */
+/** Jumps of the readings beside noise that wanders, which show at their own rows alone, and beside noise that does not. */
 class BlindJumpsTest {
     private val n = 900
     private val track = CrossingTrack(n)
@@ -15,24 +15,33 @@ class BlindJumpsTest {
     private val x = track.x
     private val y = track.y
 
-    /** The best jumps on top of a lag of 4 s, of readings off by [offset] in the middle third of the log. */
-    private fun jumps(offset: Double): BlindTrial {
+    /**
+     * A lag of 4 s, with which readings are off by [offset] in the rows [off]; [wander] is how far noise wanders besides, the
+     * rest of it has a deviation of 0.005.
+     */
+    private fun trials(offset: Double, off: IntRange, wander: Double): Pair<BlindTrials, BlindJumps> {
         val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) }
         val random = java.util.Random(SEED)
         var state = truth[0]
         var wandering = 0.0
         val values = DoubleArray(n) { i ->
             state += 0.22 * (truth[i] - state)
-            wandering = KEPT * wandering + 0.02 * sqrt(1 - KEPT * KEPT) * random.nextGaussian()
-            state + wandering + 0.005 * random.nextGaussian() + if (i in FIRST until SECOND) offset else 0.0
+            wandering = KEPT * wandering + wander * sqrt(1 - KEPT * KEPT) * random.nextGaussian()
+            state + wandering + 0.005 * random.nextGaussian() + if (i in off) offset else 0.0
         }
         val series = MeasuredSeries(times, x, y, values, null)
         val modes = WaterModes.flat(series, SmoothTrack.of(series), MOST, SHORTEST)
-        val noise = BlindNoise(CorrelatedNoise(times, 0.95, 30.0, BooleanArray(n) { true }), DoubleArray(n) { 1.0 })
+        val share = if (wander > 0) 0.95 else 0.0
+        val noise = BlindNoise(CorrelatedNoise(times, share, 30.0, BooleanArray(n) { true }), DoubleArray(n) { 1.0 })
         val search = BlindSearch(series)
         val found = search.settled(emptyList(), doubleArrayOf(4.0, 1.0, 0.0, 0.0), noise, DoubleArray(0), ROUNDS, modes)
-        return BlindTrials(search, found).attempt(Term(Cause.OFFSET_STEPS))
+        val trials = BlindTrials(search, found)
+        return trials to BlindJumps(found, trials.residual)
     }
+
+    /** The best jumps of readings off by [offset] in the middle third of the log. */
+    private fun jumps(offset: Double) =
+        trials(offset, FIRST until SECOND, wander = 0.02).first.attempt(Term(Cause.OFFSET_STEPS))
 
     @Test
     fun theyAreFoundToTheRow() {
@@ -47,6 +56,25 @@ class BlindJumpsTest {
     fun whereThereIsNoneTheBestPlaceIsChance() {
         val none = jumps(offset = 0.0)
         assertTrue(none.pValue > 0.05, "${none.pValue}, seed $SEED")
+    }
+
+    /**
+     * Readings that are off for 24 rows by four deviations of the noise: what was before and what is after agree, so that the
+     * best place of one jump gains less than half of what two do.
+     */
+    @Test
+    fun twoThatUndoEachOtherAreFoundWhereNeitherIsAlone() {
+        val off = FIRST until FIRST + 24
+        val (trials, places) = trials(offset = 0.02, off, wander = 0.0)
+        val found = trials.attempt(Term(Cause.OFFSET_STEPS))
+        assertEquals(listOf(off.first - 0.5, off.last + 0.5), checkNotNull(found.term).times, "seed $SEED")
+        assertTrue(found.pValue < 1e-3, "${found.pValue}, seed $SEED")
+        val one = checkNotNull(places.best(trials.residual, emptyList()))
+        val column = places.column(one)
+        val alone = dot(column, trials.residual).let { it * it } / squares(column)
+        val both = Evidence.orthonormal(checkNotNull(found.term).times.map(places::column))
+            .sumOf { column -> dot(column, trials.residual).let { it * it } }
+        assertTrue(alone < both / 2, "$alone of $both, seed $SEED")
     }
 
     @Test

@@ -170,6 +170,19 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.bothFound }, Scores(cases).markdown())
     }
 
+    /**
+     * Seeds of the work on it: two jumps that undo each other, of which neither gains anything alone, and a response that
+     * rings in water whose waves are resolved, by less than waves that are missing may do.
+     */
+    @Test
+    fun jumpsThatUndoEachOtherAndAFaintRingAreTold() {
+        val cases = blind(269_240, 269_453)
+        val hidden = listOf(HiddenEffect.STEPS, HiddenEffect.RESONANCE)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.first().correct, Scores(cases).markdown())
+        assertEquals("unexplained", cases.last().answer.verdict, Scores(cases).markdown())
+    }
+
     /** A seed of the work on it: interference of 1.3x, whose period the water takes most of. */
     @Test
     fun whatIsOutsideTheListIsUnexplainedWhereItIsFaint() {
