@@ -44,23 +44,35 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
     fun searched(jumps: Int): Double = if (jumps == 0) 0.0 else jumps * 2 * ln(count)
 
     /**
-     * The best place, s after the first row, where [rest] is to be explained; not near those [taken]. Null where there is
-     * no room.
+     * The best place, s after the first row, beside jumps at those [taken], and not near these, where [rest] is to be
+     * explained. It is looked for about [now], too, if there is one. Null where there is no room.
      */
-    fun best(rest: DoubleArray, taken: List<Double>): Double? {
-        val explained = BlindJump.Rest(state.fit, rest)
+    fun best(rest: DoubleArray, taken: List<Double>, now: Double? = null): Double? {
+        val others = Evidence.orthonormal(taken.map(::column))
+        val explained = BlindJump.Rest(state.fit, Evidence.without(rest, others))
+        val beside = others.map { BlindJump.Rest(state.fit, it) }
 
-        fun best(rows: List<Int>): Int? {
+        fun gains(rows: List<Int>): Map<Int, Double> {
             val jumps = known(rows.sorted())
-            return rows.maxByOrNull { row ->
+            return rows.associateWith { row ->
                 val jump = jumps.getValue(row)
-                jump.product(explained).let { it * it } / maxOf(jump.length, LEAST)
+                val length = jump.length - beside.sumOf { other -> jump.product(other).let { it * it } }
+                jump.product(explained).let { it * it } / maxOf(length, LEAST)
             }
         }
 
         fun isFree(row: Int) = taken.all { abs(it - (times[row] - times[0])) > duration / PLACES }
-        val row = best(rows.filter(::isFree)) ?: return null
-        return timeBefore(refined(row) { near -> best(near.filter(::isFree)) })
+        val own = listOfNotNull(now).map { time -> (edge until n - edge).first { times[it] - times[0] > time } }
+        val gains = gains((rows + own).distinct().filter(::isFree))
+        // Where one is the best of those looked at, another may be nearer to a better one.
+        val begun = ArrayList<Int>()
+        for ((row, _) in gains.entries.sortedByDescending { it.value }) {
+            if (begun.size < BEGUN && begun.none { abs(it - row) < stride }) begun += row
+        }
+        val refined = begun.map { row ->
+            refined(row) { near -> gains(near.filter(::isFree)).maxByOrNull { it.value }?.key }
+        }
+        return gains(refined.distinct()).maxByOrNull { it.value }?.let { timeBefore(it.key) }
     }
 
     /**
@@ -74,24 +86,15 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
         val shares = DoubleArray(rows.size) { jumps[it].product(explained) }
         val lengths = DoubleArray(rows.size) { jumps[it].length }
         val products = jumps.map { it.products(jumps) }
-        val pair = JumpPairs.best(rows, edge, shares, lengths) { i, j -> products[i][j] } ?: return null
+        val (first, second) = JumpPairs.best(rows, edge, shares, lengths) { i, j -> products[i][j] } ?: return null
+        return moved(rest, listOf(timeBefore(first), timeBefore(second)))
+    }
 
-        fun beside(row: Int, range: IntRange, other: Int): Int {
-            val fixed = known(listOf(other)).getValue(other)
-            val own = fixed.product(explained)
-            return refined(row) { asked ->
-                val near = asked.filter { it in range }
-                val moved = known(near).let { found -> near.map(found::getValue) }
-                val common = fixed.products(moved)
-                near.indices.maxByOrNull {
-                    val share = moved[it].product(explained)
-                    JumpPairs.gain(share, own, moved[it].length, fixed.length, common[it])
-                }?.let(near::get)
-            }
-        }
-        val first = beside(pair.first, edge..pair.second - edge, pair.second)
-        val second = beside(pair.second, first + edge until n - edge, first)
-        return listOf(timeBefore(first), timeBefore(second))
+    /** Jumps at [taken], s after the first row, each moved to where it is best beside the others to explain [rest]. */
+    fun moved(rest: DoubleArray, taken: List<Double>): List<Double> {
+        val moved = taken.toMutableList()
+        for (k in moved.indices) moved[k] = best(rest, moved - moved[k], moved[k]) ?: moved[k]
+        return moved
     }
 
     /** [row], moved to where it is the best of those near it, as [best] tells of rows that ascend. */
@@ -127,6 +130,9 @@ internal class BlindJumps(private val state: BlindState, private val z: DoubleAr
         private const val PLACES = 48
         private const val STRIKING = 40
         private const val LOOKED = 24
+
+        /** Places about which a better one is looked for. */
+        private const val BEGUN = 4
         private const val FINER = 6
         private const val LEAST = 1e-9
 

@@ -225,12 +225,15 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         return BlindTrial(what.term, what.name, what.model, what.point, change, ratio, inflation, degrees, p)
     }
 
-    /** The jumps that serve best, one after the other while each is worth it; or two at once, where these explain more. */
+    /** The jumps that serve best, one after the other while each is worth it; or two at once, where these do better. */
     private fun jumps(): BlindTrial {
         val first = places.best(z, emptyList()) ?: return fitted(jumps(listOf(series.duration / 2)), 0.0)
         val one = grown(fitted(jumps(listOf(first)), searched(1)))
-        val two = places.pair(z)?.let { fitted(jumps(it), searched(2)) }
-        return if (two != null && two.ratio > one.ratio + TWO_WORTH) grown(two) else one
+        val two = places.pair(z)?.let { fitted(jumps(it), searched(2)) } ?: return one
+        // One after the other the first may be where none is, and stay.
+        val count = checkNotNull(one.term).times.size
+        val least = if (count == 1) TWO_WORTH else (2 - count) * JUMP_WORTH
+        return if (two.ratio > one.ratio + least) grown(two) else one
     }
 
     private fun jumps(times: List<Double>) = Term(Cause.OFFSET_STEPS, times = times.sorted())
@@ -239,9 +242,9 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     private fun grown(trial: BlindTrial): BlindTrial {
         val times = checkNotNull(trial.term).times
         if (times.size >= MOST_JUMPS) return trial
-        val rest = Evidence.without(z, Evidence.orthonormal(times.map(places::column)))
-        val next = places.best(rest, times)?.let { fitted(jumps(times + it), searched(times.size + 1)) }
-        return if (next == null || next.ratio - trial.ratio < JUMP_WORTH) trial else grown(next)
+        val time = places.best(z, times) ?: return trial
+        val next = fitted(jumps(places.moved(z, times + time)), searched(times.size + 1))
+        return if (next.ratio - trial.ratio < JUMP_WORTH) trial else grown(next)
     }
 
     /** The jumps of [term], which this model has, and the one that serves best beside them; null where none is worth it. */
@@ -389,7 +392,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
         const val MOST_JUMPS = 3
         const val JUMP_WORTH = 20.0
 
-        /** The same, less what is searched, that two jumps must gain more than one: the best second one gains so much by chance. */
+        /** The same, less what is searched, that two jumps must gain more than one: a second gains so much by chance. */
         const val TWO_WORTH = 10.0
     }
 }
