@@ -11,6 +11,7 @@ import de.siegmar.fastcsv.reader.AbstractBaseCsvCallbackHandler
  * @param timeSlot slot of the time, which may also be a date and time of day.
  * @param dateSlot slot of the date, added to the time where [reader] is given and a column has it.
  * @param reader reads the fields of a log that is not written plainly; null for others.
+ * @param isZoned whether times in ISO 8601 have an offset, in a log that is written plainly; null where there are none.
  * @param linesBefore lines of the file that the reader was not given.
  */
 internal class CsvRow(
@@ -20,6 +21,7 @@ internal class CsvRow(
     private val timeSlot: Int,
     private val dateSlot: Int,
     private val reader: FieldReader?,
+    private val isZoned: Boolean?,
     private val linesBefore: Int,
 ) : AbstractBaseCsvCallbackHandler<CsvRow>() {
     /** Numbers of the row by slot; NaN where the field is missing or no number. */
@@ -100,7 +102,7 @@ internal class CsvRow(
         }
         val number = when {
             reader != null -> read(reader, slot, buf, offset, len)
-            slot == timeSlot -> IsoTime.ofField(buf, offset, len)
+            slot == timeSlot -> IsoTime.ofField(buf, offset, len, isZoned)
             else -> DecimalText.parse(buf, offset, len)
         }
         numbers[slot] = number

@@ -65,7 +65,8 @@ internal class CsvSurvey internal constructor(
         val before = layout.headerLine - 1
         val fields = if (isPlain) null else fieldReader()
         val pass = Pass(sink, fields)
-        val row = CsvRow(slots, SLOTS + conditionNames.size, layout.separator, TIME, DATE, fields, before)
+        val isZoned = times.form.isZoned
+        val row = CsvRow(slots, SLOTS + conditionNames.size, layout.separator, TIME, DATE, fields, isZoned, before)
         val reader = CsvReader.builder()
             .fieldSeparator(layout.separator)
             .skipEmptyLines(false)

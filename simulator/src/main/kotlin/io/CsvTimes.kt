@@ -52,6 +52,10 @@ internal class CsvTimes(
         /** What a time in seconds or ISO 8601 must be. */
         const val PLAIN = "seconds or a time as 2025-06-01T12:00:00Z"
 
+        /** What one in ISO 8601 must be where the first has an offset, and where it has none. */
+        private const val ZONED = "a time as 2025-06-01T12:00:00Z, with Z or an offset as the first has"
+        private const val NAIVE = "a time as 2025-06-01T12:00:00, without an offset as the first"
+
         /** Letters behind a time of day: a zone, such as EST or Europe/Berlin, or what is [READ]. */
         private val ZONE = Regex("""(?i):\d{2}(?:[.,]\d+)?\s*(?:[ap]\.?m\.?)?\s*\[?([a-z][a-z_/]+)]?\s*$""")
         private val READ = setOf("am", "pm", "utc", "gmt")
@@ -89,7 +93,7 @@ internal class CsvTimes(
             }
             return when {
                 !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number, choice.timeUnit)
-                isIso -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
+                isIso -> iso(checkNotNull(IsoTime.isZoned(text)))
                 columns.date != CsvColumns.NONE -> {
                     val date = columns.names[columns.date]
                     val found = DateDecision.of(content, layout, columns.date, date, choice.dateOrder)
@@ -113,6 +117,13 @@ internal class CsvTimes(
                 else -> CsvTimes(TimeForm(TimeForm.Kind.PLAIN), emptyList(), PLAIN)
             }
         }
+
+        /** Times in ISO 8601, all with an offset or all without: where both are, what those without are is a guess. */
+        private fun iso(isZoned: Boolean) = CsvTimes(
+            TimeForm(TimeForm.Kind.PLAIN, isZoned = isZoned),
+            emptyList(),
+            if (isZoned) ZONED else NAIVE,
+        )
 
         private fun problem(content: LogContent, layout: CsvLayout, name: String, expected: String, found: String) =
             LogProblem(content.file, layout.bodyLine.toLong(), name, expected, found)

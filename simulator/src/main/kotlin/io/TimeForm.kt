@@ -6,7 +6,8 @@ package stillwater.io
  * @property kind what the column with the time holds. @property factor seconds in one of its units, of
  * [Kind.NUMBER]. @property zero seconds since 1970 where its numbers are 0, likewise. @property order of dates in
  * numbers, or null where there are none. @property overnight least step back, s, that begins the next day, of
- * [Kind.OF_ANY_DAY]; null for one from the last quarter of a day to the first.
+ * [Kind.OF_ANY_DAY]; null for one from the last quarter of a day to the first. @property isZoned whether times in
+ * ISO 8601 have an offset, or Z, as the first has; null where it is none.
  */
 internal class TimeForm(
     val kind: Kind,
@@ -14,6 +15,7 @@ internal class TimeForm(
     val zero: Double = 0.0,
     val order: DateOrder? = null,
     val overnight: Double? = null,
+    val isZoned: Boolean? = null,
 ) {
     /** What a column with the time may hold. */
     enum class Kind {
@@ -49,7 +51,7 @@ internal class TimeForm(
 
         /** Seconds of [text], of which [number] is the number or NaN; NaN where it is no time. */
         fun seconds(text: String, number: Double): Double = when (kind) {
-            Kind.PLAIN -> if (number.isNaN()) IsoTime.seconds(text) else number
+            Kind.PLAIN -> if (number.isNaN()) IsoTime.seconds(text, isZoned) else number
             Kind.NUMBER -> number * factor + zero
             Kind.DATE -> DateText.seconds(text, order)
             Kind.OF_DAY -> DateText.ofDay(text)

@@ -144,6 +144,22 @@ class MapBadInputTest {
                 "rows with text where a number belongs",
             ),
             csv(
+                "a time without an offset among some that have one",
+                HEAD + "2025-10-26T02:59:58+02:00,45.5,-73.1,8.1\n2025-10-26T02:59:59+0200,45.5,-73.1,8.2\n" +
+                    "2025-10-26T02:00:00,45.5,-73.1,8.3\n",
+                "log.csv:4: column time_s: expected a time as 2025-06-01T12:00:00Z, with Z or an offset as the first " +
+                    "has, found '2025-10-26T02:00:00'",
+                "rows with text where a number belongs",
+            ),
+            csv(
+                "a time with an offset among some that have none",
+                HEAD + "2025-10-26T02:59:58,45.5,-73.1,8.1\n2025-10-26T02:59:59,45.5,-73.1,8.2\n" +
+                    "2025-10-26T03:00:00Z,45.5,-73.1,8.3\n",
+                "log.csv:4: column time_s: expected a time as 2025-06-01T12:00:00, without an offset as the first, " +
+                    "found '2025-10-26T03:00:00Z'",
+                "rows with text where a number belongs",
+            ),
+            csv(
                 "a number beyond all that can be reckoned with",
                 HEAD + GOOD + "3,45.5,-73.1,1e300\n",
                 "log.csv:5: column do_mg_l: expected a number within -1.0E60..1.0E60, found 1.0E300",
