@@ -1,0 +1,50 @@
+package stillwater.diagnose
+
+import kotlin.math.exp
+import kotlin.test.Test
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertIs
+
+/** A bench where the sample is written down only once the probe is in it. */
+class GapMovesTest {
+    /** A lag of 8 s moved to another sample each minute, a row a second, without the first [missing] rows of each minute. */
+    private fun bench(missing: Int, noise: Double = 0.0): MeasuredSeries {
+        val random = java.util.Random(SEED)
+        val samples = doubleArrayOf(2.0, 8.0, 5.0, 11.0, 3.0, 9.0)
+        var state = samples[0]
+        val truth = DoubleArray(ROWS) { samples[it / MINUTE % samples.size] }
+        val readings = DoubleArray(ROWS) {
+            if (it > 0) state += (1 - exp(-1 / LAG)) * (truth[it] - state)
+            state + 0.02 * random.nextGaussian()
+        }
+        val rows = (0 until ROWS).filter { it % MINUTE >= missing }
+        fun kept(column: DoubleArray) = DoubleArray(rows.size) { column[rows[it]] }
+        val still = DoubleArray(rows.size)
+        val reference = kept(truth).also { all -> for (i in all.indices) all[i] += noise * random.nextGaussian() }
+        return MeasuredSeries(DoubleArray(rows.size) { rows[it].toDouble() }, still, still, kept(readings), reference)
+    }
+
+    @Test
+    fun movesThatAreNotLoggedSayNothingOfTheLag() {
+        for ((missing, noise) in listOf(4 to 0.0, 10 to 0.0, 6 to 0.01)) {
+            val verdict = Diagnosis(bench(missing, noise)).run().verdict
+            assertContains(assertIs<Verdict.InsufficientData>(verdict, "$missing rows").why, "(14 gaps)")
+        }
+    }
+
+    @Test
+    fun movesThatAreDo() {
+        val result = Diagnosis(bench(missing = 0)).run()
+        assertIs<Verdict.Consistent>(result.verdict)
+        val found = result.baseline.parameters.first { it.name == "time_constant_s" }.value
+        assertEquals(LAG, found, 0.1, "seed $SEED")
+    }
+
+    private companion object {
+        const val SEED = 20261127L
+        const val MINUTE = 60
+        const val ROWS = 900
+        const val LAG = 8.0
+    }
+}
