@@ -20,8 +20,8 @@ internal object TooLittle {
             (1 until truth.size).filter { isGap[it] == inGap }.map { truth[it] - truth[it - 1] }
         val within = moves(inGap = true)
         if (!(moves(inGap = false).sumOf { it * it } < STANDING * within.sumOf { it * it })) return null
-        return "the reference moves only where rows of it are missing (${within.size} gaps): when it did is not known, so " +
-            "that how the readings follow does not show; it is needed from before each move on"
+        return "the reference moves only where rows of it are missing (${within.size} gaps): when it did is not " +
+            "known, so that how the readings follow does not show; it is needed from before each move on"
     }
 
     /** Why [series], whose readings never change beside a reference, cannot show anything; null where they do. */
