@@ -29,14 +29,14 @@ class GapMovesTest {
     fun movesThatAreNotLoggedSayNothingOfTheLag() {
         for ((missing, noise) in listOf(4 to 0.0, 10 to 0.0, 6 to 0.01)) {
             val verdict = Diagnosis(bench(missing, noise)).run().verdict
-            assertContains(assertIs<Verdict.InsufficientData>(verdict, "$missing rows").why, "(14 gaps)")
+            assertContains(assertIs<Verdict.InsufficientData>(verdict, "$missing rows, seed $SEED").why, "(14 gaps)")
         }
     }
 
     @Test
     fun movesThatAreDo() {
         val result = Diagnosis(bench(missing = 0)).run()
-        assertIs<Verdict.Consistent>(result.verdict)
+        assertIs<Verdict.Consistent>(result.verdict, "seed $SEED")
         val found = result.baseline.parameters.first { it.name == "time_constant_s" }.value
         assertEquals(LAG, found, 0.1, "seed $SEED")
     }

@@ -72,7 +72,9 @@ internal class CsvTimes(
             val name = columns.names[columns.time]
             val text = layout.sample.getOrNull(columns.time).orEmpty()
             val number = FieldReader(layout.decimalComma, TimeForm(TimeForm.Kind.PLAIN)).number(text)
-            if (choice.date != null && !(number.isNaN() && IsoTime.seconds(text).isNaN())) {
+            val isZoned = IsoTime.isZoned(text)
+            val isIso = isZoned != null
+            if (choice.date != null && (isIso || !number.isNaN())) {
                 throw problem(content, layout, name, "a time of day as 12:00:00 beside --date", quoted(text))
             }
             if (MINUTES.containsMatchIn(name) && number.isNaN()) {
@@ -85,7 +87,6 @@ internal class CsvTimes(
                 val found = quoted(text) + if (columns.date == CsvColumns.NONE) "" else " and a date beside it"
                 throw problem(content, layout, name, "a time of day without a date, as --overnight says", found)
             }
-            val isIso = !IsoTime.seconds(text).isNaN()
             val isUndated = columns.date == CsvColumns.NONE && !DateText.ofDay(text).isNaN()
             val isOrdered = isIso && choice.dateOrder != DateOrder.YEAR_FIRST
             if (choice.dateOrder != null && (!number.isNaN() || isUndated || isOrdered)) {
@@ -93,7 +94,7 @@ internal class CsvTimes(
             }
             return when {
                 !number.isNaN() -> NumberTimes(content, layout, columns).of(text, number, choice.timeUnit)
-                isIso -> iso(checkNotNull(IsoTime.isZoned(text)))
+                isZoned != null -> iso(isZoned)
                 columns.date != CsvColumns.NONE -> {
                     val date = columns.names[columns.date]
                     val found = DateDecision.of(content, layout, columns.date, date, choice.dateOrder)
