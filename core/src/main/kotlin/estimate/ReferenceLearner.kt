@@ -8,8 +8,10 @@ import kotlin.math.sqrt
  * Learns a sensor's response from a reference along the same track: a fast sensor, or the known truth.
  *
  * z = gain · response(reference) + offset + e, with e correlated from reading to reading (first order, its correlation
- * learned with the rest); gain and offset are in every model, because without them anything else looks significant. See
- * core/docs/TrackCorrection.md, (10). Confined to one thread.
+ * learned with the rest); gain and offset are in every model, because without them anything else looks significant.
+ * Where the log begins, and after gaps, the sensor may be anywhere, and comes from there as it responds: a probe that is
+ * moved between samples while nothing is written shows its lag only so. See core/docs/TrackCorrection.md, (8). Confined
+ * to one thread.
  *
  * A reading is the sensor's state at its time, and the reference runs straight from row to row. In a log made by
  * stepping a sensor once a row it is held over each step instead, which is half a step sooner: [isHeld] finds that, and
@@ -39,15 +41,17 @@ public class ReferenceLearner(
     override val groups: Int = (series.size / GROUP).coerceIn(2, MOST_GROUPS)
     private val groupOf = IntArray(series.size) { (it.toLong() * groups / series.size).toInt() }
     private val usable = BooleanArray(series.size) { unusable.isUsable(it) }
-    private val count = usable.count { it }
+    private val starts = StretchStarts(series, usable)
+    private val count = starts.counts.count { it }
     private val shown = DoubleArray(series.size)
+    private val rest = Array(3) { DoubleArray(series.size) }
     private val residuals = DoubleArray(series.size)
     private val lag = LagWeights()
 
     /** Gain and offset that go with [response]: z ≈ gain · response(reference) + offset. */
     public fun calibration(response: Response): Pair<Double, Double> {
         respond(response)
-        return fit()
+        return fitted(response)
     }
 
     /**
@@ -125,8 +129,9 @@ public class ReferenceLearner(
 
     /** One score a reading: the log density of what it surprises by after the reading before. */
     private fun scores(kind: ResponseKind, logs: DoubleArray): DoubleArray {
-        respond(kind.response(*DoubleArray(logs.size) { exp(logs[it]) }))
-        val (gain, offset) = fit()
+        val response = kind.response(*DoubleArray(logs.size) { exp(logs[it]) })
+        respond(response)
+        val (gain, offset) = fitted(response)
         leave(gain, offset)
         var own = 0.0
         var next = 0.0
@@ -136,18 +141,23 @@ public class ReferenceLearner(
         }
         val correlation = if (own > 0) (next / own).coerceIn(0.0, MOST_CORRELATION) else 0.0
         var sum = 0.0
-        for (i in residuals.indices) sum += surprise(i, correlation).let { it * it }
+        for (i in residuals.indices) if (starts.counts[i]) sum += surprise(i, correlation).let { it * it }
         val variance = maxOf(sum / maxOf(1, count), LEAST)
         return DoubleArray(residuals.size) { i ->
-            if (usable[i]) -(ln(variance) + surprise(i, correlation).let { it * it } / variance) / 2 else 0.0
+            if (starts.counts[i]) -(ln(variance) + surprise(i, correlation).let { it * it } / variance) / 2 else 0.0
         }
     }
 
     /** What the response leaves of the readings, into [residuals]: nothing of those that do not count. */
     private fun leave(gain: Double, offset: Double) {
-        for (i in residuals.indices) {
-            residuals[i] = if (usable[i]) series.values[i] - offset - gain * shown[i] else 0.0
-        }
+        leaveAll(gain, offset)
+        starts.takeOff(residuals)
+        for (i in residuals.indices) if (!usable[i]) residuals[i] = 0.0
+    }
+
+    /** The same with what is left of where stretches begin. */
+    private fun leaveAll(gain: Double, offset: Double) {
+        for (i in residuals.indices) residuals[i] = series.values[i] - offset - gain * shown[i]
     }
 
     /** Of a reading that the one before foretells; after none, and after one that does not count, it is of its own. */
@@ -157,35 +167,56 @@ public class ReferenceLearner(
         else -> residuals[i] - correlation * residuals[i - 1]
     }
 
+    /** Gain and offset of what [response] shows, with stretches that begin anywhere. */
+    private fun fitted(response: Response): Pair<Double, Double> {
+        starts.displace()
+        chain(response, starts.fading, isHeld = true)
+        val fit = fit()
+        if (response.lags.all { it.rising == it.falling } || fit.first == 0.0) return fit
+        leaveAll(fit.first, fit.second)
+        for (i in residuals.indices) residuals[i] /= fit.first
+        starts.displace(residuals)
+        chain(response, starts.fading, isHeld = true)
+        return fit()
+    }
+
     private fun fit(): Pair<Double, Double> {
-        var x = 0.0
-        var z = 0.0
+        val (x, one, z) = rest
+        val middle = mean(shown)
+        val level = mean(series.values)
         for (i in shown.indices) {
-            if (!usable[i]) continue
-            x += shown[i] / count
-            z += series.values[i] / count
+            x[i] = shown[i] - middle
+            one[i] = 1.0
+            z[i] = series.values[i] - level
         }
-        var sxx = 0.0
-        var sxz = 0.0
-        for (i in shown.indices) {
-            if (!usable[i]) continue
-            sxx += (shown[i] - x) * (shown[i] - x)
-            sxz += (shown[i] - x) * (series.values[i] - z)
-        }
+        rest.forEach(starts::takeOff)
+        // Readings that are all of where stretches begin say nothing of the offset.
+        val own = product(one, one)
+        val isTold = own > count * NO_OFFSET
+        val shareOfX = if (isTold) product(x, one) / own else 0.0
+        val shareOfZ = if (isTold) product(z, one) / own else 0.0
+        val sxx = product(x, x) - shareOfX * shareOfX * own
+        val sxz = product(x, z) - shareOfX * shareOfZ * own
         val gain = if (sxx > 0) sxz / sxx else 1.0
-        return gain to z - gain * x
+        return gain to level + shareOfZ - gain * (middle + shareOfX)
+    }
+
+    private fun mean(column: DoubleArray): Double {
+        var sum = 0.0
+        for (i in column.indices) if (usable[i]) sum += column[i]
+        return sum / maxOf(1, usable.count { it })
+    }
+
+    private fun product(one: DoubleArray, other: DoubleArray): Double {
+        var sum = 0.0
+        for (i in one.indices) if (usable[i]) sum += one[i] * other[i]
+        return sum
     }
 
     /** What a sensor with [response] shows of the reference, into [shown]; settled at each gap. */
     private fun respond(response: Response) {
         delay(response.deadTime)
-        if (response.slowShare > 0) {
-            val fast = shown.copyOf().also { follow(response.lags[0], it) }
-            follow(response.lags[1], shown)
-            for (i in shown.indices) shown[i] = (1 - response.slowShare) * fast[i] + response.slowShare * shown[i]
-        } else {
-            for (stage in response.lags) follow(stage, shown, response.flowExponent)
-        }
+        chain(response, shown, held)
         if (response.slewRate.isInfinite()) return
         for (i in 1 until shown.size) {
             val dt = series.times[i] - series.times[i - 1]
@@ -195,8 +226,19 @@ public class ReferenceLearner(
         }
     }
 
+    /** What the lags of [response] make of [inputs], in their place, modified; held over each step where that [isHeld]. */
+    private fun chain(response: Response, inputs: DoubleArray, isHeld: Boolean) {
+        if (response.slowShare > 0) {
+            val fast = inputs.copyOf().also { follow(response.lags[0], it, isHeld) }
+            follow(response.lags[1], inputs, isHeld)
+            for (i in inputs.indices) inputs[i] = (1 - response.slowShare) * fast[i] + response.slowShare * inputs[i]
+        } else {
+            for (stage in response.lags) follow(stage, inputs, isHeld, response.flowExponent)
+        }
+    }
+
     /** What a lag of [stage], changed by the speed with [exponent], makes of [inputs], in their place. Modified. */
-    private fun follow(stage: ResponseLag, inputs: DoubleArray, exponent: Double = 0.0) {
+    private fun follow(stage: ResponseLag, inputs: DoubleArray, isHeld: Boolean, exponent: Double = 0.0) {
         var before = inputs[0]
         for (i in 1 until inputs.size) {
             val dt = series.times[i] - series.times[i - 1]
@@ -207,7 +249,7 @@ public class ReferenceLearner(
             }
             val pace = if (exponent > 0) series.pace(i, exponent) else 1.0
             lag.set(if (input > inputs[i - 1]) stage.rising else stage.falling, dt * pace)
-            if (held) before = input
+            if (isHeld) before = input
             inputs[i] = lag.keep * inputs[i - 1] + lag.before * before + lag.now * input
             before = input
         }
@@ -259,6 +301,9 @@ public class ReferenceLearner(
         /** A line through rows twice as far apart misses four times as much. */
         private const val FROM_DOUBLE = 4.0
         private const val MOST_LOG = 25.0
+
+        /** Of one a reading: with less left beside where stretches begin, none is told from the offset. */
+        private const val NO_OFFSET = 1e-9
         private const val MOST_CORRELATION = 0.999
         private const val LEAST = 1e-300
     }

@@ -63,7 +63,7 @@ public class CorrectedTrack internal constructor(
  * Undoes a sensor's response along a whole track, with an honest interval: what the sensor has smoothed away is not
  * made up, but left open as far as the water is rough, which is learned from the log.
  *
- * Model and derivation: core/docs/TrackCorrection.md, (6) to (9). Linear in the number of readings. Confined to one
+ * Model and derivation: core/docs/TrackCorrection.md, (6) and (7). Linear in the number of readings. Confined to one
  * thread.
  *
  * @param series the readings. Retained.

@@ -1,10 +1,13 @@
 package stillwater.estimate
 
+import stillwater.model.Conditions
+import stillwater.sensor.SensorSpec
 import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
 
 class ReferenceLearnerTest {
     /** A rate limit of [RATE] reference units per second is found whatever the readings are in. */
@@ -26,8 +29,62 @@ class ReferenceLearnerTest {
         }
     }
 
+    /**
+     * A probe that is moved each minute to another sample, unseen: nothing is written for [MISSING] seconds, in which the
+     * sample changes at a random moment. What the sensor saw then shows in how it settles.
+     */
+    private fun moved(kind: ResponseKind, vararg parameters: Double): Pair<TrackSeries, DoubleArray> {
+        val random = Random(SEED)
+        val sensor = SensorSpec("", kind.response(*parameters).stages()).build(LEVELS[0], random)
+        val times = ArrayList<Double>()
+        val values = ArrayList<Double>()
+        val truths = ArrayList<Double>()
+        var moment = 0.0
+        for (row in 0 until SECONDS * FINE) {
+            val second = row / FINE
+            if (row % (MINUTE * FINE) == 0) moment = random.nextDouble() * MISSING
+            val within = second % MINUTE + row % FINE / FINE.toDouble()
+            val minute = second / MINUTE + if (within < moment) -1 else 0
+            val truth = LEVELS[maxOf(minute, 0) % LEVELS.size]
+            val shown = sensor.step(truth, 1.0 / FINE, Conditions.NONE)
+            if (row % FINE != FINE - 1 || within < MISSING) continue
+            times += (row + 1) / FINE.toDouble()
+            values += 1.5 * shown + 4 + 0.02 * random.nextDouble(-1.7, 1.7)
+            truths += truth
+        }
+        val still = DoubleArray(times.size)
+        return TrackSeries(times.toDoubleArray(), still, still, values.toDoubleArray()) to truths.toDoubleArray()
+    }
+
+    @Test
+    fun aLagShowsWhereTheSensorSettlesAfterMovesThatWereNotWritten() {
+        val (series, truth) = moved(ResponseKind.FIRST_ORDER, 8.0)
+        val learner = ReferenceLearner(series, truth)
+        val found = assertNotNull(learner.candidate(ResponseKind.FIRST_ORDER))
+        assertEquals(8.0, found.parameters[0], 0.1, "seed $SEED")
+        val (gain, offset) = learner.calibration(found.response)
+        assertEquals(1.5, gain, 0.01, "seed $SEED")
+        assertEquals(4.0, offset, 0.03, "seed $SEED")
+        val range = learner.lagRange()
+        assertTrue(range.start > 6 && range.endInclusive < 11, "$range, seed $SEED")
+    }
+
+    @Test
+    fun aLagThatIsLongerOneWayShowsToo() {
+        val (series, truth) = moved(ResponseKind.ASYMMETRIC, 6.0, 12.0)
+        val found = assertNotNull(ReferenceLearner(series, truth).candidate(ResponseKind.ASYMMETRIC))
+        assertEquals(6.0, found.parameters[0], 0.15, "seed $SEED")
+        assertEquals(12.0, found.parameters[1], 0.3, "seed $SEED")
+    }
+
     private companion object {
         const val ROWS = 600
+        const val SEED = 20261127
+        const val SECONDS = 1200
+        const val MINUTE = 60
+        const val FINE = 20
+        const val MISSING = 8
+        val LEVELS = doubleArrayOf(2.0, 8.0, 5.0, 11.0, 3.0, 9.0)
         const val RATE = 0.1
     }
 }

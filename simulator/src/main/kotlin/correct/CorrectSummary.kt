@@ -286,7 +286,7 @@ internal class CorrectSummary(
             when {
                 result.origin == SensorOrigin.NOTHING -> add(
                     "${silence()}, so that nothing shows how the sensor responds: the values are smoothed only; " +
-                        "give --sensor or --reference",
+                        "give --sensor${if (result.learned.fault == null) " or --reference" else ""}",
                 )
                 result.choice?.open?.any { it.kind == ResponseKind.NONE } == true ->
                     add("a lag is not told from none: the intervals cover both")

@@ -51,11 +51,16 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     private fun misfit(): String? {
         val margin = result.margin?.takeIf { it.isMisfit } ?: return null
         val outside = percent(1 - margin.covered)
-        return "the reference lies outside the intervals in $outside of ${margin.rows} rows: the " +
-            "sensor does something that none of the responses tried has, such as to follow the flow or the " +
-            "temperature. Intervals were made ${digits(margin.factor, 2)} times as wide, which holds " +
-            "${percent(margin.heldOut)} of rows in tenths of the log that had no say in the factor, though in the " +
-            "sensor they had; diagnose --reference looks for the cause"
+        val why = if (result.origin == SensorOrigin.NOTHING) {
+            "the sensor has a lag that was not undone, or does something else"
+        } else {
+            "the sensor does something that none of the responses tried has, such as to follow the flow or the " +
+                "temperature"
+        }
+        val learned = if (result.origin == SensorOrigin.REFERENCE) ", though in the sensor they had" else ""
+        return "the reference lies outside the intervals in $outside of ${margin.rows} rows: $why. Intervals were " +
+            "made ${digits(margin.factor, 2)} times as wide, which holds ${percent(margin.heldOut)} of rows in " +
+            "tenths of the log that had no say in the factor$learned; diagnose --reference looks for the cause"
     }
 
     private fun contradicted(): String? {

@@ -198,8 +198,9 @@ class CorrectedLog internal constructor(
             val narrow = corrected(learned.likely)
             val agreement = TrackAgreement.of(series, narrow)
             val agreed = learned.agreed(narrow, agreement)
+            // A given sensor's intervals are the giver's. All others must hold a reference that is there, learned from or not.
             val margin = ReferenceMargin.of(series, agreed, rows.references())
-                .takeIf { learned.origin == SensorOrigin.REFERENCE }
+                .takeIf { hasReference && learned.origin != SensorOrigin.GIVEN }
             val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,
