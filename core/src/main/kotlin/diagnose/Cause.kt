@@ -11,7 +11,7 @@ public enum class Cause(public val label: String, public val sentence: String) {
     TIME_CONSTANT("time-constant", "The sensor follows the water faster or slower than the model says."),
 
     /** The base model's gain or offset is wrong; possible only where the base is given. */
-    GAIN_OFFSET("gain-offset", "The sensor shows the water's value with a wrong gain or offset."),
+    GAIN_OFFSET("gain-offset", "The sensor has another gain or offset than the model says."),
 
     /** Rising and falling time constants differ. */
     ASYMMETRIC_RESPONSE("asymmetric-response", "The sensor follows a rise and a fall with different time constants."),

@@ -69,7 +69,10 @@ public class Diagnosis private constructor(
 
     private fun answer(reference: DoubleArray): DiagnosisResult {
         // Of readings that never change any lag that is long enough is as likely as any end of a range.
-        TooLittle.besideReference(series, unknown.isGap)?.let { return BlindAnswer.none(series, it) }
+        TooLittle.still(series)?.let { return BlindAnswer.none(series, it) }
+        TooLittle.inGaps(series, unknown.isGap)?.let {
+            return UnwrittenMoves(series, unknown.isGap, settings.base).answer(it)
+        }
         val quieter = quieter(reference)
         val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
         return weighed.result()

@@ -116,12 +116,14 @@ internal class ExtendedSensor(
             if (lower < upper) add(SensorStage.Range(lower.takeIf { it > -1e11 }, upper.takeIf { it < 1e11 }))
         }
         range?.let(::add)
-        val spread = sqrt(maxOf(fit.variance, 0.0))
+        val resolution = model.scales.resolution
+        val isCoarse = (isRounded || value(Cause.QUANTISATION) != null) && resolution > 0
+        // What rounding adds to the noise it adds once more in the simulation.
+        val rounding = if (isCoarse) resolution * resolution / 12 else 0.0
+        val spread = value(Cause.QUANTISATION) ?: sqrt(maxOf(fit.variance - rounding, 0.0))
         if (spread > 0) add(SensorStage.Noise(spread))
         spikes?.let { add(SensorStage.Outlying(it.probability, it.size)) }
-        val resolution = model.scales.resolution
-        val isCoarse = isRounded || value(Cause.QUANTISATION) != null
-        if (isCoarse && resolution > 0) add(SensorStage.Quantum(resolution))
+        if (isCoarse) add(SensorStage.Quantum(resolution))
     }
 }
 

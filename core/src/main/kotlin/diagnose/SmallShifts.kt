@@ -74,7 +74,9 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
 
     /** What is to be said of those among [named] that are shifts of next to nothing; none if there are none. */
     fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
-        named.filter { (trial, set) -> shift(trial.term, set)?.let { abs(it) < LEAST_ROWS * period } == true }
+        named.filter { (trial, set) ->
+            shift(trial.term, set)?.let { abs(it - given(trial.term)) < LEAST_ROWS * period } == true
+        }
             .map { (trial, _) -> "The ${trial.term.cause.label} is a $LITTLE" }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */

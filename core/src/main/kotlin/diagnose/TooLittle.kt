@@ -9,23 +9,21 @@ internal object TooLittle {
     private const val STANDING = 0.005
 
     /**
-     * Why [series], which has a reference, cannot show how the readings follow that: they never change, or it moves in
-     * gaps alone ([isGap], before each row), so that when it did is not known. Null where it may.
+     * Why the reference of [series], which has one, cannot show how the readings follow it: it moves in gaps alone
+     * ([isGap], before each row), so that when it did is not known. Null where it may.
      */
-    fun besideReference(series: MeasuredSeries, isGap: BooleanArray): String? =
-        still(series) ?: series.reference?.let { inGaps(it, isGap) }
-
-    private fun inGaps(truth: DoubleArray, isGap: BooleanArray): String? {
+    fun inGaps(series: MeasuredSeries, isGap: BooleanArray): String? {
+        val truth = series.reference ?: return null
         fun moves(inGap: Boolean) =
             (1 until truth.size).filter { isGap[it] == inGap }.map { truth[it] - truth[it - 1] }
         val within = moves(inGap = true)
         if (!(moves(inGap = false).sumOf { it * it } < STANDING * within.sumOf { it * it })) return null
         return "the reference moves only where rows of it are missing (${within.size} gaps): when it did is not " +
-            "known, so that how the readings follow does not show; it is needed from before each move on"
+            "known, so that no cause can be told from it; it is needed from before each move on"
     }
 
     /** Why [series], whose readings never change beside a reference, cannot show anything; null where they do. */
-    private fun still(series: MeasuredSeries): String? {
+    fun still(series: MeasuredSeries): String? {
         val truth = series.reference ?: return null
         val readings = series.shown(series.values)
         return when {

@@ -42,7 +42,9 @@ public class ReferenceLearner(
     private val groupOf = IntArray(series.size) { (it.toLong() * groups / series.size).toInt() }
     private val usable = BooleanArray(series.size) { unusable.isUsable(it) }
     private val starts = StretchStarts(series, usable)
-    private val count = starts.counts.count { it }
+
+    /** Readings that count. */
+    internal val count: Int = starts.counts.count { it }
     private val shown = DoubleArray(series.size)
     private val rest = Array(3) { DoubleArray(series.size) }
     private val residuals = DoubleArray(series.size)
@@ -52,6 +54,13 @@ public class ReferenceLearner(
     public fun calibration(response: Response): Pair<Double, Double> {
         respond(response)
         return fitted(response)
+    }
+
+    /** What [response] leaves of the readings, sensor units, length n; 0 of those that do not count. */
+    internal fun residuals(response: Response): DoubleArray {
+        val (gain, offset) = calibration(response)
+        leave(gain, offset)
+        return residuals.copyOf()
     }
 
     /**
@@ -96,7 +105,7 @@ public class ReferenceLearner(
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (count < FEWEST || (kind == ResponseKind.FLOW && !series.hasSpeeds)) return null
-        val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
+        val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) }, isSharp = true)
         if (kind == ResponseKind.SLEW) {
             val slopes = (0 until series.size - 1).filter { usable[it] && usable[it + 1] }.map {
                 kotlin.math.abs(series.values[it + 1] - series.values[it]) / (series.times[it + 1] - series.times[it])
@@ -219,8 +228,8 @@ public class ReferenceLearner(
         chain(response, shown, held)
         if (response.slewRate.isInfinite()) return
         for (i in 1 until shown.size) {
+            if (series.isAfterGap(i)) continue
             val dt = series.times[i] - series.times[i - 1]
-            if (dt > series.gapLimit) continue
             val most = response.slewRate * dt
             shown[i] = shown[i].coerceIn(shown[i - 1] - most, shown[i - 1] + most)
         }
@@ -243,7 +252,7 @@ public class ReferenceLearner(
         for (i in 1 until inputs.size) {
             val dt = series.times[i] - series.times[i - 1]
             val input = inputs[i]
-            if (dt > series.gapLimit) {
+            if (series.isAfterGap(i)) {
                 before = input
                 continue
             }

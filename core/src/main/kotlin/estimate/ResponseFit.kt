@@ -18,6 +18,7 @@ public interface ResponseLearner {
  *
  * @param groupOf group of each block. @param groups number of groups.
  * @param total sum of the scores at the logarithms of the parameters. @param scores one score a block, likewise.
+ * @param isSharp whether the scores may tell a parameter to far less than [CURVATURE_STEP], and are smooth below it.
  */
 internal class ResponseFit(
     private val kind: ResponseKind,
@@ -25,6 +26,7 @@ internal class ResponseFit(
     private val groups: Int,
     private val total: (DoubleArray) -> Double,
     private val scores: (DoubleArray) -> DoubleArray,
+    private val isSharp: Boolean = false,
 ) {
     private val size = kind.parameters.size
 
@@ -64,13 +66,18 @@ internal class ResponseFit(
         val curvature = ScoreCurvature(size, groupOf, groups)
         if (size > 0) {
             fun belief(move: DoubleArray) = kind.belief(DoubleArray(size) { logs[it] + move[it] })
-            curvature.take(CURVATURE_STEP, ::belief, ::moved)
+            curvature.take(steps(logs), ::belief, ::moved)
         }
         val heldOut = DoubleArray(groups) { group ->
             val each = if (size == 0) at else moved(curvature.without(group))
             groupOf.indices.sumOf { if (groupOf[it] == group) each[it] else 0.0 }
         }
         val covariance = if (size > 0) curvature.covariance() else emptyArray()
+        // From groups this few a standard error is itself uncertain: by so much Student's distribution is wider.
+        if (isSharp && groups > FEWEST_GROUPS) {
+            val wider = (groups - 1.0) / (groups - FEWEST_GROUPS)
+            for (row in covariance) for (i in row.indices) row[i] *= wider
+        }
         return CandidateResponse(
             kind,
             List(size) { exp(logs[it]) },
@@ -81,6 +88,20 @@ internal class ResponseFit(
         )
     }
 
+    /** By how much each parameter is moved to see how the scores bend: where they are sharp by as little as they fall by. */
+    private fun steps(logs: DoubleArray): DoubleArray {
+        val steps = DoubleArray(size) { CURVATURE_STEP }
+        if (!isSharp) return steps
+        val most = believed(logs)
+        for (i in 0 until size) {
+            fun fall() = 2 * most - listOf(-1, 1).sumOf { side ->
+                believed(logs.copyOf().also { it[i] += side * steps[i] })
+            }
+            while (steps[i] > LEAST_STEP && fall() > MOST_FALL) steps[i] /= 2
+        }
+        return steps
+    }
+
     private companion object {
         const val STEP = 0.3
         const val EVALUATIONS = 40
@@ -88,5 +109,12 @@ internal class ResponseFit(
         const val MORE = 1.2
         const val FAST = 0.8
         const val CURVATURE_STEP = 0.15
+
+        /** Student's variance is (n − 1) / (n − 3) of that many groups. */
+        const val FEWEST_GROUPS = 3
+        const val LEAST_STEP = 1e-6
+
+        /** Both sides together: about two standard errors to either. */
+        const val MOST_FALL = 4.0
     }
 }

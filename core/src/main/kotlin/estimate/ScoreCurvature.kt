@@ -17,44 +17,44 @@ internal class ScoreCurvature(private val dimensions: Int, private val groups: I
     private val beliefHessian = DoubleArray(dimensions * dimensions)
 
     /**
-     * Takes the scores about the maximum of their sum and the [belief]: [scores] gives those of all blocks, moved by so
-     * many [step]s.
+     * Takes the scores about the maximum of their sum and the [belief]: [scores] gives those of all blocks, each parameter
+     * moved by its own of [steps].
      */
-    fun take(step: Double, belief: (DoubleArray) -> Double, scores: (DoubleArray) -> DoubleArray) {
-        differences(step, groups, gradients, hessians, scores)
-        differences(step, intArrayOf(0), beliefGradient, beliefHessian) { doubleArrayOf(belief(it)) }
+    fun take(steps: DoubleArray, belief: (DoubleArray) -> Double, scores: (DoubleArray) -> DoubleArray) {
+        differences(steps, groups, gradients, hessians, scores)
+        differences(steps, intArrayOf(0), beliefGradient, beliefHessian) { doubleArrayOf(belief(it)) }
     }
 
     private fun differences(
-        step: Double,
+        steps: DoubleArray,
         groups: IntArray,
         gradients: DoubleArray,
         hessians: DoubleArray,
         scores: (DoubleArray) -> DoubleArray,
     ) {
         val centre = scores(DoubleArray(dimensions))
-        val up = Array(dimensions) { i -> scores(DoubleArray(dimensions).also { it[i] = step }) }
-        val down = Array(dimensions) { i -> scores(DoubleArray(dimensions).also { it[i] = -step }) }
+        val up = Array(dimensions) { i -> scores(DoubleArray(dimensions).also { it[i] = steps[i] }) }
+        val down = Array(dimensions) { i -> scores(DoubleArray(dimensions).also { it[i] = -steps[i] }) }
         for (i in 0 until dimensions) {
             for (b in groups.indices) {
-                gradients[groups[b] * dimensions + i] += (up[i][b] - down[i][b]) / (2 * step)
-                hessians[at(groups[b], i, i)] += (up[i][b] - 2 * centre[b] + down[i][b]) / (step * step)
+                gradients[groups[b] * dimensions + i] += (up[i][b] - down[i][b]) / (2 * steps[i])
+                hessians[at(groups[b], i, i)] += (up[i][b] - 2 * centre[b] + down[i][b]) / (steps[i] * steps[i])
             }
             for (j in 0 until i) {
-                val both = scores(diagonal(i, j, step))
-                val neither = scores(diagonal(i, j, -step))
+                val both = scores(diagonal(i, j, 1.0, steps))
+                val neither = scores(diagonal(i, j, -1.0, steps))
                 for (b in groups.indices) {
                     val mixed = both[b] + neither[b] + 2 * centre[b] - up[i][b] - down[i][b] - up[j][b] - down[j][b]
-                    hessians[at(groups[b], i, j)] += mixed / (2 * step * step)
-                    hessians[at(groups[b], j, i)] += mixed / (2 * step * step)
+                    hessians[at(groups[b], i, j)] += mixed / (2 * steps[i] * steps[j])
+                    hessians[at(groups[b], j, i)] += mixed / (2 * steps[i] * steps[j])
                 }
             }
         }
     }
 
-    private fun diagonal(i: Int, j: Int, by: Double) = DoubleArray(dimensions).also {
-        it[i] = by
-        it[j] = by
+    private fun diagonal(i: Int, j: Int, side: Double, steps: DoubleArray) = DoubleArray(dimensions).also {
+        it[i] = side * steps[i]
+        it[j] = side * steps[j]
     }
 
     private fun at(group: Int, i: Int, j: Int) = (group * dimensions + i) * dimensions + j

@@ -84,6 +84,10 @@ public class TrackSeries private constructor(
     public fun retimed(times: DoubleArray): TrackSeries =
         TrackSeries(times, xs, ys, values, speeds, referenceSpeed, BooleanArray(size, ::isAfterGap))
 
+    /** The same readings where stretches end before the rows that [isGap] alone, length n. Not modified. */
+    internal fun withGaps(isGap: BooleanArray): TrackSeries =
+        TrackSeries(times, xs, ys, values, speeds, referenceSpeed, isGap.copyOf())
+
     /**
      * How much faster than at the reference speed a lag goes on that follows the flow: (v / v₀)^p at reading [i], with
      * p the [exponent]. As in [stillwater.sensor.TimeConstant.ofFlow], speeds are taken within v₀ / 100 to 100 v₀, an

@@ -8,6 +8,7 @@ import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.report.SignificantDigits
 import stillwater.report.counted
+import stillwater.sensor.SensorStage
 import kotlin.math.abs
 
 /**
@@ -104,8 +105,29 @@ class Diagnosed(
     private fun sentence(cause: Cause): String {
         val parameters = result.effects.firstOrNull { it.cause == cause }?.parameters
             ?: result.candidates.firstOrNull { it.cause == cause }?.parameters.orEmpty()
-        val numbers = numbers(parameters)
-        return cause.sentence + if (numbers.isEmpty()) "" else " ($numbers)"
+        val own = result.extendedSensor?.let { CauseInWords(it, unitAfter).of(cause) }
+        val all = listOfNotNull(numbers(parameters).ifEmpty { null }, own).joinToString("; ")
+        return (wrong(cause) ?: cause.sentence) + if (all.isEmpty()) "" else " ($all)"
+    }
+
+    /** Of a sensor that was given with a number for [cause], that this number is wrong; null of others. */
+    private fun wrong(cause: Cause): String? {
+        if (!isGiven) return null
+        val found = result.baseSensor.stages.firstOrNull { stage ->
+            when (cause) {
+                Cause.DEAD_TIME -> stage is SensorStage.Delay
+                Cause.ASYMMETRIC_RESPONSE -> stage is SensorStage.Asymmetric
+                Cause.TWO_PATH_RESPONSE -> stage is SensorStage.TwoPath
+                Cause.FLOW_DEPENDENT_RESPONSE -> stage is SensorStage.FlowLag
+                Cause.TEMPERATURE_DEPENDENT_RESPONSE -> stage is SensorStage.TemperatureLag
+                Cause.HYSTERESIS -> stage is SensorStage.Backlash
+                Cause.SLEW_LIMIT -> stage is SensorStage.Slew
+                Cause.DRIFT -> stage is SensorStage.Drifting
+                else -> false
+            }
+        } ?: return null
+        val was = (found as? SensorStage.Delay)?.let { ", ${SignificantDigits(3).format(it.deadTime)} s," }.orEmpty()
+        return "The sensor given is wrong in its ${cause.label}$was and shows another one here."
     }
 
     /** Whether there is a base model: of a log that cannot show anything none is fitted, and it has no residuals. */

@@ -14,7 +14,8 @@ import kotlin.random.Random
  * lag, but twice the distance. Lag stands out where the opposite score is larger all the same.
  *
  * Standard errors and intervals come from a bootstrap over legs in blocks of [BLOCK], because a leg takes part in the
- * scores of its neighbours, too. The water's own change between legs is in all numbers.
+ * scores of its neighbours, too. The water's own change between legs is in all numbers. Legs one way that lie to one side
+ * of those the other way are told from a lag by how much the water differs along them over that distance.
  *
  * @param statistics of the log. @param track its track. @param seed of the bootstrap.
  */
@@ -59,7 +60,20 @@ class LegComparison(
             same = both?.let { found -> estimate(found.map { it.same }) },
             excess = both?.let { found -> estimate(found.map { it.opposite - it.same }) },
             shift = shift(shifts, usable.map { scores[it] }),
+            aside = aside(list, usable.map { opposite[it] }, asTaken, profiles.binWidth),
         )
+    }
+
+    /** How far legs one way lie to one side of those the other way; null where they do not for certain. */
+    private fun aside(legs: List<Leg>, opposite: List<Triple>, profiles: List<DoubleArray>, binWidth: Double): LegAside? {
+        val found = estimate(
+            opposite.map { triple ->
+                val side = legs[triple.leg].across - (legs[triple.before].across + legs[triple.after].across) / 2
+                if (legs[triple.leg].forward) side else -side
+            },
+        )
+        val distance = abs(found.mean)
+        return if (distance > 2 * found.standardError) LegAside.of(distance, profiles, binWidth) else null
     }
 
     private fun triples(legs: List<Leg>, reach: Int): List<Triple> {

@@ -73,6 +73,7 @@ class LagShift(
  * @property same mean of the same-direction scores, at twice the distance; null without any.
  * @property excess mean of opposite minus same, leg by leg; null without any.
  * @property shift the best shift in time.
+ * @property aside how far legs one way lie to one side of those the other way; null where they do not.
  */
 class LegMismatch(
     val legs: Legs,
@@ -83,12 +84,21 @@ class LegMismatch(
     val same: Estimate?,
     val excess: Estimate?,
     val shift: LagShift,
+    val aside: LegAside? = null,
 ) {
     /** Number of legs in [excess]. */
     val pairedLegs: Int get() = scores.count { it.same.isFinite() }
 
     /** What [excess] says. */
-    val verdict: LegVerdict get() = LegVerdict.of(excess, pairedLegs)
+    val verdict: LegVerdict get() = LegVerdict.of(excess, pairedLegs, aside?.most ?: 0.0)
+
+    /** Whether opposite legs may differ because those one way lie to one side of the others. */
+    val isAside: Boolean
+        get() {
+            val water = aside?.most ?: return false
+            val found = excess ?: opposite
+            return !(found.mean - water > 2 * found.standardError)
+        }
 
     /** Whether [shift] is clear although the paired comparison sees no lag: it may fit the water's own change. */
     val hasReserve: Boolean get() = shift.isClear && verdict != LegVerdict.LAG_SEEN

@@ -153,6 +153,12 @@ object MapJson {
         estimate("same_direction_mismatch", mismatch.same)
         estimate("opposite_minus_same", mismatch.excess)
         put("compared_both_ways", mismatch.pairedLegs)
+        mismatch.aside?.let {
+            putJsonObject("aside") {
+                put("distance_m", it.distance)
+                put("difference", it.difference)
+            }
+        }
         put("verdict", mismatch.verdict.label)
         putJsonObject("best_shift") {
             put("earlier_by_s", mismatch.shift.seconds)

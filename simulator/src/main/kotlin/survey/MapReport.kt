@@ -6,6 +6,7 @@ import stillwater.report.Provenance
 import stillwater.report.SignificantDigits
 import stillwater.report.Table
 import stillwater.report.counted
+import stillwater.survey.Wording.Companion.digits
 
 /**
  * The page about a [SurveyMap].
@@ -78,6 +79,13 @@ internal class MapReport(
                     "by ${wording.estimate(same)}; the same legs differ from their opposite neighbours by " +
                     "${wording.estimate(paired)}. Opposite minus same, leg by leg: ${wording.estimate(excess)} " +
                     "over ${mismatch.pairedLegs} legs. Above 0 by more than two standard errors it speaks for a lag.",
+            )
+        }
+        mismatch.aside?.let {
+            paragraph(
+                "Legs one way lie ${digits(it.distance, 3)} ${wording.length} to one side of those the other way. Along " +
+                    "the legs the water differs by ${wording.value(it.difference)} over that distance, or over half a " +
+                    "leg where it is more, and may as much across them: that is no lag.",
             )
         }
         paragraph("Verdict: ${mismatch.verdict.label}.")

@@ -117,6 +117,10 @@ class MapSummary(private val map: SurveyMap) {
             add("opposite legs disagree by" to wording.estimate(mismatch.opposite))
             mismatch.same?.let { add("same-direction legs, twice as far" to wording.estimate(it)) }
             mismatch.excess?.let { add("opposite minus same, leg by leg" to wording.estimate(it)) }
+            mismatch.aside?.let {
+                val apart = "${digits(it.distance, 3)} ${wording.length} beside those the other way"
+                add("legs one way" to "$apart, over which the water differs by ${wording.value(it.difference)}")
+            }
             add("lag" to mismatch.verdict.label)
             add(BEST_SHIFT to ShiftWording.best(mismatch.shift))
             add("what the shift says" to shift(mismatch))
@@ -150,6 +154,7 @@ class MapSummary(private val map: SurveyMap) {
         val reason = when {
             excess == null || mismatch.verdict == LegVerdict.TOO_FEW_LEGS ->
                 "too few legs have same-direction neighbours to hold it against"
+            mismatch.verdict == LegVerdict.ASIDE -> "legs one way lie to one side of those the other way"
             excess.mean <= 0 -> "opposite legs disagree no more than same-direction ones"
             else -> "opposite legs disagree more than same-direction ones by less than two standard errors"
         }

@@ -71,6 +71,38 @@ class LegComparisonTest {
         }
     }
 
+    /** A boat at 1 m/s up and down a line of 200 m, back [aside] m beside it, over water of many lengths. */
+    private fun upAndDown(aside: Double, lag: Double): SurveyScan {
+        val scan = SurveyScan()
+        val random = Random(SEED)
+        var reading = Double.NaN
+        for (second in 0 until 14 * 200) {
+            val along = (second % 200).toDouble()
+            val isBack = second / 200 % 2 == 1
+            val x = if (isBack) 200 - along else along
+            val y = (if (isBack) aside else 0.0) + 0.2 * random.nextDouble(-1.0, 1.0)
+            val truth = sin(x / 24 + 0.3) * cos(y / 27) + 0.5 * sin(x / 13 + y / 11)
+            reading = if (reading.isNaN()) truth else reading + (1 - exp(-1 / lag)) * (truth - reading)
+            scan.take(BoatTime(second.toDouble()), x, y, reading + 0.01 * random.nextDouble(-1.0, 1.0), Conditions.NONE)
+        }
+        return scan
+    }
+
+    @Test
+    fun legsBackBesideThoseOutAreNoLag() {
+        for (aside in listOf(4.0, 30.0)) {
+            val mismatch = assertNotNull(compare(upAndDown(aside, lag = 1e-3)))
+            assertEquals(aside, assertNotNull(mismatch.aside).distance, 0.1, "seed $SEED")
+            assertEquals(LegVerdict.ASIDE, mismatch.verdict, "$aside m, seed $SEED")
+            assertTrue(mismatch.isAside)
+        }
+        for (aside in listOf(0.0, 2.0)) {
+            val mismatch = assertNotNull(compare(upAndDown(aside, lag = 12.0)))
+            assertEquals(LegVerdict.LAG_SEEN, mismatch.verdict, "$aside m, seed $SEED")
+            assertFalse(mismatch.isAside)
+        }
+    }
+
     @Test
     fun seesNoLagWhereThereIsNone() {
         val mismatch = assertNotNull(compare(survey(legs = 14, lag = 1e-3, noise = 0.05)))

@@ -1,0 +1,49 @@
+package stillwater.diagnosis
+
+import stillwater.diagnose.Cause
+import stillwater.report.SignificantDigits
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+
+/**
+ * What a cause comes to in the sensor that was found, in the quantities that a user would measure: both time constants of an
+ * asymmetric lag and not their ratio, the moment of a jump, the speed that a time constant is for.
+ *
+ * @param sensor the sensor with the causes that were named. @param unitAfter the readings' unit with a blank before it,
+ *   or nothing.
+ */
+internal class CauseInWords(private val sensor: SensorSpec, private val unitAfter: String) {
+    private val three = SignificantDigits(3)
+
+    /** What [cause] comes to; null where its own numbers say it. */
+    fun of(cause: Cause): String? = sensor.stages.firstNotNullOfOrNull { of(cause, it) }
+
+    private fun of(cause: Cause, stage: SensorStage): String? = when (cause) {
+        Cause.ASYMMETRIC_RESPONSE -> (stage as? SensorStage.Asymmetric)?.let {
+            "rising ${seconds(it.rising)}, falling ${seconds(it.falling)}"
+        }
+        Cause.TWO_PATH_RESPONSE -> (stage as? SensorStage.TwoPath)?.let {
+            "fast ${seconds(it.fast)}, slow ${seconds(it.slow)}"
+        }
+        Cause.FLOW_DEPENDENT_RESPONSE -> when (stage) {
+            is SensorStage.FlowLag -> "${seconds(stage.timeConstant)} at ${three.format(stage.referenceSpeed)} m/s"
+            is SensorStage.Combined -> "${seconds(stage.timeConstant)} at ${three.format(stage.referenceSpeed)} m/s"
+            else -> null
+        }
+        Cause.TEMPERATURE_DEPENDENT_RESPONSE -> when (stage) {
+            is SensorStage.TemperatureLag -> warm(stage.timeConstant, stage.referenceTemperature)
+            is SensorStage.Combined -> warm(stage.timeConstant, stage.referenceTemperature)
+            else -> null
+        }
+        Cause.OFFSET_STEPS -> (stage as? SensorStage.Jumps)?.let { jumps ->
+            "at " + jumps.times.joinToString(" and ") { seconds(it) }
+        }
+        Cause.QUANTISATION -> (stage as? SensorStage.Quantum)?.let { "steps of ${three.format(it.step)}$unitAfter" }
+        else -> null
+    }
+
+    private fun warm(timeConstant: Double, temperature: Double) =
+        "${seconds(timeConstant)} at ${three.format(temperature)} °C"
+
+    private fun seconds(time: Double) = "${three.format(time)} s"
+}
