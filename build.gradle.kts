@@ -8,7 +8,7 @@ plugins {
 // As in the Maven build: the same on every machine, whatever its language and display.
 subprojects {
     tasks.withType<Test>().configureEach {
-        useJUnitPlatform()
+        useJUnitPlatform { if (!project.hasProperty("long")) excludeTags("long") }
         systemProperty("java.awt.headless", "true")
         systemProperty("user.language", "en")
         systemProperty("user.country", "US")

@@ -70,9 +70,7 @@ public class Diagnosis private constructor(
     private fun answer(reference: DoubleArray): DiagnosisResult {
         // Of readings that never change any lag that is long enough is as likely as any end of a range.
         TooLittle.still(series)?.let { return BlindAnswer.none(series, it) }
-        TooLittle.inGaps(series, unknown.isGap)?.let {
-            return UnwrittenMoves(series, unknown.isGap, settings.base).answer(it)
-        }
+        TooLittle.inGaps(series, unknown.isGap)?.let { return UnwrittenMoves(series, unknown.isGap, settings.base).answer(it) }
         val quieter = quieter(reference)
         val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
         return weighed.result()
@@ -218,12 +216,14 @@ public class Diagnosis private constructor(
 
     /**
      * [first] where it explains the log better for its numbers, by [margin], than the weighing with [steps]; a truth that
-     * is held, and a delay that is by chance just what undoes that, must explain far more.
+     * is held, and a delay that is by chance just what undoes that, must explain far more. Where sharp steps come at some
+     * moment between rows, no cause is likelier than one.
      */
     private fun better(first: Weighing, margin: Double, steps: Steps): Weighing {
         val rows = used.copyOf()
         val second = weighing(steps)
-        val least = if (isUndone(first, second)) COINCIDENCE else -margin
+        val isPlainer = unknown.isSharp && second.clear < first.clear
+        val least = if (isUndone(first, second)) COINCIDENCE else -maxOf(margin, if (isPlainer) SHIFT else margin)
         if (second.explained > first.explained + least) return second
         rows.copyInto(used)
         return first
@@ -353,18 +353,10 @@ public class Diagnosis private constructor(
         val forms = given?.terms.orEmpty().let { terms -> listOf(terms, terms.map(Term::quiet)).distinct() }
         return forms.map { ResponseModel(series, it, steps, scales) }.flatMap { model ->
             val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
-            val starts = given?.let { listOf(it.numbers(model)) } ?: starts(model)
+            val starts = given?.let { listOf(it.numbers(model)) } ?: Starts.ofLags(model)
             starts.map { Fitting.fit(model, it, free, used, longest) }
         }.maxBy { it.score }
     }
-
-    private fun starts(model: ResponseModel): List<DoubleArray> =
-        doubleArrayOf(0.7, 3.0, 12.0, 50.0).map { steps ->
-            val numbers = DoubleArray(model.parameters.size)
-            numbers[ResponseModel.TIME_CONSTANT] = steps * series.period
-            numbers[ResponseModel.GAIN] = 1.0
-            numbers
-        }
 
     private companion object {
         /** Twice the log-likelihood by which steps must look held. */

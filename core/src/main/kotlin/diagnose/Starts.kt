@@ -114,19 +114,27 @@ internal class Starts(
         values.forEachIndexed { k, value -> numbers[at + k] = value }
     }
 
-    private companion object {
+    companion object {
+        /** Where a fit of [model], a lag alone, begins. */
+        fun ofLags(model: ResponseModel): List<DoubleArray> = doubleArrayOf(0.7, 3.0, 12.0, 50.0).map { rows ->
+            DoubleArray(model.parameters.size).also {
+                it[ResponseModel.TIME_CONSTANT] = rows * model.series.period
+                it[ResponseModel.GAIN] = 1.0
+            }
+        }
+
         /** Causes whose effect is nearly in proportion to a number, and a small value of it. */
-        val STEPS = mapOf(
+        private val STEPS = mapOf(
             Cause.ASYMMETRIC_RESPONSE to 0.1,
             Cause.FLOW_DEPENDENT_RESPONSE to 0.1,
             Cause.TEMPERATURE_DEPENDENT_RESPONSE to 0.01,
         )
-        val IN_PROPORTION = STEPS.keys
+        private val IN_PROPORTION = STEPS.keys
 
         /** The second lag over the first, where the two are nearly equal. */
-        const val EQUAL = 0.8
+        private const val EQUAL = 0.8
 
         /** A small share of the slow path. */
-        const val SHARE = 0.01
+        private const val SHARE = 0.01
     }
 }

@@ -48,17 +48,19 @@ internal class UnknownTruth private constructor(
 
     /**
      * Shocks to the reading of a sensor with a lag of [timeConstant] s and [gain] under noise of [spread], sensor
-     * units; those of gaps and of missing rows alone if the truth [isHeld] over each step. Null where nothing is in doubt.
+     * units; those of gaps and of missing rows alone if the truth [isHeld] over each step, but that sharp steps may come a
+     * little beside a row. Null where nothing is in doubt.
      */
     fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? {
         val keep = DoubleArray(times.size) { i ->
             if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstant)
         }
+        val beside = if (isSharp) BESIDE_ROW else 0.0
         val variance = DoubleArray(times.size) { i ->
             val doubt = if (isGap[i]) {
                 doubts[i]
             } else {
-                (1 - keep[i]) * if (isHeld) guesses[i] else maxOf(doubts[i], guesses[i])
+                (1 - keep[i]) * maxOf(guesses[i], if (isHeld) beside * doubts[i] else doubts[i])
             }
             val shock = gain * doubt / spread
             if (abs(shock) > LEAST) shock * shock else 0.0
@@ -190,6 +192,9 @@ internal class UnknownTruth private constructor(
         private const val LEVELS = 30
 
         private const val OFTEN = 0.08
+
+        /** Of a row, by which sharp steps of a truth that is held over each may come beside one. */
+        private const val BESIDE_ROW = 0.1
 
         /** Of the squares of all steps: a truth of which sudden ones have more is sharp. */
         private const val MOSTLY = 0.9

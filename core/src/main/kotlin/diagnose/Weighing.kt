@@ -50,6 +50,9 @@ internal class Weighing(
     /** What of the answer is a shift that may be none. */
     val shifts: SmallShifts = SmallShifts(last, base, late)
 
+    /** How many of what was chosen are more than the way the log is sampled may make. */
+    val clear: Int get() = chosen.count { !shifts.isSmall(it, listOf(it.term.cause)) }
+
     /** Whether the log's speeds differ enough to tell an offset of place. */
     val hasPlace: Boolean get() = terms.any { it.cause == Cause.POSITION_OFFSET }
 
