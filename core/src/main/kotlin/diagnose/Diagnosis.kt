@@ -70,7 +70,9 @@ public class Diagnosis private constructor(
     private fun answer(reference: DoubleArray): DiagnosisResult {
         // Of readings that never change any lag that is long enough is as likely as any end of a range.
         TooLittle.still(series)?.let { return BlindAnswer.none(series, it) }
-        TooLittle.inGaps(series, unknown.isGap)?.let { return UnwrittenMoves(series, unknown.isGap, settings.base).answer(it) }
+        TooLittle.inGaps(series, unknown.isGap)?.let { why ->
+            return UnwrittenMoves(series, unknown.isGap, settings.base).answer(why)
+        }
         val quieter = quieter(reference)
         val weighed = if (quieter == null) weighed() else likelier(Diagnosis(quieter, settings, loops, 0.0, progress))
         return weighed.result()

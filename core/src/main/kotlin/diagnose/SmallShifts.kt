@@ -89,7 +89,9 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
 
     /** Whether what [term] does to the readings is less than a dead time of a row would. */
     private fun isLessThanARow(term: Term): Boolean {
-        if (term.cause == Cause.DEAD_TIME) return last.numbers[model.slot(term)] < (1 + LEAST_ROWS + secondLead) * period
+        if (term.cause == Cause.DEAD_TIME) {
+            return last.numbers[model.slot(term)] < (1 + LEAST_ROWS + secondLead) * period
+        }
         if (!term.cause.isTiming) return false
         val prompt = model.terms.filter { it.cause != Cause.DEAD_TIME }
         val rest = prompt.filter { it.key != term.key }

@@ -51,7 +51,8 @@ class MovesBesideRowsTest {
         for ((seed, early) in listOf(4L to 0.0, 5L to 0.1, 6L to 0.6)) {
             val result = Diagnosis(bench(seed, early, 12.0, 4.0)).run()
             val case = "seed $seed, $early s before a row"
-            assertEquals(listOf(Cause.SECOND_ORDER_RESPONSE), assertIs<Verdict.Named>(result.verdict, case).causes, case)
+            val named = assertIs<Verdict.Named>(result.verdict, case).causes
+            assertEquals(listOf(Cause.SECOND_ORDER_RESPONSE), named, case)
             val second = result.effects.single().parameters.first { it.name == "second_time_constant_s" }.value
             assertTrue(second in 3.7..4.3, "$second s, $case")
         }

@@ -9,6 +9,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertIs
+import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
@@ -102,6 +103,10 @@ class StillReadingsTest {
     fun readingsThatStandStillOfThemselvesAreNotFrozen() {
         val coarse = diagnosed(rounded(normal(), 0.06))
         assertEquals(Verdict.Named(listOf(Cause.QUANTISATION)), coarse.verdict)
+        // Rounding is in the extended sensor once: its noise is that before it.
+        val stages = assertNotNull(coarse.extendedSensor).stages
+        assertEquals(0.06, stages.filterIsInstance<SensorStage.Quantum>().single().step, 1e-9)
+        assertEquals(0.01, stages.filterIsInstance<SensorStage.Noise>().single().standardDeviation, 0.005)
         val ended = diagnosed(normal().map { minOf(it, 6.2) }.toDoubleArray())
         assertEquals(Verdict.Named(listOf(Cause.SATURATION)), ended.verdict)
         val repeated = normal()

@@ -65,7 +65,12 @@ class LegComparison(
     }
 
     /** How far legs one way lie to one side of those the other way; null where they do not for certain. */
-    private fun aside(legs: List<Leg>, opposite: List<Triple>, profiles: List<DoubleArray>, binWidth: Double): LegAside? {
+    private fun aside(
+        legs: List<Leg>,
+        opposite: List<Triple>,
+        profiles: List<DoubleArray>,
+        binWidth: Double,
+    ): LegAside? {
         val found = estimate(
             opposite.map { triple ->
                 val side = legs[triple.leg].across - (legs[triple.before].across + legs[triple.after].across) / 2

@@ -83,9 +83,9 @@ internal class MapReport(
         }
         mismatch.aside?.let {
             paragraph(
-                "Legs one way lie ${digits(it.distance, 3)} ${wording.length} to one side of those the other way. Along " +
-                    "the legs the water differs by ${wording.value(it.difference)} over that distance, or over half a " +
-                    "leg where it is more, and may as much across them: that is no lag.",
+                "Legs one way lie ${digits(it.distance, 3)} ${wording.length} to one side of those the other way. " +
+                    "Along the legs the water differs by ${wording.value(it.difference)} over that distance, or " +
+                    "over half a leg where it is more, and may by up to twice as much across them: that is no lag.",
             )
         }
         paragraph("Verdict: ${mismatch.verdict.label}.")

@@ -321,6 +321,24 @@ class DiagnoseCommandTest {
     }
 
     @Test
+    fun aGivenNumberThatIsWrongIsSaidToBeTheFilesAndNotTheSensors() {
+        val water = DoubleArray(600) { 5 + sin(it / 9.0) + 0.5 * sin(it / 23.0) + 0.3 * sin(it / 4.1) }
+        val random = Random(9)
+        val sensor = SensorSpec("true", listOf(SensorStage.Lag(8.0), SensorStage.Noise(0.01))).build(water[0], random)
+        val lines = water.indices.map { "$it,0,0,${sensor.step(water[it], 1.0, Conditions.NONE)},${water[it]}" }
+        val log = directory.resolve("log.csv")
+        Files.write(log, listOf("time_s,x_m,y_m,probe,sample") + lines)
+        val given = directory.resolve("given.json")
+        val stages = listOf(SensorStage.Delay(3.0), SensorStage.Lag(8.0), SensorStage.Calibration(1.0, 0.0))
+        Files.writeString(given, SensorSpec("given", stages).toJson())
+        val arguments = listOf("$log", "--value", "probe", "--reference", "sample", "--sensor", "$given", "--out")
+        val result = diagnose(*arguments.toTypedArray(), "${directory.resolve("wrong")}", "--numbers-only")
+        assertContains(result.stdout, "verdict: named (dead-time)")
+        assertContains(result.stdout, "The sensor given is wrong in its dead-time, 3.00 s, and shows another one here.")
+        assertFalse("less than a tenth" in result.stderr, result.stderr)
+    }
+
+    @Test
     fun badInputIsOneLineAndLeavesNothing() {
         val log = bench()
         val cases = listOf(

@@ -22,6 +22,7 @@ import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
+import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
 /** What `correct` does not know, it says. */
@@ -61,6 +62,20 @@ class CorrectHonestyTest {
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stdout, "sensor: not learned")
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
+    }
+
+    @Test
+    fun aReferenceThatTeachesNothingStillWidensIntervalsThatItContradicts() {
+        val rows = (0 until 200).joinToString("") {
+            "$it,$it,0,${8 + 0.002 * it + 0.004 * (it * 7 % 5)},${8.5 + 0.002 * it + 0.004 * (it * 3 % 7)}\n"
+        }
+        val result = correct("time_s,x_m,y_m,slow,fast\n$rows", "--reference", "fast")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "nothing was learned")
+        assertContains(result.stderr, "give --sensor\n")
+        assertContains(result.stderr, "the reference lies outside the intervals in 100.0 % of 200 rows")
+        val half = assertNotNull(Regex("""reach ([\d.]+) either""").find(result.stdout)).groupValues[1].toDouble()
+        assertTrue(half > 0.5, result.stdout)
     }
 
     /** Opposite legs of a stuck sensor differ by rounding, of which there is no share. */
