@@ -91,6 +91,7 @@ internal class BlindAnswer(
                 little(chosen) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
+            mayHaveChanged = isLikelyChange,
             lag = lag.channel(""),
         )
     }

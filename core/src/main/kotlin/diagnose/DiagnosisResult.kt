@@ -154,6 +154,8 @@ public data class NamedEffect(val cause: Cause, val parameters: List<Estimate>)
  * @property dependences what is left in the residuals of the last model. @property spikes rows taken for outliers.
  * @property warnings for the reader. @property effects what the extended model holds beyond the base, with a reference.
  * @property revisits what the reference says of the water's own change; null without one.
+ * @property mayHaveChanged whether a log without a reference is likelier where the water, or the sensor's zero, is let
+ *   change, which is not named: a warning says so.
  */
 public class DiagnosisResult internal constructor(
     public val verdict: Verdict,
@@ -168,6 +170,7 @@ public class DiagnosisResult internal constructor(
     public val warnings: List<String>,
     public val effects: List<NamedEffect> = emptyList(),
     public val revisits: Revisits? = null,
+    public val mayHaveChanged: Boolean = false,
     internal val lag: ChannelLag? = null,
 ) {
     /** The same of the rows that [isRead] alone, of all where that is null, with [more] warnings. */
@@ -188,6 +191,7 @@ public class DiagnosisResult internal constructor(
             warnings + more,
             effects,
             revisits,
+            mayHaveChanged,
             lag,
         )
     }

@@ -199,11 +199,11 @@ internal class CorrectSummary(
         val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
         val differ = "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
             "${digits(after.opposite.mean, 3)}$unitAfter corrected"
-        // Of few legs the share is chance, and read as a judgement all the same.
-        after.aside?.takeIf { after.isAside }?.let {
+        before.aside?.takeIf { before.isAside }?.let {
             val apart = "legs one way lie ${digits(it.distance, 3)} m beside those the other way"
             return "$differ; no lag is told from that: $apart, in other water"
         }
+        // Of few legs the share is chance, and read as a judgement all the same.
         if (after.scores.size < LagShift.FEWEST_LEGS) return "$differ; too few legs to tell, ${after.scores.size}"
         val thanSmoothed = plain?.let { " than measured, ${lessOrMore(1 - after.opposite.mean / it)} than smoothed" }
         return "$differ (${lessOrMore(change)}${thanSmoothed.orEmpty()})"
@@ -258,7 +258,7 @@ internal class CorrectSummary(
         // Nothing was undone, or of nothing there is no share.
         if (result.origin == SensorOrigin.NOTHING || !(before > 0)) return null
         // The water itself differs from side to side, and more so when what the sensor smoothed is undone.
-        if (found.isAside) return null
+        if (result.before?.isAside == true) return null
         // Of few legs a little more is chance, as the line about them says.
         val much = if (found.scores.size < LagShift.FEWEST_LEGS) WORSE_OF_FEW else WORSE
         if (!(after > much * before)) return null

@@ -79,7 +79,9 @@ class Diagnosed(
                 open(set)
             }
         }
-        is Verdict.Consistent -> "Nothing that the simulation lacks shows in this log${besideLag()}."
+        is Verdict.Consistent ->
+            "Nothing that the simulation lacks shows in this log${besideLag()}" +
+                if (result.mayHaveChanged) "; but the water may have changed meanwhile." else "."
         is Verdict.Unexplained ->
             (
                 listOf("Something is at work that no cause of the list explains: ${verdict.what}.") +

@@ -64,21 +64,17 @@ class LegComparison(
         )
     }
 
-    /** How far legs one way lie to one side of those the other way; null where they do not for certain. */
+    /** How far legs lie to one side of the middle between those before and after; null where they do not. */
     private fun aside(
         legs: List<Leg>,
         opposite: List<Triple>,
         profiles: List<DoubleArray>,
         binWidth: Double,
     ): LegAside? {
-        val found = estimate(
-            opposite.map { triple ->
-                val side = legs[triple.leg].across - (legs[triple.before].across + legs[triple.after].across) / 2
-                if (legs[triple.leg].forward) side else -side
-            },
-        )
-        val distance = abs(found.mean)
-        return if (distance > 2 * found.standardError) LegAside.of(distance, profiles, binWidth) else null
+        // A boat may turn round on a circle, so that the side is another one from there on.
+        val sides = opposite.map { abs(legs[it.leg].across - (legs[it.before].across + legs[it.after].across) / 2) }
+        val distance = Quantiles(sides.toDoubleArray()).median
+        return if (distance > LEAST_BINS * binWidth) LegAside.of(distance, profiles, binWidth) else null
     }
 
     private fun triples(legs: List<Leg>, reach: Int): List<Triple> {
@@ -196,6 +192,9 @@ class LegComparison(
 
         private const val FEWEST_LEGS = 3
         private const val FEWEST_BINS = 5
+
+        /** Bins along the legs; legs that lie less aside are in the same water. */
+        private const val LEAST_BINS = 0.1
         private const val MOST_SPACINGS = 3.0
         private const val READINGS_A_BIN = 3.0
         private const val BINS_A_LEG = 50.0

@@ -92,13 +92,8 @@ class LegMismatch(
     /** What [excess] says. */
     val verdict: LegVerdict get() = LegVerdict.of(excess, pairedLegs, aside?.most ?: 0.0)
 
-    /** Whether opposite legs may differ because those one way lie to one side of the others. */
-    val isAside: Boolean
-        get() {
-            val water = aside?.most ?: return false
-            val found = excess ?: opposite
-            return !(found.mean - water > 2 * found.standardError)
-        }
+    /** Whether opposite legs may differ by all that they do because those one way lie to one side of the others. */
+    val isAside: Boolean get() = aside != null && aside.most >= opposite.mean
 
     /** Whether [shift] is clear although the paired comparison sees no lag: it may fit the water's own change. */
     val hasReserve: Boolean get() = shift.isClear && verdict != LegVerdict.LAG_SEEN

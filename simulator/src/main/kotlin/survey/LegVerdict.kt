@@ -24,7 +24,7 @@ enum class LegVerdict(val label: String) {
         fun of(excess: Estimate?, legs: Int, aside: Double = 0.0): LegVerdict = when {
             excess == null || legs < LagShift.FEWEST_LEGS -> TOO_FEW_LEGS
             !(excess.mean > 2 * excess.standardError && excess.mean > 0) -> NOT_TOLD_APART
-            aside > 0 && !(excess.mean - aside > 2 * excess.standardError) -> ASIDE
+            aside >= excess.mean -> ASIDE
             else -> LAG_SEEN
         }
     }

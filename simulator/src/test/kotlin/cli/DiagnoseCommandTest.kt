@@ -338,6 +338,24 @@ class DiagnoseCommandTest {
         assertFalse("less than a tenth" in result.stderr, result.stderr)
     }
 
+    /** Legs along and across a pond whose water swings by 0.4 over three quarters of a period, as no drift does. */
+    @Test
+    fun waterThatSwingsIsInTheAnswerThoughItIsNotNamed() {
+        val sensor = SensorSpec("true", listOf(SensorStage.Lag(6.0), SensorStage.Noise(0.01))).build(0.0, Random(11))
+        val legs = (0..6).flatMap { leg -> (0 until 60).map { (if (leg % 2 == 0) it else 60 - it) to 10 * leg } } +
+            (0..6).flatMap { leg -> (0 until 60).map { 60 - 10 * leg to if (leg % 2 == 0) 60 - it else it } }
+        val lines = legs.mapIndexed { second, (x, y) ->
+            val tide = 0.4 * sin(2 * PI * 0.75 * second / legs.size)
+            val water = sin(x / 14.0 + 1) * sin(y / 17.0) + 0.5 * sin(x / 9.0 - y / 12.0) + tide
+            "$second,$x,$y,${sensor.step(water, 1.0, Conditions.NONE)}"
+        }
+        val log = directory.resolve("swing.csv")
+        Files.write(log, listOf("time_s,x_m,y_m,probe") + lines)
+        val result = diagnose("$log", "--value", "probe", "--numbers-only", "--out", "${directory.resolve("swing")}")
+        val isNamed = "time-varying-field" in result.stdout.lines().take(2).joinToString()
+        assertTrue(isNamed || "but the water may have changed meanwhile" in result.stdout, result.output)
+    }
+
     @Test
     fun badInputIsOneLineAndLeavesNothing() {
         val log = bench()

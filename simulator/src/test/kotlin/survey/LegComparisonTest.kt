@@ -92,7 +92,7 @@ class LegComparisonTest {
     fun legsBackBesideThoseOutAreNoLag() {
         for (aside in listOf(4.0, 30.0)) {
             val mismatch = assertNotNull(compare(upAndDown(aside, lag = 1e-3)))
-            assertEquals(aside, assertNotNull(mismatch.aside).distance, 0.1, "seed $SEED")
+            assertEquals(aside, assertNotNull(mismatch.aside).distance, 0.3, "seed $SEED")
             assertEquals(LegVerdict.ASIDE, mismatch.verdict, "$aside m, seed $SEED")
             assertTrue(mismatch.isAside)
         }
