@@ -87,8 +87,7 @@ internal class BlindAnswer(
             outliers.rows,
             BlindWarnings(series, settings, search, last, lag, outliers, given)
                 .of(left.first(), isNamed, rounding.takeIf { isCoarse }) +
-                listOfNotNull(CHANGES.takeIf { isLikelyChange }) +
-                little(chosen) +
+                listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
             mayHaveChanged = isLikelyChange,
