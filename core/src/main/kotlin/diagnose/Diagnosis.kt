@@ -224,8 +224,11 @@ public class Diagnosis private constructor(
     private fun better(first: Weighing, margin: Double, steps: Steps): Weighing {
         val rows = used.copyOf()
         val second = weighing(steps)
-        val isPlainer = unknown.isSharp && second.clear < first.clear
-        val least = if (isUndone(first, second)) COINCIDENCE else -maxOf(margin, if (isPlainer) SHIFT else margin)
+        val least = when {
+            isUndone(first, second) -> COINCIDENCE
+            unknown.isSharp && second.clear < first.clear -> -maxOf(margin, SHIFT)
+            else -> -margin
+        }
         if (second.explained > first.explained + least) return second
         rows.copyInto(used)
         return first

@@ -95,10 +95,8 @@ internal class FitReport(
     private fun open(fit: ModelFit, i: Int, parameter: Parameter): Pair<Double, Double> = when {
         parameter.name != "dead_time_s" -> 0.0 to 0.0
         fit.model.scales.unknown?.isSharp != true -> otherWays(fit, i)
-        // A second lag whose input is held, too, is half a row ahead, which the delay makes up for.
-        fit.model.steps == Steps.HELD && fit.model.terms.any { it.cause == Cause.SECOND_ORDER_RESPONSE } ->
-            series.period * 3 / 2 to 0.0
-        fit.model.steps == Steps.HELD -> series.period to 0.0
+        // What a second lag is ahead by the delay makes up for.
+        fit.model.steps == Steps.HELD -> series.period * (1 + fit.model.secondLead) to 0.0
         fit.model.steps == Steps.UNTIL_NEXT -> 0.0 to series.period
         else -> series.period / 2 to series.period / 2
     }

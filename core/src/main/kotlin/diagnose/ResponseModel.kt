@@ -34,6 +34,9 @@ internal class ResponseModel(
     val parameters: List<Parameter> get() = layout.parameters
 
     private val causes = terms.map { it.cause }.toSet()
+
+    /** Rows by which a second lag is ahead that is stepped by what the first one shows at the end of a row. */
+    val secondLead: Double get() = if (steps == Steps.HELD && Cause.SECOND_ORDER_RESPONSE in causes) steps.lead else 0.0
     private val work = DoubleArray(n)
     private val second = DoubleArray(n)
     private val taus = DoubleArray(n)

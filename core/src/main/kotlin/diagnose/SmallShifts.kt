@@ -23,10 +23,6 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
     /** By how much a truth that is held over each step is ahead of one that goes on evenly, s. */
     private val lead = model.steps.lead * period
 
-    /** Rows by which a second lag is ahead that is stepped by what the first one shows at the end of a row. */
-    private val secondLead =
-        if (model.steps == Steps.HELD && model.terms.any { it.cause == Cause.SECOND_ORDER_RESPONSE }) HALF_ROW else 0.0
-
     /** Of [trial], which may be any of [set]: whether it is too small. */
     fun isSmall(trial: Trial, set: List<Cause>): Boolean {
         val shift = shift(trial.term, set)
@@ -80,8 +76,7 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
     fun cautions(named: List<Pair<Trial, List<Cause>>>): List<String> =
         named.filter { (trial, set) ->
             shift(trial.term, set)?.let { abs(it - given(trial.term)) < LEAST_ROWS * period } == true
-        }
-            .map { (trial, _) -> "The ${trial.term.cause.label} is a $LITTLE" }
+        }.map { (trial, _) -> "The ${trial.term.cause.label} is a $LITTLE" }
 
     /** By how much the readings are late for [term], s; null where that is not what it does. */
     private fun shift(term: Term, set: List<Cause>): Double? =
@@ -90,7 +85,7 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
     /** Whether what [term] does to the readings is less than a dead time of a row would. */
     private fun isLessThanARow(term: Term): Boolean {
         if (term.cause == Cause.DEAD_TIME) {
-            return last.numbers[model.slot(term)] < (1 + LEAST_ROWS + secondLead) * period
+            return last.numbers[model.slot(term)] < (1 + LEAST_ROWS + model.secondLead) * period
         }
         if (!term.cause.isTiming) return false
         val prompt = model.terms.filter { it.cause != Cause.DEAD_TIME }
@@ -179,8 +174,6 @@ internal class SmallShifts(private val last: ModelFit, private val base: ModelFi
          * is ahead or late by half a step, 0.025 rows, and no boat's clock and fixes are that good.
          */
         const val SIMULATED_ROWS = 0.03
-
-        private const val HALF_ROW = 0.5
 
         /** Rows; a shift of less is next to nothing. */
         const val LEAST_ROWS = 0.1

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.BlindAnswer.Companion.three
 import stillwater.estimate.ReferenceLearner
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.TrackSeries
@@ -7,7 +8,6 @@ import stillwater.estimate.UnusableReadings
 import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
-import java.util.Locale
 import kotlin.math.sqrt
 
 /**
@@ -34,7 +34,7 @@ internal class UnwrittenMoves(
     /** The result, of which [why] says what cannot be told. */
     fun answer(why: String): DiagnosisResult {
         val range = learner.lagRange()
-        val isShown = range.start > 0 && range.endInclusive < MOST_FACTOR * range.start
+        val isShown = range.start > 0 && range.endInclusive < ReferenceLearner.MOST_FACTOR * range.start
         val lag = learner.candidate(ResponseKind.FIRST_ORDER).takeIf { isShown } ?: return BlindAnswer.none(series, why)
         val (gain, offset) = learner.calibration(lag.response)
         val tau = lag.parameter(0)
@@ -73,15 +73,9 @@ internal class UnwrittenMoves(
     }
 
     private fun words(tau: Double, reach: Interval): String {
-        fun three(number: Double) = "%.3g".format(Locale.ROOT, number)
         val lag = "What does show is how the readings settle after the moves: a time constant of ${three(tau)} " +
             "[${three(reach.lower)}, ${three(reach.upper)}] s"
         val own = given?.stages?.filterIsInstance<SensorStage.Lag>()?.singleOrNull()?.timeConstant ?: return lag
         return lag + if (own in reach.lower..reach.upper) "" else ", and not the ${three(own)} s of the sensor given"
-    }
-
-    private companion object {
-        /** A lag known to such a factor only is not known. */
-        const val MOST_FACTOR = 10
     }
 }

@@ -47,6 +47,7 @@ public class ReferenceLearner(
     internal val count: Int = starts.counts.count { it }
     private val shown = DoubleArray(series.size)
     private val rest = Array(3) { DoubleArray(series.size) }
+    private val level = mean(series.values)
     private val residuals = DoubleArray(series.size)
     private val lag = LagWeights()
 
@@ -192,13 +193,12 @@ public class ReferenceLearner(
     private fun fit(): Pair<Double, Double> {
         val (x, one, z) = rest
         val middle = mean(shown)
-        val level = mean(series.values)
         for (i in shown.indices) {
             x[i] = shown[i] - middle
             one[i] = 1.0
             z[i] = series.values[i] - level
         }
-        rest.forEach(starts::takeOff)
+        starts.takeOff(*rest)
         // Readings that are all of where stretches begin say nothing of the offset.
         val own = product(one, one)
         val isTold = own > count * NO_OFFSET
@@ -212,8 +212,13 @@ public class ReferenceLearner(
 
     private fun mean(column: DoubleArray): Double {
         var sum = 0.0
-        for (i in column.indices) if (usable[i]) sum += column[i]
-        return sum / maxOf(1, usable.count { it })
+        var seen = 0
+        for (i in column.indices) {
+            if (!usable[i]) continue
+            sum += column[i]
+            seen++
+        }
+        return sum / maxOf(1, seen)
     }
 
     private fun product(one: DoubleArray, other: DoubleArray): Double {
@@ -295,6 +300,9 @@ public class ReferenceLearner(
             unusable: UnusableReadings = UnusableReadings.none(series.size),
         ): Boolean = ReferenceLearner(series, reference, held = true, unusable).firstOrder() >
             ReferenceLearner(series, reference, held = false, unusable).firstOrder() + CLEARLY
+
+        /** A lag whose [lagRange] is as wide as such a factor is not known. */
+        public const val MOST_FACTOR: Int = 10
 
         private const val CLEARLY = 6.0
         private const val EVALUATIONS = 60

@@ -12,7 +12,6 @@ package stillwater.estimate
  */
 internal class StretchStarts(private val series: TrackSeries, private val usable: BooleanArray) {
     private val starts = (0 until series.size).filter { it == 0 || series.isAfterGap(it) }.toIntArray()
-    private val amounts = DoubleArray(starts.size)
 
     /** What a displacement at the start of each stretch has become at each reading, length n; to be set. */
     val fading = DoubleArray(series.size)
@@ -26,27 +25,29 @@ internal class StretchStarts(private val series: TrackSeries, private val usable
 
     /** A displacement of one in [fading] at the start of each stretch: downward where [column] begins below, as it says. */
     fun displace(column: DoubleArray? = null) {
-        for (k in starts.indices) amounts[k] = if (column == null) 1.0 else amount(column, k)
-        fading.fill(0.0)
-        for (k in starts.indices) fading[starts[k]] = if (amounts[k] < 0) -1.0 else 1.0
-    }
-
-    /** Takes what looks like [fading] off [column], at readings that say something. */
-    fun takeOff(column: DoubleArray) {
         for (k in starts.indices) {
-            val amount = amount(column, k)
-            for (i in rows(k)) column[i] -= amount * fading[i]
+            val isBelow = column != null && product(column, k) < 0
+            for (i in rows(k)) fading[i] = 0.0
+            fading[starts[k]] = if (isBelow) -1.0 else 1.0
         }
     }
 
-    private fun amount(column: DoubleArray, k: Int): Double {
-        var own = 0.0
-        var with = 0.0
-        for (i in rows(k)) {
-            if (!usable[i]) continue
-            own += fading[i] * fading[i]
-            with += fading[i] * column[i]
+    /** Takes what looks like [fading] at readings that say something off each of [columns]. */
+    fun takeOff(vararg columns: DoubleArray) {
+        for (k in starts.indices) {
+            val own = product(fading, k)
+            if (!(own > 0)) continue
+            for (column in columns) {
+                val amount = product(column, k) / own
+                for (i in rows(k)) column[i] -= amount * fading[i]
+            }
         }
-        return if (own > 0) with / own else 0.0
+    }
+
+    /** Of [column] and [fading], over what stretch [k] says. */
+    private fun product(column: DoubleArray, k: Int): Double {
+        var sum = 0.0
+        for (i in rows(k)) if (usable[i]) sum += fading[i] * column[i]
+        return sum
     }
 }

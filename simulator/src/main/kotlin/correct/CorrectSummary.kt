@@ -199,7 +199,7 @@ internal class CorrectSummary(
         val smoothed = plain?.let { "${digits(it, 3)}$unitAfter smoothed alike with no lag undone, " }.orEmpty()
         val differ = "differ by ${digits(before.opposite.mean, 3)}$unitAfter as measured, $smoothed" +
             "${digits(after.opposite.mean, 3)}$unitAfter corrected"
-        before.aside?.takeIf { before.isAside }?.let {
+        before.otherWater?.let {
             val apart = "legs one way lie ${digits(it.distance, 3)} m beside those the other way"
             return "$differ; no lag is told from that: $apart, in other water"
         }

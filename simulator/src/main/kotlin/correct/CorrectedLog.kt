@@ -199,8 +199,8 @@ class CorrectedLog internal constructor(
             val agreement = TrackAgreement.of(series, narrow)
             val agreed = learned.agreed(narrow, agreement)
             // A given sensor's intervals are the giver's. All others must hold a reference that is there, learned from or not.
-            val margin = ReferenceMargin.of(series, agreed, rows.references())
-                .takeIf { hasReference && learned.origin != SensorOrigin.GIVEN }
+            val isMeasured = hasReference && learned.origin != SensorOrigin.GIVEN
+            val margin = if (isMeasured) ReferenceMargin.of(series, agreed, rows.references()) else null
             val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,

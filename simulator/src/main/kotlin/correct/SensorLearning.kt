@@ -101,9 +101,6 @@ internal object SensorLearning {
     /** A log that is not many times as long as a lag that it does not tell from none tells nothing of lags. */
     private const val FEW_LAGS = 10
 
-    /** A lag known to such a factor only is not known. */
-    private const val MOST_FACTOR = 10
-
     /** The water between rows with a reference is not known where it bends by half of what is left of the readings. */
     private const val MOST_ROUGHNESS = 0.5
 
@@ -260,7 +257,7 @@ internal object SensorLearning {
     private fun fault(series: TrackSeries, part: TrackSeries, learner: ReferenceLearner): String? {
         val range = learner.lagRange()
         val length = part.times.last() - part.times.first()
-        val least = if (range.start == 0.0) length / FEW_LAGS else MOST_FACTOR * range.start
+        val least = if (range.start == 0.0) length / FEW_LAGS else ReferenceLearner.MOST_FACTOR * range.start
         if (range.endInclusive > least) {
             val begin = if (range.start == 0.0) "none" else duration(range.start)
             val end = if (range.endInclusive.isInfinite()) "more than it is long" else duration(range.endInclusive)

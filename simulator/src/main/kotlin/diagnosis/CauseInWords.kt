@@ -26,13 +26,13 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
             "fast ${seconds(it.fast)}, slow ${seconds(it.slow)}"
         }
         Cause.FLOW_DEPENDENT_RESPONSE -> when (stage) {
-            is SensorStage.FlowLag -> "${seconds(stage.timeConstant)} at ${three.format(stage.referenceSpeed)} m/s"
-            is SensorStage.Combined -> "${seconds(stage.timeConstant)} at ${three.format(stage.referenceSpeed)} m/s"
+            is SensorStage.FlowLag -> at(stage.timeConstant, stage.referenceSpeed, "m/s")
+            is SensorStage.Combined -> at(stage.timeConstant, stage.referenceSpeed, "m/s")
             else -> null
         }
         Cause.TEMPERATURE_DEPENDENT_RESPONSE -> when (stage) {
-            is SensorStage.TemperatureLag -> warm(stage.timeConstant, stage.referenceTemperature)
-            is SensorStage.Combined -> warm(stage.timeConstant, stage.referenceTemperature)
+            is SensorStage.TemperatureLag -> at(stage.timeConstant, stage.referenceTemperature, "°C")
+            is SensorStage.Combined -> at(stage.timeConstant, stage.referenceTemperature, "°C")
             else -> null
         }
         Cause.OFFSET_STEPS -> (stage as? SensorStage.Jumps)?.let { jumps ->
@@ -42,8 +42,8 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
         else -> null
     }
 
-    private fun warm(timeConstant: Double, temperature: Double) =
-        "${seconds(timeConstant)} at ${three.format(temperature)} °C"
+    private fun at(timeConstant: Double, condition: Double, unit: String) =
+        "${seconds(timeConstant)} at ${three.format(condition)} $unit"
 
     private fun seconds(time: Double) = "${three.format(time)} s"
 }

@@ -92,8 +92,11 @@ class LegMismatch(
     /** What [excess] says. */
     val verdict: LegVerdict get() = LegVerdict.of(excess, pairedLegs, aside?.most ?: 0.0)
 
+    /** [aside] where opposite legs may differ by all that they do because of it, else null. */
+    val otherWater: LegAside? get() = aside?.takeIf { it.most >= opposite.mean }
+
     /** Whether opposite legs may differ by all that they do because those one way lie to one side of the others. */
-    val isAside: Boolean get() = aside != null && aside.most >= opposite.mean
+    val isAside: Boolean get() = otherWater != null
 
     /** Whether [shift] is clear although the paired comparison sees no lag: it may fit the water's own change. */
     val hasReserve: Boolean get() = shift.isClear && verdict != LegVerdict.LAG_SEEN

@@ -81,7 +81,7 @@ internal class MapReport(
                     "over ${mismatch.pairedLegs} legs. Above 0 by more than two standard errors it speaks for a lag.",
             )
         }
-        mismatch.aside?.takeIf { mismatch.isAside }?.let {
+        mismatch.otherWater?.let {
             paragraph(
                 "Legs one way lie ${digits(it.distance, 3)} ${wording.length} to one side of those the other way. " +
                     "Along the legs the water differs by ${wording.value(it.difference)} over that distance, or " +

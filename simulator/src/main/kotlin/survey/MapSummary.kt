@@ -117,7 +117,7 @@ class MapSummary(private val map: SurveyMap) {
             add("opposite legs disagree by" to wording.estimate(mismatch.opposite))
             mismatch.same?.let { add("same-direction legs, twice as far" to wording.estimate(it)) }
             mismatch.excess?.let { add("opposite minus same, leg by leg" to wording.estimate(it)) }
-            mismatch.aside?.takeIf { mismatch.isAside }?.let {
+            mismatch.otherWater?.let {
                 val apart = "${digits(it.distance, 3)} ${wording.length} beside those the other way"
                 add("legs one way" to "$apart, over which the water differs by ${wording.value(it.difference)}")
             }

@@ -53,12 +53,14 @@ class CorrectHonestyTest {
         }
     }
 
+    /** Water that rises evenly from 8, and a reference that does from [reference]. */
+    private fun ramp(rows: Int, reference: Double) = "time_s,x_m,y_m,slow,fast\n" + (0 until rows).joinToString("") {
+        "$it,$it,0,${8 + 0.002 * it + 0.004 * (it * 7 % 5)},${reference + 0.002 * it + 0.004 * (it * 3 % 7)}\n"
+    }
+
     @Test
     fun thirtyRowsTeachNothing() {
-        val rows = (0 until 30).joinToString("") {
-            "$it,$it,0,${8 + 0.002 * it + 0.004 * (it * 7 % 5)},${8.05 + 0.002 * it + 0.004 * (it * 3 % 7)}\n"
-        }
-        val result = correct("time_s,x_m,y_m,slow,fast\n$rows", "--reference", "fast")
+        val result = correct(ramp(30, reference = 8.05), "--reference", "fast")
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stdout, "sensor: not learned")
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
@@ -66,10 +68,7 @@ class CorrectHonestyTest {
 
     @Test
     fun aReferenceThatTeachesNothingStillWidensIntervalsThatItContradicts() {
-        val rows = (0 until 200).joinToString("") {
-            "$it,$it,0,${8 + 0.002 * it + 0.004 * (it * 7 % 5)},${8.5 + 0.002 * it + 0.004 * (it * 3 % 7)}\n"
-        }
-        val result = correct("time_s,x_m,y_m,slow,fast\n$rows", "--reference", "fast")
+        val result = correct(ramp(200, reference = 8.5), "--reference", "fast")
         assertEquals(0, result.statusCode, result.output)
         assertContains(result.stderr, "nothing was learned")
         assertContains(result.stderr, "give --sensor\n")
