@@ -145,7 +145,7 @@ internal class BlindAnswer(
             isStructured ->
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
-                Verdict.InsufficientData("passes over the same water do not agree for certain that there is a lag")
+                Verdict.InsufficientData("passes over the same water do not agree for certain that there is a lag$atMost")
             sets.isEmpty() && base.timeConstant > LONGEST * series.duration -> Verdict.InsufficientData(
                 "what passes over the same water show would take a lag of ${three(base.timeConstant)} s, which " +
                     "such a log cannot tell from water that changes, or from positions that are wrong",
@@ -171,6 +171,10 @@ internal class BlindAnswer(
     private fun longest(): Double =
         base.timeConstant *
             exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
+
+    /** How long a lag may be that is not seen, in words; nothing where it may be as long as the log allows. */
+    private val atMost: String
+        get() = longest().takeIf { it < LONGEST * series.duration }?.let { "; it is ${three(it)} s at the most" }.orEmpty()
 
     /** Whether [term] shifts readings by no more than a simulation in fine steps does. */
     private fun isNothing(term: Term) = BlindTerms.isLittle(term, last, SmallShifts.SIMULATED_ROWS)

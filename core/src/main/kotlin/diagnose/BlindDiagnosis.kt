@@ -20,6 +20,10 @@ internal class BlindDiagnosis(
     val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
     private var rounds = 0
 
+    /** Twice the log-likelihood of the model that [run] found; NaN where it found none. */
+    var score = Double.NaN
+        private set
+
     /** The share [done] of a round is behind: each takes half of what is left. */
     private fun tell(done: Double) {
         var left = 1 - SEARCH
@@ -108,6 +112,7 @@ internal class BlindDiagnosis(
             lag = lag(base, search.still(base))
         }
         val last = chosen.lastOrNull()?.state ?: first.state
+        score = last.score
         val end = found.ended ?: round(last)
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it) }

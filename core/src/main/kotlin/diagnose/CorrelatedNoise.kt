@@ -40,48 +40,17 @@ internal class CorrelatedNoise(
     val freshShare: Double
 
     init {
-        var variance = share
-        var both = 0.0
-        var shaken = 0.0
         var sum = 0.0
-        var step = Double.NaN
-        var factor = 1.0
-        var lastInnovation = 0.0
-        var lastScale = 0.0
-        var lastLogarithm = 0.0
         var fresh = 0.0
-        for (i in times.indices) {
-            val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
-            // Even times differ by a rounding error.
-            if (!(abs(dt - step) < SAME * dt)) {
-                factor = exp(-dt / time)
-                step = dt
+        filter(times, share, time, used, shocks) { i, fade, gained, scaled, shaken, logarithm ->
+            keep[i] = fade
+            if (used[i]) {
+                gain[i] = gained
+                scale[i] = scaled
+                if (shocks != null) second[i] = shaken
+                sum += logarithm
+                fresh += (1 - share) * scaled * scaled
             }
-            variance = factor * factor * variance + share * (1 - factor * factor)
-            keep[i] = factor
-            if (shocks != null) {
-                both *= factor * shocks.keep[i]
-                shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]
-            }
-            if (!used[i]) continue
-            val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
-            val first = variance + both
-            gain[i] = first / innovation
-            // Among even rows the filter soon stands still: what it takes then need not be worked out again.
-            if (abs(innovation - lastInnovation) > SAME_VARIANCE * innovation) {
-                lastInnovation = innovation
-                lastScale = 1 / sqrt(innovation)
-                lastLogarithm = ln(innovation)
-            }
-            scale[i] = lastScale
-            variance -= gain[i] * first
-            if (shocks != null) {
-                second[i] = (both + shaken) / innovation
-                both -= gain[i] * (both + shaken)
-                shaken -= second[i] * (second[i] * innovation)
-            }
-            sum += lastLogarithm
-            fresh += (1 - share) * lastScale * lastScale
         }
         logDeterminant = sum
         freshShare = (fresh / maxOf(rows, 1)).coerceIn(0.0, 1.0)
@@ -103,12 +72,15 @@ internal class CorrelatedNoise(
         }
     }
 
+    /** Whitens [columns], which are modified, two at a time. */
+    fun whitenAll(columns: List<DoubleArray>) {
+        for (k in 1 until columns.size step 2) whitenBoth(columns[k - 1], columns[k])
+        if (columns.size % 2 == 1) whiten(columns.last(), columns.last())
+    }
+
     /** Whitens [one] and [two], which are modified, at the price of little more than one. */
     fun whitenBoth(one: DoubleArray, two: DoubleArray) {
-        if (shocks != null) {
-            whiten(one, one)
-            return whiten(two, two)
-        }
+        if (shocks != null) return whitenBoth(one, two, shocks.keep)
         var state = 0.0
         var stateTwo = 0.0
         for (i in one.indices) {
@@ -121,6 +93,32 @@ internal class CorrelatedNoise(
                 two[i] = innovationTwo * scale[i]
                 state += gain[i] * innovation
                 stateTwo += gain[i] * innovationTwo
+            } else {
+                one[i] = 0.0
+                two[i] = 0.0
+            }
+        }
+    }
+
+    private fun whitenBoth(one: DoubleArray, two: DoubleArray, fade: DoubleArray) {
+        var state = 0.0
+        var stateTwo = 0.0
+        var shaken = 0.0
+        var shakenTwo = 0.0
+        for (i in one.indices) {
+            state *= keep[i]
+            stateTwo *= keep[i]
+            shaken *= fade[i]
+            shakenTwo *= fade[i]
+            if (used[i]) {
+                val innovation = one[i] - state - shaken
+                val innovationTwo = two[i] - stateTwo - shakenTwo
+                one[i] = innovation * scale[i]
+                two[i] = innovationTwo * scale[i]
+                state += gain[i] * innovation
+                stateTwo += gain[i] * innovationTwo
+                shaken += second[i] * innovation
+                shakenTwo += second[i] * innovationTwo
             } else {
                 one[i] = 0.0
                 two[i] = 0.0
@@ -181,8 +179,7 @@ internal class CorrelatedNoise(
     /**
      * Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled.
      */
-    fun twiceLogLikelihood(squares: Double): Double =
-        -rows * ln(maxOf(squares, TINY) / maxOf(rows, 1)) - logDeterminant
+    fun twiceLogLikelihood(squares: Double): Double = twiceLogLikelihood(squares, rows, logDeterminant)
 
     companion object {
         private const val SMALLEST = 1e-9
@@ -197,6 +194,101 @@ internal class CorrelatedNoise(
         fun white(scales: Scales, used: BooleanArray) =
             CorrelatedNoise(scales.series.times, 0.0, 1.0, used, scales.shocks)
 
+        private fun twiceLogLikelihood(squares: Double, rows: Int, logDeterminant: Double) =
+            -rows * ln(maxOf(squares, TINY) / maxOf(rows, 1)) - logDeterminant
+
+        /**
+         * The Kalman filter of the noise, which tells [row] of each row i what is left of the process since the one before and,
+         * of one in use, its gain, one over the innovation's deviation, the gain of what [shocks] leave open, and ln of
+         * the innovation's variance.
+         */
+        private inline fun filter(
+            times: DoubleArray,
+            share: Double,
+            time: Double,
+            used: BooleanArray,
+            shocks: UnknownTruth.Shocks?,
+            row: (i: Int, keep: Double, gain: Double, scale: Double, second: Double, logarithm: Double) -> Unit,
+        ) {
+            var variance = share
+            var both = 0.0
+            var shaken = 0.0
+            var step = Double.NaN
+            var factor = 1.0
+            var gain = 0.0
+            var second = 0.0
+            var lastInnovation = 0.0
+            var scale = 0.0
+            var logarithm = 0.0
+            var isStill = false
+            for (i in times.indices) {
+                val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
+                // Even times differ by a rounding error.
+                if (!(abs(dt - step) < SAME * dt)) {
+                    factor = exp(-dt / time)
+                    step = dt
+                    isStill = false
+                }
+                // Among even rows the filter soon stands still, to the last bit: all is as in the row before.
+                if (!isStill || !used[i]) {
+                    val before = variance
+                    variance = factor * factor * variance + share * (1 - factor * factor)
+                    if (shocks != null) {
+                        both *= factor * shocks.keep[i]
+                        shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]
+                    }
+                    if (used[i]) {
+                        val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
+                        val first = variance + both
+                        gain = first / innovation
+                        if (abs(innovation - lastInnovation) > SAME_VARIANCE * innovation) {
+                            lastInnovation = innovation
+                            scale = 1 / sqrt(innovation)
+                            logarithm = ln(innovation)
+                        }
+                        variance -= gain * first
+                        if (shocks != null) {
+                            second = (both + shaken) / innovation
+                            both -= gain * (both + shaken)
+                            shaken -= second * (second * innovation)
+                        }
+                    }
+                    isStill = used[i] && shocks == null && variance == before
+                }
+                row(i, factor, gain, scale, second, logarithm)
+            }
+        }
+
+        /** Twice the log-likelihood of [residuals], less a constant, under noise of which nothing is kept. */
+        private fun score(
+            residuals: DoubleArray,
+            times: DoubleArray,
+            share: Double,
+            time: Double,
+            used: BooleanArray,
+            shocks: UnknownTruth.Shocks?,
+        ): Double {
+            var state = 0.0
+            var open = 0.0
+            var squares = 0.0
+            var sum = 0.0
+            var rows = 0
+            filter(times, share, time, used, shocks) { i, keep, gain, scale, second, logarithm ->
+                state *= keep
+                if (shocks != null) open *= shocks.keep[i]
+                if (used[i]) {
+                    val innovation = residuals[i] - state - open
+                    val white = innovation * scale
+                    squares += white * white
+                    state += gain * innovation
+                    if (shocks != null) open += second * innovation
+                    sum += logarithm
+                    rows++
+                }
+            }
+            return twiceLogLikelihood(squares, rows, sum)
+        }
+
         /**
          * The noise under which [residuals] are likeliest; correlation times reach [longest] s. Looked for everywhere,
          * or near [guess] alone. Not modified.
@@ -209,20 +301,17 @@ internal class CorrelatedNoise(
             guess: CorrelatedNoise? = null,
         ): CorrelatedNoise {
             val series = scales.series
-            val z = DoubleArray(residuals.size)
-            fun score(noise: CorrelatedNoise): Double {
-                noise.whiten(residuals, z)
-                return noise.twiceLogLikelihood(squares(z))
-            }
-
-            fun noise(share: Double, time: Double) = CorrelatedNoise(series.times, share, time, used, scales.shocks)
-            var best = noise(0.0, series.period)
-            var bestScore = score(best)
-            fun offer(share: Double, time: Double) {
-                val candidate = noise(share.coerceIn(0.0, 1.0), time.coerceIn(series.period / 2, longest))
-                val score = score(candidate)
+            val shocks = scales.shocks
+            var bestShare = 0.0
+            var bestTime = series.period
+            var bestScore = score(residuals, series.times, bestShare, bestTime, used, shocks)
+            fun offer(anyShare: Double, anyTime: Double) {
+                val share = anyShare.coerceIn(0.0, 1.0)
+                val time = anyTime.coerceIn(series.period / 2, longest)
+                val score = score(residuals, series.times, share, time, used, shocks)
                 if (score > bestScore) {
-                    best = candidate
+                    bestShare = share
+                    bestTime = time
                     bestScore = score
                 }
             }
@@ -232,17 +321,17 @@ internal class CorrelatedNoise(
             }
             var width = if (guess == null) 1.0 else 0.5
             repeat(if (guess == null) REFINEMENTS else REFINEMENTS - 1) {
-                val share = best.share.coerceIn(0.01, 0.999)
+                val share = bestShare.coerceIn(0.01, 0.999)
                 val odds = ln(share / (1 - share))
                 for (s in -1..1) {
                     for (t in -1..1) {
                         if (s == 0 && t == 0) continue
-                        offer(1 / (1 + exp(-(odds + s * width))), best.time * exp(t * width / 2))
+                        offer(1 / (1 + exp(-(odds + s * width))), bestTime * exp(t * width / 2))
                     }
                 }
                 width /= 2
             }
-            return best
+            return CorrelatedNoise(series.times, bestShare, bestTime, used, shocks)
         }
     }
 }

@@ -51,8 +51,7 @@ public class Diagnosis private constructor(
 
     /** The answer. Without a reference the field is inferred together with the sensor. */
     public fun run(): DiagnosisResult {
-        val reference = series.reference
-            ?: return BlindDiagnosis(undelayed(), settings, loops, progress).run().also { progress(1.0) }
+        val reference = series.reference ?: return withoutReference().also { progress(1.0) }
         val sane = series.withoutWild()
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
@@ -61,10 +60,10 @@ public class Diagnosis private constructor(
         return diagnosis.answer(truth).ofRead(series.isRead, notes).also { progress(1.0) }
     }
 
-    /** The log without the dead time of a sensor that is given: what it shows is of where the boat was then. */
-    private fun undelayed(): MeasuredSeries {
-        val delay = settings.base?.let(GivenLag::delay) ?: 0.0
-        return if (delay > 0) series.atPlacesBefore(delay) else series
+    private fun withoutReference(): DiagnosisResult {
+        val late = settings.base?.takeIf { GivenLag.delay(it) > 0 }
+            ?: return BlindDiagnosis(series, settings, loops, progress).run()
+        return GivenDelay(series, settings, late, loops, progress).answer()
     }
 
     private fun answer(reference: DoubleArray): DiagnosisResult {

@@ -93,6 +93,21 @@ internal object Evidence {
         return rest
     }
 
+    /** The same of each of [columns]. */
+    fun without(columns: List<DoubleArray>, basis: List<DoubleArray>): List<DoubleArray> {
+        val rests = columns.map { it.copyOf() }
+        repeat(2) {
+            for (direction in basis) {
+                val shares = dots(direction, rests)
+                rests.forEachIndexed { k, rest ->
+                    val share = shares[k]
+                    for (i in rest.indices) rest[i] -= share * direction[i]
+                }
+            }
+        }
+        return rests
+    }
+
     /** An orthonormal set that spans [columns] beyond [basis]; directions of no weight are left out. */
     fun orthonormal(columns: List<DoubleArray>, basis: List<DoubleArray> = emptyList()): List<DoubleArray> {
         val found = ArrayList<DoubleArray>()

@@ -44,17 +44,18 @@ internal class JumpPlaces(
     }
 
     /** The best place for one jump, or null where there is no room. */
-    fun single(): Double? = rows.maxByOrNull(::gain)?.let { timeBefore(refined(it)) }
+    fun single(): Double? = best(rows)?.let { timeBefore(refined(it)) }
 
     /** What the best place for one jump gains. */
-    fun most(): Double = rows.maxOfOrNull(::gain) ?: 0.0
+    fun most(): Double = gains(rows).maxOrNull() ?: 0.0
 
     /** The best places for two jumps, or null where there is no room. */
     fun pair(): List<Double>? {
-        val columns = rows.map(::column)
-        val shares = DoubleArray(rows.size) { dot(columns[it], whitened) }
+        val columns = columns(fit, rows, basis)
+        val shares = dots(whitened, columns)
         val lengths = DoubleArray(rows.size) { squares(columns[it]) }
-        val best = JumpPairs.best(rows, edge, shares, lengths) { i, j -> dot(columns[i], columns[j]) }
+        val products = columns.indices.map { dots(columns[it], columns.subList(it, columns.size)) }
+        val best = JumpPairs.best(rows, edge, shares, lengths) { i, j -> products[i][j - i] }
         return best?.let { (first, second) -> refined(first, second) }
     }
 
@@ -67,22 +68,28 @@ internal class JumpPlaces(
 
     private fun refined(row: Int, beside: DoubleArray, from: Int = edge, to: Int = n - edge - 1): Int {
         val other = Evidence.orthonormal(listOf(beside))
-        return near(row, from, to).maxByOrNull { gain(it, other) } ?: row
+        return best(near(row, from, to), other) ?: row
     }
 
     private fun column(row: Int) = column(fit, row, basis)
 
-    private fun gain(row: Int) = gain(row, emptyList())
-
-    /** What a jump at [row] gains beside [others], an orthonormal set. */
-    private fun gain(row: Int, others: List<DoubleArray>): Double {
-        val rest = if (others.isEmpty()) column(row) else Evidence.without(column(row), others)
-        val length = squares(rest)
-        val share = dot(rest, whitened)
-        return if (length > LEAST) share * share / length else 0.0
+    /** What a jump at each of [rows] gains beside [others], an orthonormal set. */
+    private fun gains(rows: List<Int>, others: List<DoubleArray> = emptyList()): List<Double> {
+        val columns = columns(fit, rows, basis).let { if (others.isEmpty()) it else Evidence.without(it, others) }
+        val shares = dots(whitened, columns)
+        return columns.mapIndexed { i, rest ->
+            val length = squares(rest)
+            if (length > LEAST) shares[i] * shares[i] / length else 0.0
+        }
     }
 
-    private fun refined(row: Int) = near(row, edge, n - edge - 1).maxByOrNull(::gain) ?: row
+    /** The first of [rows] at which a jump gains most beside [others]; null of none. */
+    private fun best(rows: List<Int>, others: List<DoubleArray> = emptyList()): Int? {
+        val gains = gains(rows, others)
+        return rows.indices.maxByOrNull { gains[it] }?.let { rows[it] }
+    }
+
+    private fun refined(row: Int) = best(near(row, edge, n - edge - 1)) ?: row
 
     private fun near(row: Int, from: Int, to: Int) =
         (maxOf(row - stride, from)..minOf(row + stride, to)).filterNot { isSettling[it] }
@@ -100,10 +107,14 @@ internal class JumpPlaces(
         fun edge(size: Int): Int = maxOf(size / 50, 3)
 
         /** A jump at [row], whitened as in [fit], less what of it is in [basis]. */
-        fun column(fit: ModelFit, row: Int, basis: List<DoubleArray>): DoubleArray {
-            val z = DoubleArray(fit.model.series.size) { if (it >= row) 1.0 else 0.0 }
-            fit.noise.whiten(z, z)
-            return Evidence.without(z, basis)
+        fun column(fit: ModelFit, row: Int, basis: List<DoubleArray>): DoubleArray =
+            columns(fit, listOf(row), basis).single()
+
+        /** The same of each of [rows]. */
+        fun columns(fit: ModelFit, rows: List<Int>, basis: List<DoubleArray>): List<DoubleArray> {
+            val columns = rows.map { row -> DoubleArray(fit.model.series.size) { if (it >= row) 1.0 else 0.0 } }
+            fit.noise.whitenAll(columns)
+            return Evidence.without(columns, basis)
         }
     }
 }

@@ -37,9 +37,11 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
     fun pValue(gain: Double, count: Int): Double {
         val counted = minOf(gain, MOST_GAIN)
         val cells = maxOf(ceil(counted / CELL).toInt(), 0)
-        val one = DoubleArray(cells + 1) { single(it * counted / maxOf(cells, 1)) }
+        fun reached(cell: Int) = single(cell * counted / maxOf(cells, 1))
+        if (count == 1) return minOf(1.0, FIRST_SHARE * reached(cells))
+        val one = DoubleArray(cells + 1, ::reached)
         var tail = one
-        var shares = 2.0
+        var shares = FIRST_SHARE
         for (k in 2..count) {
             tail = sum(one, tail)
             shares *= 2.0 / k
@@ -57,6 +59,9 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
     companion object {
         private const val CELL = 0.25
 
+        /** One over the share that one jump has of the chance. */
+        private const val FIRST_SHARE = 2.0
+
         /** What gains more counts as this: it is no chance either way, and the sums take the square of it. */
         private const val MOST_GAIN = 300.0
         private const val MOST_STEPS = 100
@@ -65,11 +70,8 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
         fun of(fit: ModelFit, edge: Int): JumpScan {
             val basis = Evidence.orthonormal(fit.jacobian.toList())
             return of(fit.model.series.size, edge, MOST_STEPS) { rows ->
-                rows.map { row ->
-                    val one = JumpPlaces.column(fit, row, basis)
-                    val next = JumpPlaces.column(fit, row + 1, basis)
-                    angle(squares(one), squares(next), dot(one, next))
-                }
+                val columns = JumpPlaces.columns(fit, rows.flatMap { listOf(it, it + 1) }, basis)
+                columns.chunked(2) { (one, next) -> angle(squares(one), squares(next), dot(one, next)) }
             }
         }
 
@@ -95,7 +97,8 @@ internal class JumpScan(private val steps: DoubleArray, private val weight: Doub
         private fun continuity(x: Double): Double {
             if (x < SMALL) return 1.0
             val half = x / 2
-            return 2 / x * (below(half) - 0.5) / (half * below(half) + density(half))
+            val below = below(half)
+            return 2 / x * (below - 0.5) / (half * below + density(half))
         }
 
         private const val SMALL = 1e-6

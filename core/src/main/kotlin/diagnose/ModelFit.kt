@@ -169,7 +169,7 @@ internal object Fitting {
 
     /** Whitened derivatives of the prediction by each free parameter of [fit]. */
     fun jacobian(fit: ModelFit): Array<DoubleArray> =
-        derivatives(fit).onEach { column -> fit.noise.whiten(column, column) }.toTypedArray()
+        derivatives(fit).also(fit.noise::whitenAll).toTypedArray()
 
     /** Derivatives of the prediction by each free parameter of [fit]. */
     fun derivatives(fit: ModelFit): List<DoubleArray> {
@@ -236,10 +236,19 @@ internal class SymmetricSystem(private val matrix: Array<DoubleArray>, private v
 
     companion object {
         /** The normal equations of [columns] and the vector [target]. */
-        fun of(columns: Array<DoubleArray>, target: DoubleArray) = SymmetricSystem(
-            Array(columns.size) { i -> DoubleArray(columns.size) { j -> dot(columns[i], columns[j]) } },
-            DoubleArray(columns.size) { dot(columns[it], target) },
-        )
+        fun of(columns: Array<DoubleArray>, target: DoubleArray): SymmetricSystem {
+            val matrix = Array(columns.size) { DoubleArray(columns.size) }
+            val right = DoubleArray(columns.size)
+            for ((i, column) in columns.withIndex()) {
+                val products = dots(column, columns.take(i + 1) + target)
+                for (j in 0..i) {
+                    matrix[i][j] = products[j]
+                    matrix[j][i] = products[j]
+                }
+                right[i] = products[i + 1]
+            }
+            return SymmetricSystem(matrix, right)
+        }
     }
 }
 
@@ -248,4 +257,45 @@ internal fun dot(a: DoubleArray, b: DoubleArray): Double {
     var sum = 0.0
     for (i in a.indices) sum += a[i] * b[i]
     return sum
+}
+
+/** Inner products of [column] with each of [others], four at a time: sums that do not wait for each other. */
+internal fun dots(column: DoubleArray, others: List<DoubleArray>): DoubleArray {
+    val products = DoubleArray(others.size)
+    for (from in others.indices step TOGETHER) {
+        if (from + TOGETHER > others.size) {
+            for (k in from until others.size) products[k] = dot(column, others[k])
+        } else {
+            dots(column, others[from], others[from + 1], others[from + 2], others[from + 3], products, from)
+        }
+    }
+    return products
+}
+
+private const val TOGETHER = 4
+
+private fun dots(
+    column: DoubleArray,
+    a: DoubleArray,
+    b: DoubleArray,
+    c: DoubleArray,
+    d: DoubleArray,
+    out: DoubleArray,
+    at: Int,
+) {
+    var first = 0.0
+    var second = 0.0
+    var third = 0.0
+    var fourth = 0.0
+    for (i in column.indices) {
+        val here = column[i]
+        first += here * a[i]
+        second += here * b[i]
+        third += here * c[i]
+        fourth += here * d[i]
+    }
+    out[at] = first
+    out[at + 1] = second
+    out[at + 2] = third
+    out[at + 3] = fourth
 }

@@ -44,8 +44,20 @@ internal class ResponseModel(
 
     /** Whether it is the lag's own rate that is limited; two paths have a limit behind them. */
     private val isWithin = limit?.isWithin == true && Cause.TWO_PATH_RESPONSE !in causes
-    private val isGap = scales.unknown?.isGap
-    private val isUntilNext = steps == Steps.UNTIL_NEXT
+    private val lags = LagSteps(series, scales.unknown?.isGap, steps)
+
+    /** Which numbers change what comes before gain and offset. */
+    private val isShaping = BooleanArray(parameters.size).also { shaping ->
+        shaping[TIME_CONSTANT] = true
+        shaping[GAIN] = limit != null || Cause.HYSTERESIS in causes
+        for (term in terms) if (term.cause.isTiming) slot(term).let { shaping.fill(true, it, it + width(term)) }
+    }
+
+    /** The last two that were asked for, the later first: derivatives by all other numbers share one. */
+    private var shape = Shape()
+    private var shapeBefore = Shape()
+    private var fadesOf = Double.NaN
+    private val fades by lazy { DoubleArray(n) }
     private val spline = Spline(series.times, scales.unknown?.isBroken)
     private val truthSpline by lazy { Spline(series.times, scales.unknown?.isBroken) }
     private var isFitted = false
@@ -76,7 +88,7 @@ internal class ResponseModel(
 
     /** The truth between the rows. */
     private fun truthCurve(): Spline {
-        if (!isFitted) truthSpline.fit(truth)
+        if (!isFitted) truthSpline.fitForLags(truth)
         isFitted = true
         return truthSpline
     }
@@ -87,6 +99,34 @@ internal class ResponseModel(
      */
     @Synchronized
     fun predict(p: DoubleArray, out: DoubleArray, isRounded: Boolean = true) {
+        if (!shape.isOf(p)) {
+            shape = shapeBefore.also { shapeBefore = shape }
+            if (!shape.isOf(p)) shape.become(p)
+        }
+        shape.shown.copyInto(out)
+        calibrate(p, out)
+        if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
+        if (isRounded && Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
+    }
+
+    /** The reading before gain and offset, for some numbers. */
+    private inner class Shape {
+        private val numbers = DoubleArray(parameters.size) { Double.NaN }
+
+        /** Length n once it is asked for. */
+        var shown = numbers.copyOf(0)
+            private set
+
+        fun isOf(p: DoubleArray) = p.indices.all { !isShaping[it] || p[it] == numbers[it] }
+
+        fun become(p: DoubleArray) {
+            if (shown.size < n) shown = DoubleArray(n)
+            shape(p, shown)
+            p.copyInto(numbers)
+        }
+    }
+
+    private fun shape(p: DoubleArray, out: DoubleArray) {
         delay(p)
         timeConstants(p)
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
@@ -104,11 +144,8 @@ internal class ResponseModel(
             lag(out, second, 1.0, 0.0)
             second.copyInto(out)
         }
-        if (limit != null && !isWithin) slew(out, p[slot(limit)] / abs(p[GAIN]))
+        if (limit != null && !isWithin) lags.slew(out, p[slot(limit)] / abs(p[GAIN]))
         if (Cause.HYSTERESIS in causes) play(out, p[slot(Cause.HYSTERESIS)] / abs(p[GAIN]))
-        calibrate(p, out)
-        if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
-        if (isRounded && Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
     }
 
     /**
@@ -141,8 +178,8 @@ internal class ResponseModel(
     private fun lagged(factor: Double) = NeighbourSums(series.times, isBent = !held).also { sums ->
         for (i in 0 until n) {
             when {
-                i == 0 || isGap(i, series.times[i] - series.times[i - 1]) -> sums.same(i)
-                held -> sums.hold(i, taus[i] * factor, earlier(i))
+                i == 0 || lags.isGap(i) -> sums.same(i)
+                held -> sums.hold(i, taus[i] * factor, lags.earlier[i])
                 else -> sums.follow(i, taus[i] * factor)
             }
         }
@@ -208,85 +245,13 @@ internal class ResponseModel(
         asymmetry: Double,
         most: Double = Double.POSITIVE_INFINITY,
     ) {
-        val up = factor * exp(asymmetry / 2)
-        val down = factor * exp(-asymmetry / 2)
         val isTruth = input === work && !isDelayed
         val curve = if (isTruth && !held) truthCurve() else spline
-        if (!held && !isTruth) spline.fit(input)
-        var state = input[0]
-        out[0] = state
-        var lastDt = Double.NaN
-        var lastTau = Double.NaN
-        var fade = 0.0
-        for (i in 1 until n) {
-            val dt = series.times[i] - series.times[i - 1]
-            val before = if (held) heldOver(i, input) else input[i - 1]
-            val after = if (held) before else input[i]
-            val tau = taus[i] * if ((before + after) / 2 > state) up else down
-            if (isGap(i, dt)) {
-                state = input[i]
-            } else {
-                // Even times differ by a rounding error.
-                if (tau != lastTau || !(abs(dt - lastDt) < SAME * dt)) {
-                    fade = exp(-dt / tau)
-                    lastDt = dt
-                    lastTau = tau
-                }
-                // The response to a cubic is a cubic; what is off it fades.
-                val early = if (held) before else curve.follower(i - 1, 0.0, tau)
-                val late = if (held) before else curve.follower(i - 1, dt, tau)
-                val free = late + (state - early) * fade
-                val isFree = maxOf(abs(before - state), abs(after - free)) <= most * tau
-                state = if (isFree) {
-                    free
-                } else {
-                    limited(state, most, tau, dt) { if (held) before else curve.follower(i - 1, it, tau) }
-                }
-            }
-            out[i] = state
-        }
-    }
-
-    /**
-     * What a lag of [tau] s shows [dt] s after it showed [state], where it changes by at most [most] a second; once its past
-     * has faded it shows what [follows], s into the step. The limit may begin or end to act on the way.
-     */
-    private inline fun limited(
-        state: Double,
-        most: Double,
-        tau: Double,
-        dt: Double,
-        follows: (Double) -> Double,
-    ): Double {
-        val part = dt / PARTS
-        val fade = exp(-part / tau)
-        var now = state
-        for (k in 0 until PARTS) {
-            val free = follows((k + 1) * part) + (now - follows(k * part)) * fade
-            now = free.coerceIn(now - most * part, now + most * part)
-        }
-        return now
-    }
-
-    /** What of [input] is held over the step before row [i]. */
-    private fun heldOver(i: Int, input: DoubleArray): Double {
-        val earlier = earlier(i)
-        return earlier * input[i - 1] + (1 - earlier) * input[i]
-    }
-
-    /** The share of row [i] - 1 in what is held over the step from it to row [i]; of missing rows between, in their mean. */
-    private fun earlier(i: Int): Double {
-        val ticks = series.ticks(i)
-        return ((ticks - 1) / 2 + if (isUntilNext) 1 else 0) / ticks
-    }
-
-    /** Whether nothing is known of the step of [dt] s before row [i]: the sensor is taken to have settled. */
-    private fun isGap(i: Int, dt: Double) = isGap?.get(i) ?: (dt > series.gap)
-
-    private fun slew(out: DoubleArray, rate: Double) {
-        for (i in 1 until n) {
-            val dt = series.times[i] - series.times[i - 1]
-            if (!isGap(i, dt)) out[i] = out[i].coerceIn(out[i - 1] - rate * dt, out[i - 1] + rate * dt)
+        if (!held && !isTruth) spline.fitForLags(input)
+        if (asymmetry == 0.0 && most == Double.POSITIVE_INFINITY) {
+            lags.even(input, curve, taus, factor, out)
+        } else {
+            lags.uneven(input, curve, taus, factor * exp(asymmetry / 2), factor * exp(-asymmetry / 2), most, out)
         }
     }
 
@@ -323,11 +288,14 @@ internal class ResponseModel(
     }
 
     private fun calibrate(p: DoubleArray, out: DoubleArray) {
-        val tau = p[TIME_CONSTANT]
-        for (i in 0 until n) {
-            val age = series.times[i] - series.times[0]
-            val first = if (p[FIRST] != 0.0 && age < FADED * tau) p[FIRST] * exp(-age / tau) else 0.0
-            out[i] = p[OFFSET] + p[GAIN] * out[i] + first
+        val gain = p[GAIN]
+        val offset = p[OFFSET]
+        val first = p[FIRST]
+        if (first == 0.0) {
+            for (i in 0 until n) out[i] = offset + gain * out[i]
+        } else {
+            val fades = fades(p[TIME_CONSTANT])
+            for (i in 0 until n) out[i] = offset + gain * out[i] + first * fades[i]
         }
         for (term in terms) {
             val at = layout.slots.getValue(term.key)
@@ -343,6 +311,18 @@ internal class ResponseModel(
                 else -> Unit
             }
         }
+    }
+
+    /** What of the first state is left at each row, with a time constant of [tau] s. */
+    private fun fades(tau: Double): DoubleArray {
+        if (tau != fadesOf) {
+            for (i in 0 until n) {
+                val age = series.times[i] - series.times[0]
+                fades[i] = if (age < FADED * tau) exp(-age / tau) else 0.0
+            }
+            fadesOf = tau
+        }
+        return fades
     }
 
     private fun clip(out: DoubleArray, lower: Double, upper: Double) {
@@ -375,13 +355,9 @@ internal class ResponseModel(
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e11
         private const val HARMONICS = 4
-        private const val SAME = 1e-9
 
         /** Time constants after which nothing is left of the first state. */
         private const val FADED = 40.0
         private const val SLOWEST = 8
-
-        /** Of a step in which a limit begins or ends to act. */
-        private const val PARTS = 8
     }
 }

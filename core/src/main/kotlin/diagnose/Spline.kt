@@ -17,6 +17,13 @@ internal class Spline(private val times: DoubleArray, private val isBroken: Bool
     private val work = DoubleArray(n)
     private var column = work
 
+    // Of each step: the third derivative, the slope at its begin, value, slope and bend at its end; empty until needed.
+    private var third = work.copyOf(0)
+    private var slope = third
+    private var endValue = third
+    private var endSlope = third
+    private var endBend = third
+
     // What of the elimination depends on the knots alone.
     private val back = DoubleArray(n)
     private val forth = DoubleArray(n)
@@ -48,6 +55,34 @@ internal class Spline(private val times: DoubleArray, private val isBroken: Bool
         for (i in n - 2 downTo 1) bend[i] = back[i] * bend[i + 1] + work[i]
         if (n > 0) bend[0] = 0.0
     }
+
+    /** [fit], and what [early] and [late] need. */
+    fun fitForLags(values: DoubleArray) {
+        fit(values)
+        if (third.size < n) {
+            third = DoubleArray(n)
+            slope = DoubleArray(n)
+            endValue = DoubleArray(n)
+            endSlope = DoubleArray(n)
+            endBend = DoubleArray(n)
+        }
+        for (i in 0 until n - 1) {
+            val h = times[i + 1] - times[i]
+            val bent = (bend[i + 1] - bend[i]) / h
+            val rise = (values[i + 1] - values[i]) / h - h * (2 * bend[i] + bend[i + 1]) / 6
+            third[i] = bent
+            slope[i] = rise
+            endValue[i] = values[i] + h * (rise + h * (bend[i] / 2 + bent * h / 6))
+            endSlope[i] = rise + h * (bend[i] + bent * h / 2)
+            endBend[i] = bend[i] + bent * h
+        }
+    }
+
+    /** [follower] at the begin of the step after row [i], after [fitForLags]. */
+    fun early(i: Int, tau: Double): Double = column[i] - tau * (slope[i] - tau * (bend[i] - tau * third[i]))
+
+    /** [follower] at the end of the step after row [i], after [fitForLags]. */
+    fun late(i: Int, tau: Double): Double = endValue[i] - tau * (endSlope[i] - tau * (endBend[i] - tau * third[i]))
 
     /**
      * Second derivatives at the knots of the curves through [columns], of which there is an even number, into [out],

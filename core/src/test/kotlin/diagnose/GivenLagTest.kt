@@ -11,21 +11,20 @@ import kotlin.test.assertTrue
 
 /** A sensor that is given, on a log without a reference. */
 class GivenLagTest {
-    private val late = 3
     private val rows = 900
-    private val track = CrossingTrack(rows + late)
+    private val track = CrossingTrack(rows + 3)
 
-    /** A lag of 5 s that shows the water three seconds late. */
-    private val log: MeasuredSeries = run {
+    /** A lag of 5 s that shows the water [late] seconds late. */
+    private fun log(late: Int): MeasuredSeries {
         val random = java.util.Random(9)
         val shown = track.shown(5.0)
         val values = DoubleArray(rows) { shown[it] + 0.004 * random.nextGaussian() }
-        fun DoubleArray.after() = copyOfRange(late, size)
-        MeasuredSeries(track.times.copyOf(rows), track.x.after(), track.y.after(), values, null)
+        fun DoubleArray.after() = copyOfRange(late, late + rows)
+        return MeasuredSeries(track.times.copyOf(rows), track.x.after(), track.y.after(), values, null)
     }
 
-    private fun diagnosed(vararg stages: SensorStage) =
-        Diagnosis(log, DiagnosisSettings(base = SensorSpec("given", stages.toList()))).run()
+    private fun diagnosed(vararg stages: SensorStage, late: Int = 3) =
+        Diagnosis(log(late), DiagnosisSettings(base = SensorSpec("given", stages.toList()))).run()
 
     @Test
     fun aDeadTimeThatIsGivenIsNoCause() {
@@ -49,6 +48,18 @@ class GivenLagTest {
         val stages = assertNotNull(result.extendedSensor).stages
         assertEquals(5.0, assertIs<SensorStage.Lag>(stages.first { it is SensorStage.Lag }).timeConstant, 0.2)
         assertEquals(3.0, assertIs<SensorStage.Delay>(stages.first()).deadTime, 0.2)
+    }
+
+    @Test
+    fun aDeadTimeThatIsTooLongIsNamed() {
+        val result = diagnosed(SensorStage.Delay(4.0), SensorStage.Lag(5.0), late = 0)
+        val causes = (result.verdict as? Verdict.Named)?.causes ?: result.verdict.ambiguity.flatten()
+        assertTrue(Cause.DEAD_TIME in causes, "${result.verdict}")
+        assertTrue(result.warnings.any { "4.00 s, is too long" in it }, "${result.warnings}")
+        val dead = result.candidates.first { it.cause == Cause.DEAD_TIME }.parameters.single { it.name == "dead_time_s" }
+        assertTrue(dead.value < 1.0, "$dead")
+        val stages = assertNotNull(result.extendedSensor).stages
+        assertEquals(5.0, assertIs<SensorStage.Lag>(stages.first { it is SensorStage.Lag }).timeConstant, 0.5)
     }
 
     @Test

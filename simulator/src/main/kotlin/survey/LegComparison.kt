@@ -134,10 +134,12 @@ class LegComparison(
         val found = DoubleArray(RESAMPLES)
         IntStream.range(0, RESAMPLES).parallel().forEach { found[it] = shifts[least(byShift, samples[it])] }
         val interval = Quantiles(found)
+        // A resample's own best shift may lie anywhere between the one found and the next.
+        val half = (shifts[1] - shifts[0]) / 2
         return LagShift(
             seconds = shifts[best],
-            low = interval[LOW],
-            high = interval[1 - LOW],
+            low = interval[LOW] - half,
+            high = interval[1 - LOW] + half,
             mismatch = curve[best],
             gain = estimate(scores.map { it[shifts.size / 2] - it[best] }),
             legs = scores.size,

@@ -23,7 +23,8 @@ data class LegScore(val number: Int, val opposite: Double, val same: Double)
  * The shift in time that makes opposite passes agree best; a diagnostic, not a sensor model.
  *
  * @property seconds readings are best put where the boat was so many s earlier; negative for later.
- * @property low lower end of the 95 % bootstrap interval, s. @property high upper end, s.
+ * @property low lower end of the 95 % bootstrap interval, s, half a step of [shifts] beyond the lowest that was found,
+ *   because only these are tried. @property high upper end, s.
  * @property mismatch the mismatch that is left, sensor units.
  * @property gain what of the mismatch went, leg by leg, sensor units.
  * @property legs number of legs compared.

@@ -1,0 +1,100 @@
+package stillwater.diagnose
+
+import stillwater.diagnose.BlindAnswer.Companion.three
+import stillwater.model.Interval
+import stillwater.sensor.SensorSpec
+import stillwater.sensor.SensorStage
+
+/**
+ * The diagnosis of a log without a reference whose given sensor has a dead time: that is taken off the log first, so that
+ * whatever is found comes beside it. One that is too long leaves a sensor that is ahead of the water, which no cause is;
+ * where something was found the log is therefore diagnosed as it is, too.
+ *
+ * @param given the sensor, with a dead time.
+ */
+internal class GivenDelay(
+    private val series: MeasuredSeries,
+    private val settings: DiagnosisSettings,
+    private val given: SensorSpec,
+    private val loops: Loops,
+    private val progress: (Double) -> Unit,
+) {
+    private val delay = GivenLag.delay(given)
+
+    /** The answer. */
+    fun answer(): DiagnosisResult {
+        val taken = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress)
+        val result = taken.run()
+        if (result.verdict == Verdict.Consistent) return result
+        val prompt = given.copy(stages = given.stages.filter { it !is SensorStage.Delay })
+        val without = BlindDiagnosis(series, settings.copy(base = prompt), loops)
+        val found = without.run()
+        val ratio = without.score - taken.score
+        val isSimpler = ratio > 0 && causes(found.verdict) < causes(result.verdict)
+        return if (isSimpler || ratio > MUCH) tooLong(result, found, ratio) else result
+    }
+
+    /** How many causes [verdict] takes to explain the log; more than any where it does not. */
+    private fun causes(verdict: Verdict): Int = when (verdict) {
+        is Verdict.Consistent -> 0
+        is Verdict.Named -> verdict.causes.size
+        is Verdict.Ambiguous -> verdict.sets.size
+        is Verdict.Unexplained, is Verdict.InsufficientData -> Int.MAX_VALUE
+    }
+
+    /** The answer [found] without the dead time, which makes the log likelier by [ratio] than [given] did. */
+    private fun tooLong(given: DiagnosisResult, found: DiagnosisResult, ratio: Double): DiagnosisResult {
+        val dead = listOf(Cause.DEAD_TIME)
+        val verdict = when (val verdict = found.verdict) {
+            is Verdict.Named -> Verdict.Named((dead + verdict.causes).distinct())
+            is Verdict.Ambiguous ->
+                if (verdict.sets.any { Cause.DEAD_TIME in it }) verdict else Verdict.Ambiguous(listOf(dead) + verdict.sets)
+            is Verdict.Unexplained -> verdict
+            is Verdict.Consistent, is Verdict.InsufficientData -> Verdict.Named(dead)
+        }
+        val isNamed = verdict !is Verdict.Unexplained
+        val after = found.extended ?: found.baseline
+        val sensor = found.extendedSensor ?: found.baseSensor.copy(name = "extended")
+        val own = found.candidates.filter { it.cause == Cause.DEAD_TIME }
+        val left = sensor.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
+        val p = Evidence.pValue(ratio, 1)
+        val candidate = Candidate(
+            Cause.DEAD_TIME,
+            null,
+            own.firstOrNull()?.parameters?.takeIf { left > 0 }
+                ?: listOf(Estimate("dead_time_s", "s", left, Interval(0.0, delay))),
+            after.trainRmse,
+            after.heldOutRmse,
+            after.heldOutLogLikelihood,
+            p,
+            p,
+            after.predicted,
+        )
+        return DiagnosisResult(
+            verdict,
+            listOf(candidate) + (found.candidates - own.toSet()),
+            given.baseline,
+            after.takeIf { isNamed },
+            given.baseSensor,
+            sensor.takeIf { isNamed },
+            found.separatingManoeuvre,
+            found.dependences,
+            found.spikes,
+            listOf(
+                "The dead time of the sensor given, ${three(delay)} s, is too long: without it the log is likelier.",
+            ) + found.warnings,
+            found.effects,
+            found.revisits,
+            found.mayHaveChanged,
+            found.lag,
+        )
+    }
+
+    private companion object {
+        /**
+         * Twice the log-likelihood by which a log without the dead time must be likelier where it takes as many causes: twice
+         * what tells kinds of lag.
+         */
+        const val MUCH = 2 * BlindLag.MUCH
+    }
+}
