@@ -145,7 +145,7 @@ internal class BlindAnswer(
             isStructured ->
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
-                Verdict.InsufficientData("passes over the same water do not agree for certain that there is a lag$atMost")
+                Verdict.InsufficientData(NO_LAG + atMost(longest()))
             sets.isEmpty() && base.timeConstant > LONGEST * series.duration -> Verdict.InsufficientData(
                 "what passes over the same water show would take a lag of ${three(base.timeConstant)} s, which " +
                     "such a log cannot tell from water that changes, or from positions that are wrong",
@@ -172,9 +172,9 @@ internal class BlindAnswer(
         base.timeConstant *
             exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
-    /** How long a lag may be that is not seen, in words; nothing where it may be as long as the log allows. */
-    private val atMost: String
-        get() = longest().takeIf { it < LONGEST * series.duration }?.let { "; it is ${three(it)} s at the most" }.orEmpty()
+    /** That a lag is no longer than [most], s, in words; nothing where that is as long as the log allows. */
+    private fun atMost(most: Double) =
+        if (most < LONGEST * series.duration) "; it is ${three(most)} s at the most" else ""
 
     /** Whether [term] shifts readings by no more than a simulation in fine steps does. */
     private fun isNothing(term: Term) = BlindTerms.isLittle(term, last, SmallShifts.SIMULATED_ROWS)
@@ -321,6 +321,7 @@ internal class BlindAnswer(
 
     companion object {
         private const val LEFT = 0.25
+        private const val NO_LAG = "passes over the same water do not agree for certain that there is a lag"
 
         /** Of the log's duration: a lag that is longer would be seen to end in few of its parts. */
         private const val LONGEST = 0.2

@@ -47,8 +47,10 @@ internal class GivenDelay(
         val dead = listOf(Cause.DEAD_TIME)
         val verdict = when (val verdict = found.verdict) {
             is Verdict.Named -> Verdict.Named((dead + verdict.causes).distinct())
-            is Verdict.Ambiguous ->
-                if (verdict.sets.any { Cause.DEAD_TIME in it }) verdict else Verdict.Ambiguous(listOf(dead) + verdict.sets)
+            is Verdict.Ambiguous -> {
+                val isIn = verdict.sets.any { Cause.DEAD_TIME in it }
+                if (isIn) verdict else Verdict.Ambiguous(listOf(dead) + verdict.sets)
+            }
             is Verdict.Unexplained -> verdict
             is Verdict.Consistent, is Verdict.InsufficientData -> Verdict.Named(dead)
         }

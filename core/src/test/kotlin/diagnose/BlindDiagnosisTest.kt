@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -166,6 +167,7 @@ class BlindDiagnosisTest {
 
     /** Two lags, each of which a simulation in steps has half a row sooner: that shows only once both are in the model. */
     @Test
+    @Tag("long")
     fun twoLagsInStepsAreNamed() {
         val random = java.util.Random(9)
         var first = truth[0]

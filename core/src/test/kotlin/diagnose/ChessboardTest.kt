@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import java.util.Random
 import kotlin.math.floor
 import kotlin.test.Test
@@ -31,6 +32,7 @@ class ChessboardTest {
     }
 
     @Test
+    @Tag("long")
     fun aDeadTimeIsNamed() {
         val delayed = DoubleArray(ROWS) { shown[maxOf(it - DEAD_TIME, 0)] }
         assertEquals(Verdict.Named(listOf(Cause.DEAD_TIME)), verdict(delayed), "seed $SEED")

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -105,6 +106,7 @@ class FieldConditionsTest {
     }
 
     @Test
+    @Tag("long")
     fun smallWaterThatTheReferenceAloneSeesIsNoEndOfTheRange() {
         for (seed in 21L..23L) {
             val water = Water(seed)

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -73,6 +74,7 @@ class GapsTest {
     }
 
     @Test
+    @Tag("long")
     fun anEndOfTheRangeIsNamedAcrossGaps() {
         val n = 2000
         val truth = DoubleArray(n) { 8 + 1.2 * sin(it / 23.0) + cos(it / 61.0) + 0.5 * sin(it / 9.0) }

@@ -56,8 +56,8 @@ class GivenLagTest {
         val causes = (result.verdict as? Verdict.Named)?.causes ?: result.verdict.ambiguity.flatten()
         assertTrue(Cause.DEAD_TIME in causes, "${result.verdict}")
         assertTrue(result.warnings.any { "4.00 s, is too long" in it }, "${result.warnings}")
-        val dead = result.candidates.first { it.cause == Cause.DEAD_TIME }.parameters.single { it.name == "dead_time_s" }
-        assertTrue(dead.value < 1.0, "$dead")
+        val dead = result.candidates.first { it.cause == Cause.DEAD_TIME }.parameters
+        assertTrue(dead.single { it.name == "dead_time_s" }.value < 1.0, "$dead")
         val stages = assertNotNull(result.extendedSensor).stages
         assertEquals(5.0, assertIs<SensorStage.Lag>(stages.first { it is SensorStage.Lag }).timeConstant, 0.5)
     }

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -74,6 +75,7 @@ class LoopsTest {
 
     /** The whole search without a reference: its designs, whitened columns, products and what they led to. */
     @Test
+    @Tag("long")
     fun aDiagnosisWithoutAReferenceIsTheSame() {
         fun found(loops: Loops) = Diagnosis(series, loops = loops).run()
         val inTurn = found(Loops.IN_TURN)

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import kotlin.math.exp
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -47,6 +48,7 @@ class MovesBesideRowsTest {
     }
 
     @Test
+    @Tag("long")
     fun norIsItADeadTimeBesideASecondLag() {
         for ((seed, early) in listOf(4L to 0.0, 5L to 0.1, 6L to 0.6)) {
             val result = Diagnosis(bench(seed, early, 12.0, 4.0)).run()

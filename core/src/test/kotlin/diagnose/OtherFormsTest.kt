@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -113,6 +114,7 @@ class OtherFormsTest {
     }
 
     @Test
+    @Tag("long")
     fun aLagWhoseOwnRateIsLimitedIsASlewLimitAlone() {
         for (seed in 1L..2L) {
             val random = java.util.Random(seed)

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import kotlin.math.sin
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -15,6 +16,7 @@ class RangeEndTest {
 
     /** Seeds from [SEED]; the noise is white, a five-hundredth of the water's spread. */
     @Test
+    @Tag("long")
     fun theGainIsThatOfTheReadingsWithinTheRange() {
         for (seed in SEED until SEED + 4) {
             val random = java.util.Random(seed)

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.test.Test
@@ -60,6 +61,7 @@ class ReferenceLeadTest {
     }
 
     @Test
+    @Tag("long")
     fun aReferenceThatIsLateByRowsIsOrdinaryWhereTheSensorIsFarSlower() {
         val result = diagnosed(noisy(shown(40.0)), shown(1.5))
         assertEquals(Verdict.Consistent, result.verdict)
@@ -76,6 +78,7 @@ class ReferenceLeadTest {
     }
 
     @Test
+    @Tag("long")
     fun besideAnotherCauseAReferenceThatIsLateByAFractionOfARowIsNoShift() {
         val result = diagnosed(noisy(shown(6.0, 2.5)), shown(0.2))
         val sets = result.verdict.let { verdict ->

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import kotlin.math.abs
 import kotlin.math.cos
 import kotlin.math.exp
@@ -87,6 +88,7 @@ class ReferenceLimitsTest {
     }
 
     @Test
+    @Tag("long")
     fun aDelayOfLessThanARowBehindSharpStepsIsNoDeadTime() {
         val result = bench { truth ->
             var state = truth(0.0)

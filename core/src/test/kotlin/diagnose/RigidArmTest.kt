@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import java.util.Random
 import kotlin.math.abs
 import kotlin.math.cos
@@ -52,6 +53,7 @@ class RigidArmTest {
     fun aProbeBeforeTheBowIsFoundWhereItIs() = assertFound(ahead = 1.5)
 
     @Test
+    @Tag("long")
     fun aProbeBehindTheSternIsFoundWhereItIs() = assertFound(ahead = -1.5)
 
     /** A truth that is held over each row is ahead by half a row, too, but in time: where speeds differ that is not the same. */

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.exp
@@ -77,6 +78,7 @@ class SteppedTruthTest {
     }
 
     @Test
+    @Tag("long")
     fun cellsOfEvenWaterSteppedByTheRowBeforeHaveNoDeadTimeAtUnevenTimes() {
         val times = DoubleArray(n) { it + 0.6 * random.nextDouble() }
         val cells = DoubleArray(n / 6) { random.nextDouble() }
@@ -97,6 +99,7 @@ class SteppedTruthTest {
     }
 
     @Test
+    @Tag("long")
     fun aTruthHeldOverStepsIsNoWrongTimeConstantOfAGivenSensor() {
         val base = SensorSpec("given", listOf(SensorStage.Lag(60.0)))
         for (share in listOf(0.0, 1.0)) {
@@ -170,6 +173,7 @@ class SteppedTruthTest {
     }
 
     @Test
+    @Tag("long")
     fun aRoughTruthIsNotTakenForTheNoiseOfItsReference() {
         val truth = DoubleArray(n).also { for (i in 1 until n) it[i] = it[i - 1] + random.nextGaussian() }
         val shown = stepped(truth, 4.0, 0.0)

@@ -9,6 +9,7 @@ import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.CorrectCommand
@@ -299,6 +300,7 @@ class CorrectCommandTest {
     }
 
     @Test
+    @Tag("long")
     fun longLogOfShortLegsIsLearnedFromAPartOfIt() {
         val rows = 12_000
         val legs = buildString {
@@ -332,6 +334,7 @@ class CorrectCommandTest {
     }
 
     @Test
+    @Tag("long")
     fun gordonsCastsAgreeBetterAndTheFloatIsNotCalledAsymmetric() {
         val data = System.getenv("STILLWATER_DATA")
         assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")

@@ -6,6 +6,7 @@ import kotlinx.serialization.json.jsonArray
 import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.DiagnoseCommand
 import java.nio.file.Files
@@ -29,6 +30,7 @@ class HalvesTest {
     }
 
     @Test
+    @Tag("long")
     fun nothingIsNamedInARealSurveyThatItsHalvesContradict() {
         val data = System.getenv("STILLWATER_DATA")
         assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")

@@ -57,7 +57,7 @@ class LegComparisonTest {
             // After a turn the sensor meets the water it has just left, so that the first metres of a leg show less lag.
             assertEquals(delay, mismatch.shift.seconds, 0.5 + 0.15 * delay, "seed $SEED, lag $lag s")
             val step = mismatch.shift.shifts[1] - mismatch.shift.shifts[0]
-            assertTrue(mismatch.shift.high - mismatch.shift.low >= step, "seed $SEED, lag $lag s: no finer than its grid")
+            assertTrue(mismatch.shift.high - mismatch.shift.low >= step, "seed $SEED, lag $lag s, grid $step s")
             assertTrue(mismatch.shift.mismatch < mismatch.opposite.mean / 3)
             assertTrue(assertNotNull(mismatch.excess).mean > 0)
             assertEquals(LegVerdict.LAG_SEEN, mismatch.verdict, "seed $SEED, lag $lag s")

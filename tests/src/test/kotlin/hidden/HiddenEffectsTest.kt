@@ -43,6 +43,7 @@ class HiddenEffectsTest {
      * second lag on the bench, which a truth held over each step and a delay that undoes it hid.
      */
     @Test
+    @Tag("long")
     fun whatIsBesideACauseMustBeSurerAndADelayThatUndoesHeldStepsIsNone() {
         val cases = HiddenCampaign.run(listOf(240_120L, 240_152L, 241_180L), Regime.REFERENCE, directory)
         val hidden = listOf(HiddenEffect.ASYMMETRIC, HiddenEffect.HYSTERESIS, HiddenEffect.SECOND_ORDER)
@@ -71,6 +72,7 @@ class HiddenEffectsTest {
      * lags that no step led to while a fit did not know how tightly the water is bound.
      */
     @Test
+    @Tag("long")
     fun whatChangesAndWhatNoStepLedToIsTold() {
         val cases = blind(198_071, 194_036, 196_034)
         val hidden = listOf(HiddenEffect.STEPS, HiddenEffect.TIME_VARYING, HiddenEffect.SECOND_ORDER)
@@ -80,6 +82,7 @@ class HiddenEffectsTest {
 
     /** Seeds of the work on it: curved calibrations whose logs tell a lag but not of which kind. */
     @Test
+    @Tag("long")
     fun whatIsCertainlyLeftBesideAnOpenLagIsUnexplained() {
         val cases = blind(199_041, 215_000)
         assertTrue(cases.all { it.truth.effects.keys == setOf(HiddenEffect.CURVED) })
@@ -118,6 +121,7 @@ class HiddenEffectsTest {
 
     /** A seed of the work on it: water that changes as no drift does, which only the model of the water knew of. */
     @Test
+    @Tag("long")
     fun waterThatChangesBesideANamedCauseIsToldToo() {
         val case = blind(196_075).single()
         assertEquals(setOf(HiddenEffect.TIME_VARYING, HiddenEffect.HYSTERESIS), case.truth.effects.keys)
