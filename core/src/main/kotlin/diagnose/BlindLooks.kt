@@ -12,8 +12,8 @@ import kotlin.math.sin
 /**
  * Looks for what no cause of the list explains in a log without a reference.
  *
- * @param canShowShape whether the log can show the response's shape at all: not where not even a time constant and a
- *   dead time can be told apart.
+ * @param canShowShape whether lags of other times are asked for: not where not even a time constant and a dead time can be
+ *   told apart.
  */
 internal class BlindLooks(
     private val state: BlindState,
@@ -81,8 +81,9 @@ internal class BlindLooks(
                     isLoose = true,
                 ),
             )
-            add(ringing())
         }
+        // Neither kind of lag does what a ring does.
+        add(ringing())
         if (median(series.speed) > SLOWEST) heading()
     }
 

@@ -197,6 +197,14 @@ class HiddenEffectsTest {
         assertEquals("unexplained", cases.last().answer.verdict, Scores(cases).markdown())
     }
 
+    /** A seed of the work on it: a response that rings by 3.0x, which was told as a lag of either kind. */
+    @Test
+    fun aRingIsToldWhereTheLagMayBeOfEitherKind() {
+        val case = blind(270_291).single()
+        assertEquals(setOf(HiddenEffect.RESONANCE), case.truth.effects.keys)
+        assertEquals("unexplained", case.answer.verdict, Scores(listOf(case)).markdown())
+    }
+
     /** A seed of the work on it: interference of 1.3x, whose period the water takes most of. */
     @Test
     @Tag("long")
