@@ -115,7 +115,7 @@ internal class BlindDiagnosis(
         score = last.score
         val end = found.ended ?: round(last)
         val sets = sets(start, chosen)
-        val given = settings.base?.let { GivenLag(search, base, it) }
+        val given = settings.base?.let { GivenLag(search, base, it, last.takeIf { chosen.isNotEmpty() }) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(search, last), given)
             .of(first, chosen, sets, end)
     }

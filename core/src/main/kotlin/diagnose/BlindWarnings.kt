@@ -25,7 +25,7 @@ internal class BlindWarnings(
         if (given != null && given.delay > 0) {
             add(
                 "The dead time of the sensor given, ${three(given.delay)} s, was taken as right: places are those of " +
-                    "so long before, and a dead time that is named comes beside it.",
+                    "so long before, and a dead time that is named holds it; how the readings lag is told beside it.",
             )
         }
         add(

@@ -75,16 +75,23 @@ public class ModelAssessment internal constructor(
     public val noiseTime: Double,
     public val whitened: DoubleArray,
 ) {
-    internal fun of(rows: IntArray) = ModelAssessment(
+    internal fun of(rows: IntArray) = with(parameters, predicted.at(rows), whitened.at(rows))
+
+    /** The same with other numbers and rows. */
+    internal fun with(
+        parameters: List<Estimate>,
+        predicted: DoubleArray = this.predicted,
+        whitened: DoubleArray = this.whitened,
+    ) = ModelAssessment(
         parameters,
         trainRmse,
         heldOutRmse,
         heldOutLogLikelihood,
-        predicted.at(rows),
+        predicted,
         noiseSpread,
         noiseShare,
         noiseTime,
-        whitened.at(rows),
+        whitened,
     )
 }
 
@@ -109,7 +116,10 @@ public class Candidate internal constructor(
     public val adjustedPValue: Double,
     public val predicted: DoubleArray,
 ) {
-    internal fun of(rows: IntArray) = Candidate(
+    internal fun of(rows: IntArray) = with(parameters, predicted.at(rows))
+
+    /** The same with other numbers and rows. */
+    internal fun with(parameters: List<Estimate>, predicted: DoubleArray = this.predicted) = Candidate(
         cause,
         condition,
         parameters,
@@ -118,7 +128,7 @@ public class Candidate internal constructor(
         heldOutLogLikelihood,
         pValue,
         adjustedPValue,
-        predicted.at(rows),
+        predicted,
     )
 }
 
@@ -177,18 +187,33 @@ public class DiagnosisResult internal constructor(
     internal fun ofRead(isRead: BooleanArray?, more: List<String>): DiagnosisResult {
         if (isRead == null && more.isEmpty()) return this
         val rows = baseline.predicted.indices.filter { isRead == null || isRead[it] }.toIntArray()
-        val base = baseline.of(rows)
+        return with(
+            { it.of(rows) },
+            { it.of(rows) },
+            spikes.map { rows.binarySearch(it) },
+            warnings + more,
+        )
+    }
+
+    /** The same where [candidate] and [model] make others of candidates and of models. */
+    internal fun with(
+        candidate: (Candidate) -> Candidate,
+        model: (ModelAssessment) -> ModelAssessment,
+        spikes: List<Int> = this.spikes,
+        warnings: List<String> = this.warnings,
+    ): DiagnosisResult {
+        val base = model(baseline)
         return DiagnosisResult(
             verdict,
-            candidates.map { it.of(rows) },
+            candidates.map(candidate),
             base,
-            if (extended === baseline) base else extended?.of(rows),
+            if (extended === baseline) base else extended?.let(model),
             baseSensor,
             extendedSensor,
             separatingManoeuvre,
             dependences,
-            spikes.map { rows.binarySearch(it) },
-            warnings + more,
+            spikes,
+            warnings,
             effects,
             revisits,
             mayHaveChanged,

@@ -24,14 +24,27 @@ internal class GivenDelay(
     /** The answer. */
     fun answer(): DiagnosisResult {
         val taken = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress)
-        val result = taken.run()
+        val result = taken.run().let { found -> found.with({ it.with(total(it.parameters)) }, { it.with(total(it.parameters)) }) }
         if (result.verdict == Verdict.Consistent) return result
         val prompt = given.copy(stages = given.stages.filter { it !is SensorStage.Delay })
         val without = BlindDiagnosis(series, settings.copy(base = prompt), loops)
         val found = without.run()
         val ratio = without.score - taken.score
-        val isSimpler = ratio > 0 && causes(found.verdict) < causes(result.verdict)
-        return if (isSimpler || ratio > MUCH) tooLong(result, found, ratio) else result
+        val more = causes(found.verdict).compareTo(causes(result.verdict))
+        val least = if (more < 0) 0.0 else if (more == 0 && isShorter(found)) BlindDiagnosis.ONE_NUMBER else MUCH
+        return if (ratio > least) tooLong(result, found, ratio) else result
+    }
+
+    /** [numbers] of a log without the dead time given, with that in theirs. */
+    private fun total(numbers: List<Estimate>) = numbers.map { number ->
+        val reach = number.interval?.let { Interval(it.lower + delay, minOf(it.upper + delay, Estimate.OPEN)) }
+        if (number.name == DEAD_TIME) number.copy(value = number.value + delay, interval = reach) else number
+    }
+
+    /** Whether the dead time that was [found] is shorter for certain. */
+    private fun isShorter(found: DiagnosisResult): Boolean {
+        val dead = found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME } ?: return false
+        return dead.parameters.any { number -> number.name == DEAD_TIME && number.interval?.let { it.upper < delay } == true }
     }
 
     /** How many causes [verdict] takes to explain the log; more than any where it does not. */
@@ -64,7 +77,7 @@ internal class GivenDelay(
             Cause.DEAD_TIME,
             null,
             own.firstOrNull()?.parameters?.takeIf { left > 0 }
-                ?: listOf(Estimate("dead_time_s", "s", left, Interval(0.0, delay))),
+                ?: listOf(Estimate(DEAD_TIME, "s", left, Interval(0.0, delay))),
             after.trainRmse,
             after.heldOutRmse,
             after.heldOutLogLikelihood,
@@ -93,9 +106,11 @@ internal class GivenDelay(
     }
 
     private companion object {
+        const val DEAD_TIME = "dead_time_s"
+
         /**
-         * Twice the log-likelihood by which a log without the dead time must be likelier where it takes as many causes: twice
-         * what tells kinds of lag.
+         * Twice the log-likelihood by which a log without the dead time must be likelier where it takes as many causes and no
+         * shorter one: twice what tells kinds of lag.
          */
         const val MUCH = 2 * BlindLag.MUCH
     }

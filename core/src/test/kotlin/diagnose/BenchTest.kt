@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.test.Test
@@ -106,6 +107,7 @@ class BenchTest {
     }
 
     @Test
+    @Tag("long")
     fun aSecondLagBehindSharpStepsIsAsLongHoweverTheyAreHeld() {
         for (share in listOf(0.0, 1.0)) {
             val result = Diagnosis(twice(share, java.util.Random(1))).run()

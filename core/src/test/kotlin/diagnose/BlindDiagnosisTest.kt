@@ -118,6 +118,7 @@ class BlindDiagnosisTest {
     }
 
     @Test
+    @Tag("long")
     fun whatTheHalvesContradictIsNotNamed() {
         val early = log(SensorStage.Asymmetric(9.0, 3.0)).values
         val late = log(SensorStage.Asymmetric(4.8, 4.2)).values
@@ -198,6 +199,7 @@ class BlindDiagnosisTest {
 
     /** A second path whose share of the readings may as well be none makes up for it, at a time that is known. */
     @Test
+    @Tag("long")
     fun aProbeThatIsHardlyAheadHasNoSecondPath() {
         val verdict = Diagnosis(shifted(0.07)).run().verdict
         assertFalse(Cause.TWO_PATH_RESPONSE in causes(verdict), "$verdict")
@@ -222,6 +224,7 @@ class BlindDiagnosisTest {
     }
 
     @Test
+    @Tag("long")
     fun aLagIsSaidBesideWhatNoCauseExplains() {
         val late = log(SensorStage.Delay(5.0))
         val hum = DoubleArray(n) { late.values[it] + 1.0 * sin(2 * PI * late.times[it] / 7) }
@@ -324,6 +327,7 @@ class BlindDiagnosisTest {
 
     /** Two places far apart, at which the boat mostly stands: the shortest waves would be a millionth of the way. */
     @Test
+    @Tag("long")
     fun stationsWithRepeatedFixesAreAnswered() {
         val random = Random(11)
         val east = DoubleArray(n) { i ->

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import kotlin.test.Test
 import kotlin.test.assertTrue
 
@@ -7,6 +8,7 @@ import kotlin.test.assertTrue
 class BlindEqualLagsTest {
     /** Of three lags a model of two has the likeliest numbers where both are the same. */
     @Test
+    @Tag("long")
     fun aSecondLagThatIsAsLongAsTheFirstShows() {
         val random = java.util.Random(7)
         val track = CrossingTrack(900)

@@ -63,6 +63,17 @@ class GivenLagTest {
     }
 
     @Test
+    fun ofOneThatIsTooShortTheWholeIsToldAndTheLagIsNoLonger() {
+        val result = diagnosed(SensorStage.Delay(1.0), SensorStage.Lag(5.0))
+        val named = (result.verdict as? Verdict.Named)?.causes.orEmpty()
+        val sets = (result.verdict as? Verdict.Ambiguous)?.sets.orEmpty()
+        assertTrue(named == listOf(Cause.DEAD_TIME) || sets.any { Cause.DEAD_TIME in it }, "${result.verdict}")
+        assertTrue(listOf(Cause.TIME_CONSTANT) !in sets, "${result.verdict}")
+        val dead = result.candidates.first { it.cause == Cause.DEAD_TIME }.parameters
+        assertEquals(3.0, dead.single { it.name == "dead_time_s" }.value, 0.5)
+    }
+
+    @Test
     fun placesBeforeAreOnALineBetweenRows() {
         val times = doubleArrayOf(0.0, 1.0, 3.0, 4.0)
         val places = doubleArrayOf(0.0, 10.0, 30.0, 20.0)

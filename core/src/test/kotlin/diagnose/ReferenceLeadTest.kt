@@ -97,6 +97,7 @@ class ReferenceLeadTest {
     }
 
     @Test
+    @Tag("long")
     fun wildReadingsBesideAClockThatIsBehindAreNamedThoughNoCauseTakesItsPlace() {
         repeat(3) { round ->
             val values = shown(0.1)

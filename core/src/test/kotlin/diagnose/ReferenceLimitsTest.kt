@@ -50,6 +50,7 @@ class ReferenceLimitsTest {
     }
 
     @Test
+    @Tag("long")
     fun whatIsLeftOfTheNoiseOfAReferenceIsNoResponse() {
         // As noisy as the readings of a sensor that is no later than the water.
         val times = DoubleArray(LONG) { it.toDouble() }

@@ -58,6 +58,7 @@ class RigidArmTest {
 
     /** A truth that is held over each row is ahead by half a row, too, but in time: where speeds differ that is not the same. */
     @Test
+    @Tag("long")
     fun aProbeThatIsAheadByHalfARowsWayIsNoHeldTruth() = assertFound(ahead = 0.45)
 
     @Test

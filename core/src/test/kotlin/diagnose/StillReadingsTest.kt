@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.sensor.SensorStage
 import kotlin.math.exp
 import kotlin.math.sin
@@ -121,6 +122,7 @@ class StillReadingsTest {
     }
 
     @Test
+    @Tag("long")
     fun noiseWithTailsInAShortLogIsNoOutlier() {
         val named = (1..12).count {
             val verdict = diagnosed(

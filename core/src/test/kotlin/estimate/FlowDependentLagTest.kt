@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import kotlin.math.abs
 import kotlin.math.exp
@@ -104,6 +105,7 @@ class FlowDependentLagTest {
     }
 
     @Test
+    @Tag("long")
     fun passesTellALagThatFollowsTheSpeed() {
         fun ahead(exponent: Double): Double {
             val learner = RevisitLearner.of(survey(exponent))

@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
@@ -103,6 +104,7 @@ class TrackCorrectionTest {
     }
 
     @Test
+    @Tag("long")
     fun delaysThatDifferAlongTheTrackAreTold() {
         val log = LawnmowerLog(seed = 61, emptyList())
         fun unevenness(late: (Double) -> Double): Double {
@@ -118,6 +120,7 @@ class TrackCorrectionTest {
 
     /** Fixes off by up to 0.7 m along the way make times at 1 m/s wrong by 0.7 s: less than a row, or three of five a second. */
     @Test
+    @Tag("long")
     fun fixesAreNoMoreOffWhereTheSensorIsReadMoreOften() {
         val random = Random(5)
         val waves = List(40) { List(3) { random.nextDouble(-1.0, 1.0) } }

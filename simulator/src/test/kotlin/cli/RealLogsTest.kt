@@ -10,6 +10,7 @@ import kotlinx.serialization.json.jsonObject
 import kotlinx.serialization.json.jsonPrimitive
 import kotlinx.serialization.json.long
 import org.junit.jupiter.api.Assumptions.assumeTrue
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import org.junit.jupiter.params.ParameterizedTest
@@ -114,6 +115,7 @@ class RealLogsTest {
     }
 
     @Test
+    @Tag("long")
     fun theFloatsOptodeLagsByATimeConstantOrADeadTimeAndIsNoFasterUpThanDown() {
         val answer = diagnosis("gordon2020_float/profiles.csv", "--x", "pres_dbar", "--value", "doxy_umol")
         assertEquals("ambiguous", answer.getValue("verdict").jsonPrimitive.content)

@@ -319,6 +319,7 @@ class CorrectCommandTest {
     private fun water2(t: Int) = Math.round(1000 * (sin(along(t) / 9.0) + sin(along(t) / 4.1 + t / 4000.0))) / 1000.0
 
     @Test
+    @Tag("long")
     fun lacHertelsLegsAgreeBetterAndDeadTimeAndTimeConstantStayOpen() {
         val data = System.getenv("STILLWATER_DATA")
         assumeTrue(data != null, "STILLWATER_DATA names no directory with real logs: skipped")

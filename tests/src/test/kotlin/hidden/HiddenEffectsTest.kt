@@ -113,6 +113,7 @@ class HiddenEffectsTest {
 
     /** A seed of the work on it: where rounding was told first, nothing else moved the fit any more. */
     @Test
+    @Tag("long")
     fun whatIsHiddenBesideCoarseRoundingIsNamedToo() {
         val case = blind(192_035).single()
         assertEquals(setOf(HiddenEffect.FLOW, HiddenEffect.QUANTISATION), case.truth.effects.keys)
@@ -130,6 +131,7 @@ class HiddenEffectsTest {
 
     /** Seeds of the work on it: a drift and water that changes evenly, which noise that wanders had taken. */
     @Test
+    @Tag("long")
     fun aDriftIsAskedOfNoiseThatDoesNotWander() {
         val cases = blind(203_063, 208_029)
         val hidden = listOf(HiddenEffect.DRIFT, HiddenEffect.TIME_VARYING)

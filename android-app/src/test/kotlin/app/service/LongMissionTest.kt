@@ -4,6 +4,7 @@ import android.app.Application
 import android.os.BatteryManager
 import org.junit.After
 import org.junit.Test
+import org.junit.jupiter.api.Tag
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
@@ -48,6 +49,7 @@ class LongMissionTest {
     }
 
     @Test
+    @Tag("long")
     fun twoHoursLeaveTheHeapFlatAndTheLogComplete() {
         shadowOf(context.getSystemService(BatteryManager::class.java)!!)
             .setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, 80)
