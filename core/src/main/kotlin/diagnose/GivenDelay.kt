@@ -24,19 +24,26 @@ internal class GivenDelay(
     /** The answer. */
     fun answer(): DiagnosisResult {
         val taken = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress)
-        val result = taken.run().let { found -> found.with({ it.with(total(it.parameters)) }, { it.with(total(it.parameters)) }) }
+        val result = whole(taken.run())
         if (result.verdict == Verdict.Consistent) return result
         val prompt = given.copy(stages = given.stages.filter { it !is SensorStage.Delay })
         val without = BlindDiagnosis(series, settings.copy(base = prompt), loops)
         val found = without.run()
         val ratio = without.score - taken.score
         val more = causes(found.verdict).compareTo(causes(result.verdict))
-        val least = if (more < 0) 0.0 else if (more == 0 && isShorter(found)) BlindDiagnosis.ONE_NUMBER else MUCH
+        val least = when {
+            more < 0 -> 0.0
+            more == 0 && isShorter(found) -> BlindDiagnosis.ONE_NUMBER
+            else -> MUCH
+        }
         return if (ratio > least) tooLong(result, found, ratio) else result
     }
 
-    /** [numbers] of a log without the dead time given, with that in theirs. */
-    private fun total(numbers: List<Estimate>) = numbers.map { number ->
+    /** [found] of a log without the dead time given, with that in its own. */
+    private fun whole(found: DiagnosisResult) =
+        found.with({ it.with(whole(it.parameters)) }, { it.with(whole(it.parameters)) })
+
+    private fun whole(numbers: List<Estimate>) = numbers.map { number ->
         val reach = number.interval?.let { Interval(it.lower + delay, minOf(it.upper + delay, Estimate.OPEN)) }
         if (number.name == DEAD_TIME) number.copy(value = number.value + delay, interval = reach) else number
     }
@@ -44,7 +51,8 @@ internal class GivenDelay(
     /** Whether the dead time that was [found] is shorter for certain. */
     private fun isShorter(found: DiagnosisResult): Boolean {
         val dead = found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME } ?: return false
-        return dead.parameters.any { number -> number.name == DEAD_TIME && number.interval?.let { it.upper < delay } == true }
+        val upper = dead.parameters.firstOrNull { it.name == DEAD_TIME }?.interval?.upper
+        return upper != null && upper < delay
     }
 
     /** How many causes [verdict] takes to explain the log; more than any where it does not. */
