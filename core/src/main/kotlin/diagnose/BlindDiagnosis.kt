@@ -20,8 +20,8 @@ internal class BlindDiagnosis(
     val search by lazy { BlindSearch(series, loops) { progress(SEARCH * it) } }
     private var rounds = 0
 
-    /** Twice the log-likelihood of the model that [run] found; NaN where it found none. */
-    var score = Double.NaN
+    /** The model that [run] found; null where it found none. */
+    var found: BlindState? = null
         private set
 
     /** The share [done] of a round is behind: each takes half of what is left. */
@@ -112,7 +112,7 @@ internal class BlindDiagnosis(
             lag = lag(base, search.still(base))
         }
         val last = chosen.lastOrNull()?.state ?: first.state
-        score = last.score
+        this.found = last
         val end = found.ended ?: round(last)
         val sets = sets(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it, last.takeIf { chosen.isNotEmpty() }) }

@@ -62,8 +62,14 @@ public class Diagnosis private constructor(
 
     private fun withoutReference(): DiagnosisResult {
         val late = settings.base?.takeIf { GivenLag.delay(it) > 0 }
-            ?: return BlindDiagnosis(series, settings, loops, progress).run()
+            ?: return undelayed()
         return GivenDelay(series, settings, late, loops, progress).answer()
+    }
+
+    private fun undelayed(): DiagnosisResult = if (settings.base == null) {
+        LongDelay(series, settings, loops, progress).answer()
+    } else {
+        BlindDiagnosis(series, settings, loops, progress).run()
     }
 
     private fun answer(reference: DoubleArray): DiagnosisResult {

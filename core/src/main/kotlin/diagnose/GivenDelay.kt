@@ -24,13 +24,13 @@ internal class GivenDelay(
     /** The answer. */
     fun answer(): DiagnosisResult {
         val taken = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress)
-        val result = whole(taken.run())
+        val result = DelayTaken(delay).whole(taken.run())
         if (result.verdict == Verdict.Consistent) return result
         val prompt = given.copy(stages = given.stages.filter { it !is SensorStage.Delay })
         val without = BlindDiagnosis(series, settings.copy(base = prompt), loops)
         val found = without.run()
-        val ratio = without.score - taken.score
-        val more = causes(found.verdict).compareTo(causes(result.verdict))
+        val ratio = (without.found?.score ?: return result) - (taken.found?.score ?: return result)
+        val more = DelayTaken.causes(found.verdict).compareTo(DelayTaken.causes(result.verdict))
         val least = when {
             more < 0 -> 0.0
             more == 0 && isShorter(found) -> BlindDiagnosis.ONE_NUMBER
@@ -39,28 +39,11 @@ internal class GivenDelay(
         return if (ratio > least) tooLong(result, found, ratio) else result
     }
 
-    /** [found] of a log without the dead time given, with that in its own. */
-    private fun whole(found: DiagnosisResult) =
-        found.with({ it.with(whole(it.parameters)) }, { it.with(whole(it.parameters)) })
-
-    private fun whole(numbers: List<Estimate>) = numbers.map { number ->
-        val reach = number.interval?.let { Interval(it.lower + delay, minOf(it.upper + delay, Estimate.OPEN)) }
-        if (number.name == DEAD_TIME) number.copy(value = number.value + delay, interval = reach) else number
-    }
-
     /** Whether the dead time that was [found] is shorter for certain. */
     private fun isShorter(found: DiagnosisResult): Boolean {
         val dead = found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME } ?: return false
-        val upper = dead.parameters.firstOrNull { it.name == DEAD_TIME }?.interval?.upper
+        val upper = dead.parameters.firstOrNull { it.name == DelayTaken.DEAD_TIME }?.interval?.upper
         return upper != null && upper < delay
-    }
-
-    /** How many causes [verdict] takes to explain the log; more than any where it does not. */
-    private fun causes(verdict: Verdict): Int = when (verdict) {
-        is Verdict.Consistent -> 0
-        is Verdict.Named -> verdict.causes.size
-        is Verdict.Ambiguous -> verdict.sets.size
-        is Verdict.Unexplained, is Verdict.InsufficientData -> Int.MAX_VALUE
     }
 
     /** The answer [found] without the dead time, which makes the log likelier by [ratio] than [given] did. */
@@ -75,47 +58,17 @@ internal class GivenDelay(
             is Verdict.Unexplained -> verdict
             is Verdict.Consistent, is Verdict.InsufficientData -> Verdict.Named(dead)
         }
-        val isNamed = verdict !is Verdict.Unexplained
-        val after = found.extended ?: found.baseline
         val sensor = found.extendedSensor ?: found.baseSensor.copy(name = "extended")
-        val own = found.candidates.filter { it.cause == Cause.DEAD_TIME }
+        val own = found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME }?.parameters
         val left = sensor.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
-        val p = Evidence.pValue(ratio, 1)
-        val candidate = Candidate(
-            Cause.DEAD_TIME,
-            null,
-            own.firstOrNull()?.parameters?.takeIf { left > 0 }
-                ?: listOf(Estimate(DEAD_TIME, "s", left, Interval(0.0, delay))),
-            after.trainRmse,
-            after.heldOutRmse,
-            after.heldOutLogLikelihood,
-            p,
-            p,
-            after.predicted,
-        )
-        return DiagnosisResult(
-            verdict,
-            listOf(candidate) + (found.candidates - own.toSet()),
-            given.baseline,
-            after.takeIf { isNamed },
-            given.baseSensor,
-            sensor.takeIf { isNamed },
-            found.separatingManoeuvre,
-            found.dependences,
-            found.spikes,
-            listOf(
-                "The dead time of the sensor given, ${three(delay)} s, is too long: without it the log is likelier.",
-            ) + found.warnings,
-            found.effects,
-            found.revisits,
-            found.mayHaveChanged,
-            found.lag,
-        )
+        val numbers = own?.takeIf { left > 0 }
+            ?: listOf(Estimate(DelayTaken.DEAD_TIME, "s", left, Interval(0.0, delay)))
+        val warning =
+            "The dead time of the sensor given, ${three(delay)} s, is too long: without it the log is likelier."
+        return DelayTaken.retold(given, found, verdict, numbers, sensor, ratio, warning)
     }
 
     private companion object {
-        const val DEAD_TIME = "dead_time_s"
-
         /**
          * Twice the log-likelihood by which a log without the dead time must be likelier where it takes as many causes and no
          * shorter one: twice what tells kinds of lag.

@@ -28,12 +28,7 @@ internal class GivenLag(
     val isPartial: Boolean = lags.size != 1 || spec.stages.any { !isLookedAt(it) }
 
     /** [found], on a log without the [delay], as a sensor on the log itself. */
-    fun delayed(found: SensorSpec): SensorSpec {
-        if (delay == 0.0) return found
-        val more = found.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
-        val rest = found.stages.filter { it !is SensorStage.Delay }
-        return found.copy(stages = listOf(SensorStage.Delay(delay + more)) + rest)
-    }
+    fun delayed(found: SensorSpec): SensorSpec = DelayTaken(delay).whole(found)
 
     /** Its time constant, s; null where it has no lag alone. */
     val timeConstant: Double? = lags.singleOrNull()?.timeConstant

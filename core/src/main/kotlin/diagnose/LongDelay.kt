@@ -1,0 +1,83 @@
+package stillwater.diagnose
+
+import stillwater.diagnose.BlindAnswer.Companion.three
+
+/**
+ * The diagnosis of a log without a reference whose readings may be later than any lag tells: water that takes half a
+ * minute through a tube. Where the lag is left open, passes over the same places say by how much later readings agree
+ * best; part of that is taken off the log, which is diagnosed once more, and the likelier answer stands.
+ */
+internal class LongDelay(
+    private val series: MeasuredSeries,
+    private val settings: DiagnosisSettings,
+    private val loops: Loops,
+    private val progress: (Double) -> Unit,
+) {
+    /** The answer. */
+    fun answer(): DiagnosisResult {
+        val plain = BlindDiagnosis(series, settings, loops, progress)
+        val result = plain.run()
+        val before = plain.found ?: return result
+        val late = if (isVague(result.baseline)) PassShift(series).late() else null
+        if (late == null) return result
+        val found = SHARES.firstNotNullOfOrNull { share -> tried(share * late, before, result) } ?: return result
+        if (found.verdict == ALONE) return found
+        // What is still to be told of a long dead time may look like more beside it: less of it does not.
+        val whole = found.candidates.first().parameters.firstOrNull { it.name == DelayTaken.DEAD_TIME } ?: return found
+        return tried(NEARLY * whole.value, before, result)?.takeIf { it.verdict == ALONE } ?: found
+    }
+
+    /** Whether a lag alone may be many times as long as another. */
+    private fun isVague(base: ModelAssessment): Boolean {
+        val reach = base.parameters.firstOrNull { it.name == "time_constant_s" }?.interval ?: return false
+        return reach.upper > VAGUE * reach.lower
+    }
+
+    /** The answer with a dead time of [delay] s off the log; null where that is not for certain better than [before]. */
+    private fun tried(delay: Double, before: BlindState, result: DiagnosisResult): DiagnosisResult? {
+        val later = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops)
+        val found = later.run()
+        val after = later.found ?: return null
+        val ratio = after.score - before.score
+        val verdict = verdict(found.verdict)
+        if (verdict == null || ratio < MUCH) return null
+        // Where other causes stand for the delay stretches need not agree that it is better, if it takes no more of them.
+        val isInstead = result.verdict is Verdict.Named || result.verdict is Verdict.Ambiguous
+        val isAsSimple = isInstead && DelayTaken.causes(verdict) <= DelayTaken.causes(result.verdict)
+        if (!isAsSimple && BlindEvidence.between(before, after) < SURE) return null
+        val taken = DelayTaken(delay)
+        val whole = taken.whole(found)
+        val numbers = whole.candidates.firstOrNull { it.cause == Cause.DEAD_TIME }?.parameters.orEmpty()
+        val sensor = taken.whole(found.extendedSensor ?: found.baseSensor.copy(name = "extended"))
+        val warning =
+            "The readings are ${three(delay)} s late or more: that was taken off first, and their lag is told beside it."
+        return DelayTaken.retold(result, whole, verdict, numbers, sensor, ratio, warning)
+    }
+
+    /** [found] on the log without most of its dead time, which is certain; null where that explains nothing. */
+    private fun verdict(found: Verdict): Verdict? = when (found) {
+        is Verdict.Consistent -> ALONE
+        is Verdict.Named -> Verdict.Named((ALONE.causes + found.causes).distinct())
+        is Verdict.Ambiguous -> {
+            val sets = listOf(ALONE.causes) + found.sets.filter { Cause.DEAD_TIME !in it }
+            if (sets.all { it.size == 1 }) Verdict.Named(sets.flatten()) else Verdict.Ambiguous(sets)
+        }
+        is Verdict.Unexplained, is Verdict.InsufficientData -> null
+    }
+
+    private companion object {
+        /** The upper end of an interval of the lag over the lower one from which it is open. */
+        const val VAGUE = 4.0
+
+        /** Of the shift that suits passes, which holds the lag as well: what is taken off, the larger first. */
+        val SHARES = listOf(0.75, 0.5)
+        const val NEARLY = 0.95
+
+        /** Twice the log-likelihood by which the log must be likelier: twice what tells kinds of lag. */
+        const val MUCH = 2 * BlindLag.MUCH
+        val ALONE = Verdict.Named(listOf(Cause.DEAD_TIME))
+
+        /** Student's t with 23 degrees of freedom, two-sided 1 %. */
+        const val SURE = 2.8
+    }
+}
