@@ -50,7 +50,7 @@ internal class LongDelay(
         val numbers = whole.candidates.firstOrNull { it.cause == Cause.DEAD_TIME }?.parameters.orEmpty()
         val sensor = taken.whole(found.extendedSensor ?: found.baseSensor.copy(name = "extended"))
         val warning =
-            "The readings are ${three(delay)} s late or more: that was taken off first, and their lag is told beside it."
+            "The readings are ${three(delay)} s late or more: that was taken off first, their lag is told beside it."
         return DelayTaken.retold(result, whole, verdict, numbers, sensor, ratio, warning)
     }
 
