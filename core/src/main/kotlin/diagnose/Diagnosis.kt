@@ -61,15 +61,10 @@ public class Diagnosis private constructor(
     }
 
     private fun withoutReference(): DiagnosisResult {
-        val late = settings.base?.takeIf { GivenLag.delay(it) > 0 }
-            ?: return undelayed()
-        return GivenDelay(series, settings, late, loops, progress).answer()
-    }
-
-    private fun undelayed(): DiagnosisResult = if (settings.base == null) {
-        LongDelay(series, settings, loops, progress).answer()
-    } else {
-        BlindDiagnosis(series, settings, loops, progress).run()
+        val given = settings.base ?: return LongDelay(series, settings, loops, progress).answer()
+        val isLate = GivenLag.delay(given) > 0
+        if (isLate) return GivenDelay(series, settings, given, loops, progress).answer()
+        return BlindDiagnosis(series, settings, loops, progress).run()
     }
 
     private fun answer(reference: DoubleArray): DiagnosisResult {
