@@ -159,7 +159,7 @@ internal class BlindLag(
         private const val WORTH = 4.0
 
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */
-        private const val SURE = 2.8
+        const val SURE = 2.8
         private const val STEPS = 6
         private const val REFINEMENTS = 8
         private val STARTS = listOf(0.5, 1.0)

@@ -18,7 +18,7 @@ internal class DelayTaken(private val delay: Double) {
     /** [found] on that log as a sensor on the log itself. */
     fun whole(found: SensorSpec): SensorSpec {
         if (delay == 0.0) return found
-        val more = found.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
+        val more = GivenLag.delay(found)
         val rest = found.stages.filter { it !is SensorStage.Delay }
         return found.copy(stages = listOf(SensorStage.Delay(delay + more)) + rest)
     }
@@ -26,6 +26,20 @@ internal class DelayTaken(private val delay: Double) {
     companion object {
         /** The name of a dead time among a model's numbers. */
         const val DEAD_TIME = "dead_time_s"
+
+        /** Twice the log-likelihood by which another dead time must be likelier by itself: twice what tells kinds of lag. */
+        const val MUCH = 2 * BlindLag.MUCH
+
+        /** The numbers of the dead time that was tried in [found]; null where none was. */
+        fun numbers(found: DiagnosisResult): List<Estimate>? =
+            found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME }?.parameters
+
+        /** The dead time itself among [numbers]. */
+        fun deadTime(found: DiagnosisResult): Estimate? = numbers(found)?.firstOrNull { it.name == DEAD_TIME }
+
+        /** What [found] makes of the sensor, the base's where nothing was named. */
+        fun sensor(found: DiagnosisResult): SensorSpec =
+            found.extendedSensor ?: found.baseSensor.copy(name = "extended")
 
         /** How many causes [verdict] takes to explain the log; more than any where it does not. */
         fun causes(verdict: Verdict): Int = when (verdict) {

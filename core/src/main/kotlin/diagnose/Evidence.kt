@@ -82,16 +82,7 @@ internal object Evidence {
     }
 
     /** [column] less its projection on [basis], an orthonormal set; as new array. */
-    fun without(column: DoubleArray, basis: List<DoubleArray>): DoubleArray {
-        val rest = column.copyOf()
-        repeat(2) {
-            for (direction in basis) {
-                val share = dot(rest, direction)
-                for (i in rest.indices) rest[i] -= share * direction[i]
-            }
-        }
-        return rest
-    }
+    fun without(column: DoubleArray, basis: List<DoubleArray>): DoubleArray = without(listOf(column), basis).single()
 
     /** The same of each of [columns]. */
     fun without(columns: List<DoubleArray>, basis: List<DoubleArray>): List<DoubleArray> {

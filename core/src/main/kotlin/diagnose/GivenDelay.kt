@@ -34,15 +34,15 @@ internal class GivenDelay(
         val least = when {
             more < 0 -> 0.0
             more == 0 && isShorter(found) -> BlindDiagnosis.ONE_NUMBER
-            else -> MUCH
+            // As many causes and no shorter one.
+            else -> DelayTaken.MUCH
         }
         return if (ratio > least) tooLong(result, found, ratio) else result
     }
 
     /** Whether the dead time that was [found] is shorter for certain. */
     private fun isShorter(found: DiagnosisResult): Boolean {
-        val dead = found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME } ?: return false
-        val upper = dead.parameters.firstOrNull { it.name == DelayTaken.DEAD_TIME }?.interval?.upper
+        val upper = DelayTaken.deadTime(found)?.interval?.upper
         return upper != null && upper < delay
     }
 
@@ -58,21 +58,12 @@ internal class GivenDelay(
             is Verdict.Unexplained -> verdict
             is Verdict.Consistent, is Verdict.InsufficientData -> Verdict.Named(dead)
         }
-        val sensor = found.extendedSensor ?: found.baseSensor.copy(name = "extended")
-        val own = found.candidates.firstOrNull { it.cause == Cause.DEAD_TIME }?.parameters
-        val left = sensor.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
-        val numbers = own?.takeIf { left > 0 }
+        val sensor = DelayTaken.sensor(found)
+        val left = GivenLag.delay(sensor)
+        val numbers = DelayTaken.numbers(found)?.takeIf { left > 0 }
             ?: listOf(Estimate(DelayTaken.DEAD_TIME, "s", left, Interval(0.0, delay)))
         val warning =
             "The dead time of the sensor given, ${three(delay)} s, is too long: without it the log is likelier."
         return DelayTaken.retold(given, found, verdict, numbers, sensor, ratio, warning)
-    }
-
-    private companion object {
-        /**
-         * Twice the log-likelihood by which a log without the dead time must be likelier where it takes as many causes and no
-         * shorter one: twice what tells kinds of lag.
-         */
-        const val MUCH = 2 * BlindLag.MUCH
     }
 }

@@ -26,6 +26,23 @@ internal class LagSteps(
         ((ticks - 1) / 2 + if (steps == Steps.UNTIL_NEXT) 1 else 0) / ticks
     }
 
+    /** What is left over a step; worked out where it is not as in the step before. */
+    private class Fade {
+        private var lastDt = Double.NaN
+        private var lastTau = Double.NaN
+        private var last = 0.0
+
+        fun of(dt: Double, tau: Double): Double {
+            // Even times differ by a rounding error.
+            if (tau != lastTau || !(abs(dt - lastDt) < SAME * dt)) {
+                last = exp(-dt / tau)
+                lastDt = dt
+                lastTau = tau
+            }
+            return last
+        }
+    }
+
     /** Whether nothing is known of the step before row [i], from 1 on. */
     fun isGap(i: Int): Boolean = isGap?.get(i) ?: (series.times[i] - series.times[i - 1] > series.gap)
 
@@ -42,27 +59,19 @@ internal class LagSteps(
     fun even(input: DoubleArray, curve: Spline, taus: DoubleArray, factor: Double, out: DoubleArray) {
         var state = input[0]
         out[0] = state
-        var lastDt = Double.NaN
-        var lastTau = Double.NaN
-        var fade = 0.0
+        val fade = Fade()
         for (i in 1 until n) {
             val dt = series.times[i] - series.times[i - 1]
             val tau = taus[i] * factor
             if (isGap(i)) {
                 state = input[i]
             } else {
-                // Even times differ by a rounding error.
-                if (tau != lastTau || !(abs(dt - lastDt) < SAME * dt)) {
-                    fade = exp(-dt / tau)
-                    lastDt = dt
-                    lastTau = tau
-                }
                 // The response to a cubic is a cubic; what is off it fades.
                 if (held) {
                     val still = heldOver(i, input)
-                    state = still + (state - still) * fade
+                    state = still + (state - still) * fade.of(dt, tau)
                 } else {
-                    state = curve.late(i - 1, tau) + (state - curve.early(i - 1, tau)) * fade
+                    state = curve.late(i - 1, tau) + (state - curve.early(i - 1, tau)) * fade.of(dt, tau)
                 }
             }
             out[i] = state
@@ -84,9 +93,7 @@ internal class LagSteps(
     ) {
         var state = input[0]
         out[0] = state
-        var lastDt = Double.NaN
-        var lastTau = Double.NaN
-        var fade = 0.0
+        val fade = Fade()
         for (i in 1 until n) {
             val dt = series.times[i] - series.times[i - 1]
             val before = if (held) heldOver(i, input) else input[i - 1]
@@ -95,14 +102,9 @@ internal class LagSteps(
             if (isGap(i)) {
                 state = input[i]
             } else {
-                if (tau != lastTau || !(abs(dt - lastDt) < SAME * dt)) {
-                    fade = exp(-dt / tau)
-                    lastDt = dt
-                    lastTau = tau
-                }
                 val early = if (held) before else curve.early(i - 1, tau)
                 val late = if (held) before else curve.late(i - 1, tau)
-                val free = late + (state - early) * fade
+                val free = late + (state - early) * fade.of(dt, tau)
                 val isFree = maxOf(abs(before - state), abs(after - free)) <= most * tau
                 state = if (isFree) {
                     free

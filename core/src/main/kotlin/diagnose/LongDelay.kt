@@ -23,7 +23,7 @@ internal class LongDelay(
         val found = SHARES.firstNotNullOfOrNull { share -> tried(share * late, before, result) } ?: return result
         if (found.verdict == ALONE) return found
         // What is still to be told of a long dead time may look like more beside it: less of it does not.
-        val whole = found.candidates.first().parameters.firstOrNull { it.name == DelayTaken.DEAD_TIME } ?: return found
+        val whole = DelayTaken.deadTime(found) ?: return found
         return tried(NEARLY * whole.value, before, result)?.takeIf { it.verdict == ALONE } ?: found
     }
 
@@ -40,15 +40,15 @@ internal class LongDelay(
         val after = later.found ?: return null
         val ratio = after.score - before.score
         val verdict = verdict(found.verdict)
-        if (verdict == null || ratio < MUCH) return null
+        if (verdict == null || ratio < DelayTaken.MUCH) return null
         // Where other causes stand for the delay stretches need not agree that it is better, if it takes no more of them.
         val isInstead = result.verdict is Verdict.Named || result.verdict is Verdict.Ambiguous
         val isAsSimple = isInstead && DelayTaken.causes(verdict) <= DelayTaken.causes(result.verdict)
-        if (!isAsSimple && BlindEvidence.between(before, after) < SURE) return null
+        if (!isAsSimple && BlindEvidence.between(before, after) < BlindLag.SURE) return null
         val taken = DelayTaken(delay)
         val whole = taken.whole(found)
-        val numbers = whole.candidates.firstOrNull { it.cause == Cause.DEAD_TIME }?.parameters.orEmpty()
-        val sensor = taken.whole(found.extendedSensor ?: found.baseSensor.copy(name = "extended"))
+        val numbers = DelayTaken.numbers(whole).orEmpty()
+        val sensor = taken.whole(DelayTaken.sensor(found))
         val warning =
             "The readings are ${three(delay)} s late or more: that was taken off first, their lag is told beside it."
         return DelayTaken.retold(result, whole, verdict, numbers, sensor, ratio, warning)
@@ -72,12 +72,6 @@ internal class LongDelay(
         /** Of the shift that suits passes, which holds the lag as well: what is taken off, the larger first. */
         val SHARES = listOf(0.75, 0.5)
         const val NEARLY = 0.95
-
-        /** Twice the log-likelihood by which the log must be likelier: twice what tells kinds of lag. */
-        const val MUCH = 2 * BlindLag.MUCH
         val ALONE = Verdict.Named(listOf(Cause.DEAD_TIME))
-
-        /** Student's t with 23 degrees of freedom, two-sided 1 %. */
-        const val SURE = 2.8
     }
 }

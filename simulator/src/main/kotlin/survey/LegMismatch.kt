@@ -43,19 +43,20 @@ class LagShift(
     val shifts: DoubleArray,
     val curve: DoubleArray,
 ) {
+    private val step: Double get() = shifts[1] - shifts[0]
+
     /**
      * Whether the shift is told from none: from [FEWEST_LEGS] legs or more, with an interval that leaves out 0 and
      * both ends of the range, and a gain of more than two standard errors.
      */
     val isClear: Boolean
         get() {
-            val step = shifts[1] - shifts[0]
             val inside = (low > 0 || high < 0) && low > -limit + step && high < limit - step
             return legs >= FEWEST_LEGS && inside && gain.mean > 2 * gain.standardError
         }
 
     /** Whether the best of the shifts tried is the first or the last: a better one may lie beyond. */
-    val isAtEnd: Boolean get() = abs(seconds) > limit - (shifts[1] - shifts[0])
+    val isAtEnd: Boolean get() = abs(seconds) > limit - step
 
     companion object {
         /** Legs below which a bootstrap over legs says nothing. */

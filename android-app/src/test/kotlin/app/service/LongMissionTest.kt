@@ -4,7 +4,6 @@ import android.app.Application
 import android.os.BatteryManager
 import org.junit.After
 import org.junit.Test
-import org.junit.jupiter.api.Tag
 import org.junit.runner.RunWith
 import org.robolectric.Robolectric
 import org.robolectric.RobolectricTestRunner
@@ -49,7 +48,6 @@ class LongMissionTest {
     }
 
     @Test
-    @Tag("long")
     fun twoHoursLeaveTheHeapFlatAndTheLogComplete() {
         shadowOf(context.getSystemService(BatteryManager::class.java)!!)
             .setIntProperty(BatteryManager.BATTERY_PROPERTY_CAPACITY, 80)
