@@ -27,6 +27,7 @@ class ChessboardTest {
     private fun verdict(readings: DoubleArray): Verdict = Diagnosis(series(readings)).run().verdict
 
     @Test
+    @Tag("long")
     fun missingWavesAreNoCause() {
         assertEquals(Verdict.Consistent, verdict(shown), "seed $SEED")
     }

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.test.Test
@@ -63,6 +64,7 @@ class GivenLagTest {
     }
 
     @Test
+    @Tag("long")
     fun ofOneThatIsTooShortTheWholeIsToldAndTheLagIsNoLonger() {
         val result = diagnosed(SensorStage.Delay(1.0), SensorStage.Lag(5.0))
         val named = (result.verdict as? Verdict.Named)?.causes.orEmpty()

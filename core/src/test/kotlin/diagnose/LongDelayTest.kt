@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.sensor.SensorStage
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -31,6 +32,7 @@ class LongDelayTest {
     }
 
     @Test
+    @Tag("long")
     fun itIsNamedAndTheLagBesideItToldRight() {
         val result = Diagnosis(log(late)).run()
         assertEquals(Verdict.Named(listOf(Cause.DEAD_TIME)), result.verdict, "seed $SEED")

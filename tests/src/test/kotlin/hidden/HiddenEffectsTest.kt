@@ -191,6 +191,7 @@ class HiddenEffectsTest {
      * rings in water whose waves are resolved, by less than waves that are missing may do.
      */
     @Test
+    @Tag("long")
     fun jumpsThatUndoEachOtherAndAFaintRingAreTold() {
         val cases = blind(269_240, 269_453)
         val hidden = listOf(HiddenEffect.STEPS, HiddenEffect.RESONANCE)

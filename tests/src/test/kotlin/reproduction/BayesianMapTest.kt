@@ -29,7 +29,7 @@ class BayesianMapTest {
         kind: String,
         planner: PlannerKind,
         moves: Int,
-        environments: Int = 100,
+        environments: Int = 50,
         lag: SelfCalibratingSettings = SelfCalibratingSettings(),
     ): Outcome {
         var error = 0.0
