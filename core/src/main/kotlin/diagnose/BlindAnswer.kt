@@ -121,7 +121,7 @@ internal class BlindAnswer(
         chosen: List<BlindStep>,
         unlisted: String?,
     ): Verdict {
-        val isOpen = lag.isOpen(settings.separation)
+        val isOpen = lag.isOpen(settings.separation) && (chosen.isEmpty() || !lag.isToldIn(last, assessed(last).errors))
         // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
         val weakest = chosen.minOfOrNull { it.trial.sureness }
         val outweighs = when {

@@ -111,6 +111,16 @@ internal class BlindLag(
     fun isOpen(separation: Double): Boolean = isSeen && !isNeitherAlone &&
         (preference < separation || !isFarOrAgreed || isShared)
 
+    /**
+     * Whether [found], a model with more beside both kinds, whose numbers may be off by [errors], has no dead time and is
+     * sure of its time constant: what made either kind likely was then what is in the model now.
+     */
+    fun isToldIn(found: BlindState, errors: DoubleArray): Boolean {
+        val dead = found.model.slotOrNull(Term(Cause.DEAD_TIME)) ?: return false
+        val most = found.numbers[dead] + BlindErrors.REACH * errors[dead]
+        return most < period / 2 && BlindErrors.REACH * errors[ResponseModel.TIME_CONSTANT] < TOLD
+    }
+
     /** Whether a lag alone is far likelier than a dead time alone, or stretches of the log agree that it is likelier. */
     private val isFarOrAgreed: Boolean by lazy {
         preference > FAR || BlindEvidence.between(deadTime, timeConstant) > SURE
@@ -156,6 +166,9 @@ internal class BlindLag(
          */
         private const val FAR = 200.0
         private const val LAG_SEEN = 12.0
+
+        /** How far the interval of a time constant that is sure reaches, on a logarithmic scale. */
+        private const val TOLD = 0.2
         private const val WORTH = 4.0
 
         /** Student's t with 23 degrees of freedom, two-sided 1 %. */

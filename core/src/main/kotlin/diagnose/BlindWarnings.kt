@@ -34,8 +34,11 @@ internal class BlindWarnings(
                 "held-out blocks are those of a forecast from other passes and the rows before.",
         )
         if (lag.isSeen) {
+            val known = lag.both.model.terms.map { it.key }
+            val isAlone = last.model.terms.all { it.key in known }
             add(
-                "The readings lag the water by ${three(lag.timeConstant.timeConstant)} s as a first-order lag, or by " +
+                (if (isAlone) "The readings lag the water by " else "Without what was found the lag would be ") +
+                    "${three(lag.timeConstant.timeConstant)} s as a first-order lag, or " + (if (isAlone) "by " else "") +
                     "${three(lag.delay)} s as a dead time" +
                     when {
                         lag.isDeadTime -> ", which explains more."

@@ -102,8 +102,23 @@ internal class CauseSearch(
         return Evidence.pValue((best.score - without.score) / inflation(without, best), 1)
     }
 
-    private fun extended(base: ModelFit, term: Term): ModelFit =
-        forms(base, term).map { fitted(base, it) }.maxBy { it.score }
+    private fun extended(base: ModelFit, term: Term): ModelFit {
+        val best = forms(base, term).map { fitted(base, it) }.maxBy { it.score }
+        val begun = best.model.terms.last().begun()
+        return if (begun.hasOwnStart && best.score > base.score + OWN_START) begun(base, best, begun) else best
+    }
+
+    /** [fit] with its last term as [term], which has a first state of its own, where that is for certain likelier. */
+    private fun begun(base: ModelFit, fit: ModelFit, term: Term): ModelFit {
+        val model = ResponseModel(series, fit.model.terms.dropLast(1) + term, fit.model.steps, scales)
+        val free = freed(model, base, term)
+        val start = model.carried(fit.model, fit.numbers)
+        val found = noises(fit).map { noise ->
+            val rough = Fitting.fit(model, start, free, used, longest, noise = noise)
+            Fitting.fit(model, rough.numbers, free, used, longest, guess = noise)
+        }.maxBy { it.score }
+        return if (found.score > fit.score + OWN_START) found else fit
+    }
 
     /** The forms that [term] may have beside what [base] has: the likeliest is taken. */
     private fun forms(base: ModelFit, term: Term): List<Term> = when {
@@ -114,7 +129,7 @@ internal class CauseSearch(
             listOf(term.copy(isWithin = false), term.copy(isWithin = true))
         term.cause == Cause.SLEW_LIMIT ->
             listOf(term.copy(isWithin = base.model.terms.any { it.key == term.key && it.isWithin }))
-        else -> listOf(term)
+        else -> listOf(term.copy(hasOwnStart = false))
     }
 
     /** [base] with [term], fitted from several starts. */
@@ -242,11 +257,15 @@ internal class CauseSearch(
 
     private fun inflation(base: ModelFit, best: ModelFit): Double {
         val columns = best.jacobian.toList()
-        // What the base and its terms have fitted comes first in each; new terms stand last.
-        val terms = base.free.indices.count { it >= ResponseModel.BASE && base.free[it] }
+        // What the base and its terms have fitted comes first in each; new terms stand last. A first state is no evidence.
+        val terms = (ResponseModel.BASE until base.free.size).count { base.free[it] && it !in base.model.firstStates }
         var seen = 0
         val (old, new) = best.free.indices.filter { best.free[it] }.withIndex().partition { (_, i) ->
-            if (i < ResponseModel.BASE) base.free[i] else seen++ < terms
+            when {
+                i < ResponseModel.BASE -> base.free[i]
+                i in best.model.firstStates -> true
+                else -> seen++ < terms
+            }
         }
         if (new.isEmpty()) return 1.0
         val basis = Evidence.orthonormal(old.map { columns[it.index] })
@@ -300,6 +319,9 @@ internal class CauseSearch(
 
         /** What shows at an end of the range, or in the steepest water, alone. */
         private val ACT_NOW_AND_THEN = setOf(Cause.SATURATION, Cause.SLEW_LIMIT)
+
+        /** Twice a gain in log-likelihood by which a part has a first state of its own: 0.1 % of one number. */
+        const val OWN_START = 10.8
 
         /** What makes two lags of one. */
         private val LAG_PARTS = setOf(Cause.TWO_PATH_RESPONSE, Cause.SECOND_ORDER_RESPONSE)

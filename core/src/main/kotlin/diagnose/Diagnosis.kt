@@ -62,8 +62,7 @@ public class Diagnosis private constructor(
 
     private fun withoutReference(): DiagnosisResult {
         val given = settings.base ?: return LongDelay(series, settings, loops, progress).answer()
-        val isLate = GivenLag.delay(given) > 0
-        if (isLate) return GivenDelay(series, settings, given, loops, progress).answer()
+        if (GivenLag.delay(given) > 0) return GivenDelay(series, settings, given, loops, progress).answer()
         return BlindDiagnosis(series, settings, loops, progress).run()
     }
 
@@ -347,7 +346,7 @@ public class Diagnosis private constructor(
         val likeliest = fits.maxBy { it.score }
         val best = if (likeliest.score > fits[0].score + HELD) likeliest else fits[0]
         if (settings.base == null) return best
-        val free = BooleanArray(best.free.size) { it == ResponseModel.FIRST }
+        val free = BooleanArray(best.free.size) { it in best.model.firstStates }
         val numbers = GivenSensor(settings.base, best.model.scales).numbers(best.model)
         return Fitting.fit(best.model, numbers, free, used, longest)
     }
@@ -355,12 +354,13 @@ public class Diagnosis private constructor(
     private fun base(steps: Steps, scales: Scales): ModelFit {
         val given = settings.base?.let { GivenSensor(it, scales) }
         // A sensor file does not say how noisily another quantity is measured that the sensor shows.
-        val forms = given?.terms.orEmpty().let { terms -> listOf(terms, terms.map(Term::quiet)).distinct() }
+        val known = given?.terms.orEmpty().let { listOf(it, it.map(Term::quiet)) }
+        val forms = (known + known.map { it.map(Term::begun) }).distinct()
         return forms.map { ResponseModel(series, it, steps, scales) }.flatMap { model ->
-            val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE }
+            val free = BooleanArray(model.parameters.size) { it < ResponseModel.BASE || it in model.firstStates }
             val starts = given?.let { listOf(it.numbers(model)) } ?: Starts.ofLags(model)
             starts.map { Fitting.fit(model, it, free, used, longest) }
-        }.maxBy { it.score }
+        }.maxBy { it.score - CauseSearch.OWN_START * it.model.firstStates.size }
     }
 
     private companion object {

@@ -21,6 +21,9 @@ internal object Evidence {
     fun poissonTail(count: Int, expected: Double): Double =
         if (count <= 0) 1.0 else Gamma.regularizedGammaP(count.toDouble(), expected)
 
+    /** The probability that of [all] that go either way as often at most [count] go one way. */
+    fun evenTail(count: Int, all: Int): Double = Beta.regularizedBeta(0.5, (all - count).toDouble(), count + 1.0)
+
     /** Holm's adjusted p-values of [pValues], in the same order, for [tried] tests in all. */
     fun holm(pValues: List<Double>, tried: Int = pValues.size): List<Double> {
         val order = pValues.indices.sortedBy { pValues[it] }

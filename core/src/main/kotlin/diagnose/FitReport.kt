@@ -57,14 +57,23 @@ internal class FitReport(
         val indices = (if (withBase) 0 until ResponseModel.BASE - 1 else listOf(0)) +
             terms.flatMap { term ->
                 val own = fit.model.slotOrNull(term)?.let { (it until it + fit.model.width(term)).toList() }.orEmpty()
+                    .filter { it !in fit.model.firstStates }
                 if (withBase) own else term.cause.baseNumbers.filter { it != ResponseModel.TIME_CONSTANT } + own
             }
         // An end of the range that the sensor does not have is no number.
         return indices.filter { abs(fit.numbers[it]) < ResponseModel.NO_END }.map { i ->
             val parameter = fit.model.parameters[i]
-            Estimate(parameter.name, parameter.unit, fit.numbers[i], interval(fit, i, errors[i], isAnswer))
+            if (isAnswer && isSlowest(fit, i)) bounded += SLOWEST
+            Estimate(parameter.name, parameter.unit, value(fit, i), interval(fit, i, errors[i], isAnswer))
         }
     }
+
+    /** Number [i] of [fit], as the model has it: no path is slower than a log of this length shows. */
+    private fun value(fit: ModelFit, i: Int) =
+        if (isSlowest(fit, i)) fit.model.slowest(fit.numbers[ResponseModel.TIME_CONSTANT]) else fit.numbers[i]
+
+    private fun isSlowest(fit: ModelFit, i: Int) = fit.model.parameters[i].name == "slow_ratio" &&
+        fit.numbers[i] >= fit.model.slowest(fit.numbers[ResponseModel.TIME_CONSTANT])
 
     private fun interval(fit: ModelFit, i: Int, error: Double, isAnswer: Boolean): Interval? {
         val parameter = fit.model.parameters[i]
@@ -163,6 +172,8 @@ internal class FitReport(
 
     private companion object {
         const val NORMAL_95 = 1.96
+        const val SLOWEST = "The slow path is as slow as is looked for in a log of this length, an eighth of it: it may be " +
+            "slower."
 
         /** Twice a log-likelihood ratio by which another way is less likely and still may be. */
         const val AS_LIKELY = 6.0

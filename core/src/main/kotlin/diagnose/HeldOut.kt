@@ -28,7 +28,7 @@ internal object HeldOut {
     ): HeldOutScore {
         val n = used.size
         // Only the first stretch shows what the sensor had seen before the log: it stays as it was found.
-        val free = fit.free.copyOf().also { it[ResponseModel.FIRST] = false }
+        val free = fit.free.copyOf().also { free -> fit.model.firstStates.forEach { free[it] = false } }
         var squareSum = 0.0
         var rows = 0
         var likelihood = 0.0

@@ -60,6 +60,7 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
         for (term in terms) {
             places[term.key] = list.size
             list += of(term, longest, series, scales)
+            if (term.hasOwnStart) list += ownStart(term.cause)
         }
         slots = places
         widths = places.keys.zip(places.values.zip(places.values.drop(1) + list.size) { from, to -> to - from }).toMap()
@@ -103,7 +104,16 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
         }
     }
 
+    /** Of a play it is where in its width it is, else a height of what the part adds until it has settled. */
+    private fun ownStart(cause: Cause) = if (cause == Cause.HYSTERESIS) {
+        Parameter(OWN_START, "", false, -0.5, 0.5, 0.0)
+    } else {
+        Parameter(OWN_START, "sensor units", false, -1e12, 1e12, 0.0)
+    }
+
     private companion object {
+        const val OWN_START = "own_start"
+
         /** The second of two lags, in rows: one that shows may be a fiftieth of a row where the noise is small. */
         const val SHORTEST = 2e-4
     }

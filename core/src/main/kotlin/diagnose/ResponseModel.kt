@@ -51,6 +51,7 @@ internal class ResponseModel(
         shaping[TIME_CONSTANT] = true
         shaping[GAIN] = limit != null || Cause.HYSTERESIS in causes
         for (term in terms) if (term.cause.isTiming) slot(term).let { shaping.fill(true, it, it + width(term)) }
+        for (term in terms) if (term.hasOwnStart) shaping[ownStart(term)] = term.cause == Cause.HYSTERESIS
     }
 
     /** The last two that were asked for, the later first: derivatives by all other numbers share one. */
@@ -73,6 +74,12 @@ internal class ResponseModel(
     fun width(term: Term): Int = layout.widths.getValue(term.key)
 
     private fun slot(cause: Cause) = layout.slots.getValue(cause.label)
+
+    /** Index of the first state of [term], which is its last number. */
+    private fun ownStart(term: Term) = slot(term) + width(term) - 1
+
+    /** Indices of the numbers that say where the sensor was before the log. */
+    val firstStates: List<Int> = listOf(FIRST) + terms.filter { it.hasOwnStart }.map(::ownStart)
 
     /** Numbers for this model: those that [other] has, with the values [from]; the rest as they do nothing. */
     fun carried(other: ResponseModel, from: DoubleArray): DoubleArray {
@@ -145,7 +152,9 @@ internal class ResponseModel(
             second.copyInto(out)
         }
         if (limit != null && !isWithin) lags.slew(out, p[slot(limit)] / abs(p[GAIN]))
-        if (Cause.HYSTERESIS in causes) play(out, p[slot(Cause.HYSTERESIS)] / abs(p[GAIN]))
+        terms.firstOrNull { it.cause == Cause.HYSTERESIS }?.let { term ->
+            play(out, p[slot(term)] / abs(p[GAIN]), if (term.hasOwnStart) p[ownStart(term)] else 0.0)
+        }
     }
 
     /**
@@ -256,12 +265,13 @@ internal class ResponseModel(
     }
 
     /**
-     * A play of [width]. Where the truth goes on between the rows it takes the turning points there, too: a parabola
+     * A play of [width], [start] widths above the middle of it at first. Where the truth goes on between the rows it takes the turning points there, too: a parabola
      * through three rows says how far they are.
      */
-    private fun play(out: DoubleArray, width: Double) {
+    private fun play(out: DoubleArray, width: Double, start: Double) {
         var earlier = out[0]
         var before = out[0]
+        out[0] += start * width
         for (i in 1 until n) {
             val here = out[i]
             var state = out[i - 1]
@@ -308,8 +318,27 @@ internal class ResponseModel(
                 Cause.OFFSET_STEPS -> term.times.forEachIndexed { k, time ->
                     for (i in 0 until n) if (series.times[i] - series.times[0] > time) out[i] += p[at + k]
                 }
-                else -> Unit
+                else -> if (term.hasOwnStart && term.cause != Cause.HYSTERESIS) begun(out, term, p)
             }
+        }
+    }
+
+    /**
+     * Adds what the first state of the lag that [term] has beside the first one still shows: how differently the two fade,
+     * over the difference of their rates, so that it is as well known where these are nearly alike.
+     */
+    private fun begun(out: DoubleArray, term: Term, p: DoubleArray) {
+        val start = p[ownStart(term)]
+        if (start == 0.0) return
+        val tau = p[TIME_CONSTANT]
+        val own = p[slot(term)]
+        val other = if (term.cause == Cause.TWO_PATH_RESPONSE) tau * minOf(own, slowest(tau)) else own
+        val apart = 1 / other - 1 / tau
+        for (i in 0 until n) {
+            val age = series.times[i] - series.times[0]
+            val fade = exp(-age / tau)
+            val share = if (abs(age * apart) < ALIKE) age * fade else (fade - exp(-age / other)) / apart
+            out[i] += start * share / tau
         }
     }
 
@@ -355,6 +384,9 @@ internal class ResponseModel(
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e11
         private const val HARMONICS = 4
+
+        /** Of what two fades differ by, below which the limit of equal ones is as exact. */
+        private const val ALIKE = 1e-6
 
         /** Time constants after which nothing is left of the first state. */
         private const val FADED = 40.0

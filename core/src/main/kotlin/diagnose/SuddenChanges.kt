@@ -23,14 +23,34 @@ internal object SuddenChanges {
      */
     private const val MOST = 0.8
 
+    /** Robust standard deviations that changes go beyond of which nearly all go one way. */
+    private const val FAR_ONE_WAY = 5.0
+
+    /** Of what goes either way as often: the chance of so many one way. */
+    private const val CHANCE = 1e-4
+
     /** What is to be said of [whitened] residuals; null where they are as noise is. */
     fun words(whitened: DoubleArray): String? {
-        val far = FAR * Spikes.spread(whitened)
-        val rows = whitened.indices.filter { abs(whitened[it]) > far }
-        // What comes back at once, or in two steps, is one.
-        val changes = rows.filterIndexed { k, row -> k == 0 || row - rows[k - 1] > 1 }
+        val spread = Spikes.spread(whitened)
+        val rows = whitened.indices.filter { abs(whitened[it]) > FAR * spread }
+        val changes = changes(rows).size
         val share = rows.sumOf { whitened[it] * whitened[it] } / squares(whitened)
-        if (changes.size < FEWEST || !(share > MOST)) return null
-        return "the readings change suddenly ${changes.size} times and come back slowly, as with bubbles"
+        if (changes >= FEWEST && share > MOST) {
+            return "the readings change suddenly $changes times and come back slowly, as with bubbles"
+        }
+        return oneWay(changes(whitened.indices.filter { abs(whitened[it]) > FAR_ONE_WAY * spread }), whitened)
+    }
+
+    /** The first of [rows] that follow each other: what comes back at once, or in two steps, is one change. */
+    private fun changes(rows: List<Int>) = rows.filterIndexed { k, row -> k == 0 || row - rows[k - 1] > 1 }
+
+    /** Of [changes] nearly all of which go one way: steep water, wild readings and tails of noise go either way. */
+    private fun oneWay(changes: List<Int>, whitened: DoubleArray): String? {
+        val upward = changes.count { whitened[it] > 0 }
+        val back = minOf(upward, changes.size - upward)
+        if (changes.isEmpty() || 2 * Evidence.evenTail(back, changes.size) > CHANCE) return null
+        val way = if (upward > back) "upward" else "downward"
+        val most = if (back == 0) "" else ", all but $back of them"
+        return "the readings change suddenly ${changes.size} times$most $way, and come back slowly, as with bubbles"
     }
 }

@@ -7,6 +7,8 @@ package stillwater.diagnose
  * @property times when it acts, s after the first row, for jumps. @property isEitherWay whether a dead time may be below
  * 0, because the reference is late. @property isQuiet whether the condition is taken without most of its own noise.
  * @property isWithin whether it is the lag's own rate that is limited, not that of what the lag shows.
+ * @property hasOwnStart whether what it adds to the lag has a first state of its own: of a sensor that had been in water
+ * that moved each part is somewhere else.
  */
 internal data class Term(
     val cause: Cause,
@@ -15,12 +17,20 @@ internal data class Term(
     val isEitherWay: Boolean = false,
     val isQuiet: Boolean = false,
     val isWithin: Boolean = false,
+    val hasOwnStart: Boolean = false,
 ) {
     /** What tells terms of one cause apart: jumps of another time, or another form of it, are the same term. */
     val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
 
     /** The same with a quantity of its own, where it has one, without most of that one's noise. */
     fun quiet(): Term = if (cause == Cause.CROSS_SENSITIVITY) copy(isQuiet = true) else this
+
+    /** The same with a first state of its own, where it has a state beside the lag's. */
+    fun begun(): Term = if (cause in WITH_STATE) copy(hasOwnStart = true) else this
+
+    private companion object {
+        val WITH_STATE = setOf(Cause.TWO_PATH_RESPONSE, Cause.SECOND_ORDER_RESPONSE, Cause.HYSTERESIS)
+    }
 }
 
 /**

@@ -120,9 +120,16 @@ internal class Weighing(
         )
     }
 
-    /** Whether [term] is two paths that may as well be one: how much slower the second is has an interval that holds 1. */
-    private fun mayBeEqual(term: Term): Boolean = term.cause == Cause.TWO_PATH_RESPONSE &&
-        report.estimates(last, listOf(term)).any { it.name == "slow_ratio" && (it.interval?.lower ?: 2.0) <= 1 }
+    /**
+     * Whether [term] is two paths that may as well be one: how much slower the second is has an interval that holds 1, or it
+     * is hardly slower and may be all there is.
+     */
+    private fun mayBeEqual(term: Term): Boolean {
+        if (term.cause != Cause.TWO_PATH_RESPONSE) return false
+        val own = report.estimates(last, listOf(term)).associate { it.name to it.interval }
+        val ratio = own["slow_ratio"] ?: return false
+        return ratio.lower <= 1 || (ratio.upper < HARDLY_SLOWER && (own["slow_share"]?.upper ?: 0.0) >= 1)
+    }
 
     /** Whether rounding makes a quarter of the noise: it need not show in what the model foretells of single readings. */
     private val isRounded: Boolean get() = scales.resolution * scales.resolution / 12 > ROUNDED * last.variance
@@ -306,6 +313,9 @@ internal class Weighing(
 
     private companion object {
         const val FEWEST_ROWS = 60
+
+        /** Times the first path's time constant. */
+        const val HARDLY_SLOWER = 1.5
 
         /** Of two paths that may be one. */
         const val EQUAL =

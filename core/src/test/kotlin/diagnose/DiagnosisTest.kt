@@ -31,6 +31,17 @@ class DiagnosisTest {
         assertEquals(6.0, result.baseline.parameters.first().value, 0.12)
     }
 
+    /** A path whose time constant is more than an eighth of the log: its ratio is that of the seconds beside it. */
+    @Test
+    fun aPathSlowerThanALogShowsIsSaidToBe() {
+        val result = Diagnosis(log(SensorStage.TwoPath(5.0, 110.0, 0.05))).run()
+        // What it does beyond that looks like a drift.
+        val path = assertNotNull(result.effects.firstOrNull { it.cause == Cause.TWO_PATH_RESPONSE }, "${result.verdict}")
+        val numbers = path.parameters.associate { it.name to it.value }
+        assertEquals((n - 1) / 8.0, numbers.getValue("slow_ratio") * numbers.getValue("time_constant_s"), 0.01)
+        assertTrue(result.warnings.any { "as slow as is looked for" in it }, "${result.warnings}")
+    }
+
     @Test
     fun aFewRowsAreTooFew() {
         for (rows in 5..12) {

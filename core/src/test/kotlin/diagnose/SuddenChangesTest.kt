@@ -30,6 +30,19 @@ class SuddenChangesTest {
         assertContains(checkNotNull(SuddenChanges.words(left)), "change suddenly 5 times")
     }
 
+    /** Dips of some deviations, too small to be most of what is left. */
+    @Test
+    fun changesThatNearlyAllGoOneWayAreNoNoise() {
+        fun left(upward: Int): DoubleArray {
+            val left = DoubleArray(2000) { random.nextGaussian() }
+            for (k in 0 until 24) left[50 + 80 * k] = if (k < upward) 9.0 else -9.0
+            return left
+        }
+        assertContains(checkNotNull(SuddenChanges.words(left(0))), "change suddenly 24 times downward, and come back")
+        assertContains(checkNotNull(SuddenChanges.words(left(22))), "24 times, all but 2 of them upward, and come back")
+        assertNull(SuddenChanges.words(left(8)), "seed $SEED")
+    }
+
     @Test
     fun whatComesBackInARowIsOneChange() {
         val left = DoubleArray(2000) { random.nextGaussian() }

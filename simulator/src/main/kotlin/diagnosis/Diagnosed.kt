@@ -159,10 +159,10 @@ class Diagnosed(
         if (abs(estimate.value) >= NO_END) return "none"
         val three = SignificantDigits(3)
         val reach = estimate.interval?.let {
-            if (it.upper == Estimate.OPEN) {
-                " [above ${three.format(it.lower)}]"
-            } else {
-                " [${three.format(it.lower)}, ${three.format(it.upper)}]"
+            when {
+                it.upper == Estimate.OPEN -> " [above ${three.format(it.lower)}]"
+                it.lower > 0 && it.upper / it.lower > HARDLY -> " [hardly known]"
+                else -> " [${three.format(it.lower)}, ${three.format(it.upper)}]"
             }
         }.orEmpty()
         val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
@@ -213,7 +213,8 @@ class Diagnosed(
             "extended: the base's own lag$besideBase"
         } else {
             val gain = after.heldOutLogLikelihood - base.heldOutLogLikelihood
-            "extended: held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
+            val tau = after.parameters.firstOrNull { it.name == "time_constant_s" }
+            "extended: ${tau?.let { "lag of ${number(it)}; " }.orEmpty()}held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
                 "${three.format(abs(gain))} ${if (gain < 0) "lower" else "higher"}"
         }
 
@@ -223,6 +224,9 @@ class Diagnosed(
 
         /** The end of a range that was not found stands beyond this. */
         const val NO_END = 1e11
+
+        /** The upper end of an interval over the lower one from which numbers say nothing. */
+        const val HARDLY = 1e6
 
         /** The kinds of a lag. */
         val LAG = setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)
