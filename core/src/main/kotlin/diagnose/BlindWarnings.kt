@@ -36,10 +36,11 @@ internal class BlindWarnings(
         if (lag.isSeen) {
             val known = lag.both.model.terms.map { it.key }
             val isAlone = last.model.terms.all { it.key in known }
+            val by = if (isAlone) "by " else ""
+            val tau = three(lag.timeConstant.timeConstant)
             add(
-                (if (isAlone) "The readings lag the water by " else "Without what was found the lag would be ") +
-                    "${three(lag.timeConstant.timeConstant)} s as a first-order lag, or " + (if (isAlone) "by " else "") +
-                    "${three(lag.delay)} s as a dead time" +
+                (if (isAlone) "The readings lag the water " else "Without what was found the lag would be ") +
+                    "$by$tau s as a first-order lag, or $by${three(lag.delay)} s as a dead time" +
                     when {
                         lag.isDeadTime -> ", which explains more."
                         lag.isOpen(settings.separation) || lag.preference <= 0 -> "."

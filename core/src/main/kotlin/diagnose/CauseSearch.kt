@@ -117,7 +117,17 @@ internal class CauseSearch(
             val rough = Fitting.fit(model, start, free, used, longest, noise = noise)
             Fitting.fit(model, rough.numbers, free, used, longest, guess = noise)
         }.maxBy { it.score }
-        return if (found.score > fit.score + OWN_START) found else fit
+        return if (found.score > fit.score + OWN_START && !isOffset(found, term)) found else fit
+    }
+
+    /** Whether of [term] in [fit] the first state alone is for certain: an offset that settles is no slow path. */
+    private fun isOffset(fit: ModelFit, term: Term): Boolean {
+        if (term.cause != Cause.TWO_PATH_RESPONSE) return false
+        val share = fit.model.slot(term) + 1
+        val numbers = fit.numbers.copyOf().also { it[share] = 0.0 }
+        val free = fit.free.copyOf().also { it[share] = false }
+        val without = Fitting.fit(fit.model, numbers, free, used, longest, guess = fit.noise)
+        return fit.score < without.score + OWN_START
     }
 
     /** The forms that [term] may have beside what [base] has: the likeliest is taken. */

@@ -172,8 +172,8 @@ internal class FitReport(
 
     private companion object {
         const val NORMAL_95 = 1.96
-        const val SLOWEST = "The slow path is as slow as is looked for in a log of this length, an eighth of it: it may be " +
-            "slower."
+        const val SLOWEST =
+            "The slow path is as slow as is looked for in a log of this length, an eighth of it: it may be slower."
 
         /** Twice a log-likelihood ratio by which another way is less likely and still may be. */
         const val AS_LIKELY = 6.0

@@ -245,7 +245,7 @@ internal class Weighing(
     private fun unlisted(loose: LooseReadings): Verdict? {
         val isTwoPath = chosen.any { it.term.cause == Cause.TWO_PATH_RESPONSE }
         faults.words(explained, isTwoPath)?.let { return Verdict.Unexplained(it) }
-        Settling(last, chosen).words()?.let { return Verdict.Unexplained(it) }
+        SlowRivals(last, chosen).words()?.let { return Verdict.Unexplained(it) }
         val lasting = loose.lasting.size
         return when {
             lasting >= FEWEST_CHANGES && loose.lastingPValue * tried < settings.level && chosen.isEmpty() ->

@@ -36,8 +36,8 @@ class DiagnosisTest {
     fun aPathSlowerThanALogShowsIsSaidToBe() {
         val result = Diagnosis(log(SensorStage.TwoPath(5.0, 110.0, 0.05))).run()
         // What it does beyond that looks like a drift.
-        val path = assertNotNull(result.effects.firstOrNull { it.cause == Cause.TWO_PATH_RESPONSE }, "${result.verdict}")
-        val numbers = path.parameters.associate { it.name to it.value }
+        val path = result.effects.firstOrNull { it.cause == Cause.TWO_PATH_RESPONSE }
+        val numbers = assertNotNull(path, "${result.verdict}").parameters.associate { it.name to it.value }
         assertEquals((n - 1) / 8.0, numbers.getValue("slow_ratio") * numbers.getValue("time_constant_s"), 0.01)
         assertTrue(result.warnings.any { "as slow as is looked for" in it }, "${result.warnings}")
     }

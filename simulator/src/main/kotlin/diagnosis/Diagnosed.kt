@@ -214,7 +214,8 @@ class Diagnosed(
         } else {
             val gain = after.heldOutLogLikelihood - base.heldOutLogLikelihood
             val tau = after.parameters.firstOrNull { it.name == "time_constant_s" }
-            "extended: ${tau?.let { "lag of ${number(it)}; " }.orEmpty()}held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
+            val lag = if (tau == null) "" else "lag of ${number(tau)}; "
+            "extended: ${lag}held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
                 "${three.format(abs(gain))} ${if (gain < 0) "lower" else "higher"}"
         }
 
