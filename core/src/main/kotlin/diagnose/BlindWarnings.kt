@@ -12,6 +12,9 @@ internal class BlindWarnings(
     private val outliers: BlindOutliers,
     private val given: GivenLag?,
 ) {
+    /** Whether the last model is of a lag of either kind, or both, and of nothing else. */
+    private val isAlone = last.model.terms.all { it.cause == Cause.DEAD_TIME }
+
     /** In words; [left] is the strongest of what is left, [isNamed] whether something was named, [rounding] what is coarse. */
     fun of(left: Dependence, isNamed: Boolean, rounding: CoarseRounding?): List<String> = buildList {
         if (given?.isPartial == true) {
@@ -34,8 +37,6 @@ internal class BlindWarnings(
                 "held-out blocks are those of a forecast from other passes and the rows before.",
         )
         if (lag.isSeen) {
-            val known = lag.both.model.terms.map { it.key }
-            val isAlone = last.model.terms.all { it.key in known }
             val by = if (isAlone) "by " else ""
             val tau = three(lag.timeConstant.timeConstant)
             add(
