@@ -167,10 +167,10 @@ internal class BlindAnswer(
     /** The kinds of lag where it may be either: a lag is there whatever else is. */
     private fun openLag(isOpen: Boolean): List<Cause>? = lagSet(isOpen)?.takeIf { it.size > 1 }
 
-    /** The longest time constant that the log allows, s. */
+    /** The longest time constant that the log allows, s: the upper end of the interval that the answer shows. */
     private fun longest(): Double =
         base.timeConstant *
-            exp(minOf(NORMAL_95 * BlindErrors.of(search, base)[ResponseModel.TIME_CONSTANT], MOST_REACH))
+            exp(minOf(BlindErrors.REACH * assessed(base).errors[ResponseModel.TIME_CONSTANT], MOST_REACH))
 
     /** That a lag is no longer than [most], s, in words; nothing where that is as long as the log allows. */
     private fun atMost(most: Double) =
@@ -353,7 +353,6 @@ internal class BlindAnswer(
         /** Causes that halves of a log do not contradict: what happens once, and steps that all readings are on. */
         private val NOT_HALVED = BlindDiagnosis.SLOW + Cause.QUANTISATION
         private const val MOST_STEPS = 3
-        private const val NORMAL_95 = 1.96
 
         private const val MOST_REACH = 50.0
         private const val MOST_FACTOR = 1e9

@@ -3,6 +3,7 @@ package stillwater.correct
 import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.testing.CliktCommandTestResult
 import com.github.ajalt.clikt.testing.test
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import stillwater.cli.CorrectCommand
@@ -240,6 +241,7 @@ class CorrectHonestyTest {
     }
 
     @Test
+    @Tag("long")
     fun aLagBeforeARateLimitIsLearnedAndInTheIntervals() {
         val stages = listOf(SensorStage.Lag(4.0), SensorStage.Slew(0.08))
         val truths = ArrayList<Double>()

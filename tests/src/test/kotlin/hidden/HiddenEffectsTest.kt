@@ -21,13 +21,13 @@ class HiddenEffectsTest {
 
     @Test
     fun theFinderNamesWhatIsHiddenAndSeldomWhatIsNot() {
-        val cases = HiddenCampaign.run(70_000L..70_019L, Regime.REFERENCE, directory)
+        val cases = HiddenCampaign.run(70_000L..70_013L, Regime.REFERENCE, directory)
         val scores = Scores(cases)
-        // One alarm in ten is the most that a rate of 5 % makes likely (one in nine such sets has two).
+        // At a rate of 5 % two alarms come in one of some thirty such sets.
         assertTrue(cases.count { it.isEmpty && it.alarmed } <= 1, scores.markdown())
-        // The campaign names nine in ten; of the few strong effects here two may be missed.
+        // The campaign names nineteen in twenty; of the few strong effects here one may be missed.
         val missed = cases.filter { it.isSingle && it.multiple >= 1 && !it.correct }
-        assertTrue(missed.size <= 2, scores.markdown())
+        assertTrue(missed.size <= 1, scores.markdown())
     }
 
     /** Seeds of the work on it, not of a campaign's report: an end of the range and a rate limit that show once in a log. */
@@ -202,6 +202,7 @@ class HiddenEffectsTest {
 
     /** A seed of the work on it: a response that rings by 3.0x, which was told as a lag of either kind. */
     @Test
+    @Tag("long")
     fun aRingIsToldWhereTheLagMayBeOfEitherKind() {
         val case = blind(270_291).single()
         assertEquals(setOf(HiddenEffect.RESONANCE), case.truth.effects.keys)
