@@ -265,8 +265,8 @@ internal class ResponseModel(
     }
 
     /**
-     * A play of [width], [start] widths above the middle of it at first. Where the truth goes on between the rows it takes the turning points there, too: a parabola
-     * through three rows says how far they are.
+     * A play of [width], [start] widths above the middle of it at first. Where the truth goes on between the rows it takes the
+     * turning points there, too: a parabola through three rows says how far they are.
      */
     private fun play(out: DoubleArray, width: Double, start: Double) {
         var earlier = out[0]
