@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.Tag
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -143,6 +144,7 @@ class DiagnosisTest {
     }
 
     @Test
+    @Tag("long")
     fun aReferenceTooSparseForTheWaterNamesNothing() {
         assertEquals(Verdict.Consistent, Diagnosis(sparse(1)).run().verdict)
         assertIs<Verdict.InsufficientData>(Diagnosis(sparse(7)).run().verdict)

@@ -39,6 +39,7 @@ class GivenLagTest {
     }
 
     @Test
+    @Tag("long")
     fun aWrongTimeConstantBesideItIsNamedAndTheDeadTimeStays() {
         val result = diagnosed(SensorStage.Delay(3.0), SensorStage.Lag(9.0))
         val named = when (val verdict = result.verdict) {

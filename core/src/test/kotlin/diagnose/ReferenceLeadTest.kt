@@ -71,6 +71,7 @@ class ReferenceLeadTest {
     }
 
     @Test
+    @Tag("long")
     fun aReferenceThatIsLateByMoreThanARowMayBeStampedOffIsUnexplained() {
         val result = diagnosed(noisy(shown(8.0)), DoubleArray(n) { water(it - 0.8) })
         val reason = assertIs<Verdict.Unexplained>(result.verdict, "${result.verdict}").what

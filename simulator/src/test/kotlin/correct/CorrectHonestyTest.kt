@@ -257,6 +257,7 @@ class CorrectHonestyTest {
 
     /** A dead time between 2 and 12 s, and no crossing that would show it. */
     @Test
+    @Tag("long")
     fun aDelayThatChangesAlongTheTrackIsWarnedOf() {
         val inputs = ArrayList<Double>()
         val late = SensorModel { truth, _, _ ->

@@ -1,5 +1,6 @@
 package stillwater.reproduction
 
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.TestInstance
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.estimate.SelfCalibratingSettings
@@ -131,6 +132,7 @@ class SensorChoiceTest {
     fun readsAnAsymmetricSensor() = assertBar(asymmetric, bar = 0.006, SensorKind.ASYMMETRIC)
 
     @Test
+    @Tag("long")
     fun readsASensorWithADeadTime() = assertBar(deadTime, bar = 0.006, SensorKind.DEAD_TIME)
 
     @Test
