@@ -84,7 +84,7 @@ internal class BlindLooks(
         }
         // Neither kind of lag does what a ring does.
         add(ringing())
-        if (median(series.speed) > SLOWEST) heading()
+        if (series.isMoving) heading()
     }
 
     private fun MutableList<BlindLook>.heading() {
@@ -170,8 +170,6 @@ internal class BlindLooks(
     private fun standard(column: DoubleArray) = Standard(column).of(column)
 
     private companion object {
-        const val SLOWEST = 0.02
-
         /** Periods that a response may ring with; the shortest in rows, the longest in time constants. */
         const val PERIODS = 14
         const val SHORTEST = 4.0

@@ -113,10 +113,7 @@ internal class CauseSearch(
         val model = ResponseModel(series, fit.model.terms.dropLast(1) + term, fit.model.steps, scales)
         val free = freed(model, base, term)
         val start = model.carried(fit.model, fit.numbers)
-        val found = noises(fit).map { noise ->
-            val rough = Fitting.fit(model, start, free, used, longest, noise = noise)
-            Fitting.fit(model, rough.numbers, free, used, longest, guess = noise)
-        }.maxBy { it.score }
+        val found = likeliest(model, listOf(start), free, noises(fit))
         return if (found.score > fit.score + OWN_START && !isOffset(found, term)) found else fit
     }
 
@@ -150,13 +147,19 @@ internal class CauseSearch(
         val starts = starts(base, model, term)
         // What a strong effect leaves of the base looks like noise that wanders. Under that only what goes from row to row
         // counts, of which in a condition most may be its own noise: the number comes out small, and what it misses wanders.
-        return inOrder(
-            noises(base).flatMap { noise ->
-                val rough = starts.map { Fitting.fit(model, it, free, used, longest, noise = noise) }.maxBy(::plainest)
-                listOf(rough, Fitting.fit(model, rough.numbers, free, used, longest, guess = noise))
-            }.maxBy(::plainest),
-        )
+        return inOrder(likeliest(model, starts, free, noises(base)))
     }
+
+    /** The likeliest fit of [model] from [starts], under each of [noises] and under what suits it from there. */
+    private fun likeliest(
+        model: ResponseModel,
+        starts: List<DoubleArray>,
+        free: BooleanArray,
+        noises: List<CorrelatedNoise>,
+    ): ModelFit = noises.flatMap { noise ->
+        val rough = starts.map { Fitting.fit(model, it, free, used, longest, noise = noise) }.maxBy(::plainest)
+        listOf(rough, Fitting.fit(model, rough.numbers, free, used, longest, guess = noise))
+    }.maxBy(::plainest)
 
     /** Twice the log-likelihood of [fit] less what each end of a range is to explain for certain. */
     private fun plainest(fit: ModelFit): Double = fit.score - SmallShifts.CERTAIN * RangeEnd.count(fit)

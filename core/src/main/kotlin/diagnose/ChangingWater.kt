@@ -126,7 +126,7 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
 
     private fun degrees() = beside?.let { it.pieces.coerceIn(1, KNOWN) } ?: (GROUPS - 1)
 
-    private fun isMoving() = series.size >= FEWEST && median(series.speed) >= SLOWEST
+    private fun isMoving() = series.size >= FEWEST && series.isMoving
 
     /** How much later a place must be passed again, s. */
     private fun apart() = maxOf(LEAST_APART * series.duration, LEAST_ROWS * series.period)
@@ -186,7 +186,6 @@ internal class ChangingWater(private val series: MeasuredSeries, private val tru
 
         /** Degrees of freedom at most where errors are reckoned, not seen: jitter and slope are not wholly known. */
         const val KNOWN = 30
-        const val SLOWEST = 0.02
         const val LEAST_APART = 0.02
         const val LEAST_ROWS = 30
 

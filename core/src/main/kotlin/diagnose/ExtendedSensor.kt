@@ -63,7 +63,7 @@ internal class ExtendedSensor(
         val flow = value(Cause.FLOW_DEPENDENT_RESPONSE)
         val warmth = value(Cause.TEMPERATURE_DEPENDENT_RESPONSE)
         // The model takes no path that is slower than a part of the log.
-        val ratio = value(Cause.TWO_PATH_RESPONSE)?.let { minOf(it, model.slowest(tau)) }
+        val ratio = value(Cause.TWO_PATH_RESPONSE)?.let { model.slowRatio(numbers) }
         val share = value(Cause.TWO_PATH_RESPONSE, 1) ?: 0.0
         return when {
             listOfNotNull(asymmetry, flow, warmth, ratio).size > 1 -> SensorStage.Combined(

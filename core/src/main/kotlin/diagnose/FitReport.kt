@@ -63,17 +63,15 @@ internal class FitReport(
         // An end of the range that the sensor does not have is no number.
         return indices.filter { abs(fit.numbers[it]) < ResponseModel.NO_END }.map { i ->
             val parameter = fit.model.parameters[i]
-            if (isAnswer && isSlowest(fit, i)) bounded += SLOWEST
-            Estimate(parameter.name, parameter.unit, value(fit, i), interval(fit, i, errors[i], isAnswer))
+            val value = value(fit, i)
+            if (isAnswer && value < fit.numbers[i]) bounded += SLOWEST
+            Estimate(parameter.name, parameter.unit, value, interval(fit, i, errors[i], isAnswer))
         }
     }
 
     /** Number [i] of [fit], as the model has it: no path is slower than a log of this length shows. */
     private fun value(fit: ModelFit, i: Int) =
-        if (isSlowest(fit, i)) fit.model.slowest(fit.numbers[ResponseModel.TIME_CONSTANT]) else fit.numbers[i]
-
-    private fun isSlowest(fit: ModelFit, i: Int) = fit.model.parameters[i].name == "slow_ratio" &&
-        fit.numbers[i] >= fit.model.slowest(fit.numbers[ResponseModel.TIME_CONSTANT])
+        if (fit.model.parameters[i].name == "slow_ratio") fit.model.slowRatio(fit.numbers) else fit.numbers[i]
 
     private fun interval(fit: ModelFit, i: Int, error: Double, isAnswer: Boolean): Interval? {
         val parameter = fit.model.parameters[i]

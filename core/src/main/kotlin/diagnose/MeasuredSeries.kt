@@ -112,6 +112,9 @@ public class MeasuredSeries private constructor(
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
     public val speed: DoubleArray = like?.speed ?: filled(Conditions.SPEED) ?: fromPositions()
 
+    /** Whether the boat moves, so that there is a way to speak of. */
+    internal val isMoving: Boolean get() = median(speed) > SLOWEST
+
     /** Temperature of each row, °C, or null where there is no such condition. */
     internal val temperature: DoubleArray? =
         if (like != null) like.temperature else filled(Conditions.TEMPERATURE)
@@ -280,6 +283,9 @@ public class MeasuredSeries private constructor(
         private const val GAP_SECONDS = 60.0
         private const val SPEED_SECONDS = 2.5
         private const val HEADING_ROWS = 2
+
+        /** Of a boat that moves, m/s. */
+        private const val SLOWEST = 0.02
     }
 }
 

@@ -139,7 +139,7 @@ internal class ResponseModel(
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
         if (Cause.TWO_PATH_RESPONSE in causes) {
             val at = slot(Cause.TWO_PATH_RESPONSE)
-            lag(work, second, minOf(p[at], slowest(p[TIME_CONSTANT])), 0.0)
+            lag(work, second, slowRatio(p), 0.0)
             lag(work, out, 1.0, asymmetry)
             for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
         } else {
@@ -171,7 +171,7 @@ internal class ResponseModel(
         val path = lagged(1.0)
         val slow = if (Cause.TWO_PATH_RESPONSE in causes) {
             val at = slot(Cause.TWO_PATH_RESPONSE)
-            lagged(minOf(p[at], slowest(p[TIME_CONSTANT]))) to p[at + 1]
+            lagged(slowRatio(p)) to p[at + 1]
         } else {
             null
         }
@@ -194,8 +194,9 @@ internal class ResponseModel(
         }
     }
 
-    /** The most by which a slow path's time constant is longer than [timeConstant], s: slower than that is a drift. */
-    fun slowest(timeConstant: Double): Double = maxOf(2.0, series.duration / SLOWEST / timeConstant)
+    /** By how much the slow path's time constant is longer than the first one for [p]: slower than that is a drift. */
+    fun slowRatio(p: DoubleArray): Double =
+        minOf(p[slot(Cause.TWO_PATH_RESPONSE)], maxOf(2.0, series.duration / SLOWEST / p[TIME_CONSTANT]))
 
     /** The truth at each row, as late as the model says, into [work]. */
     private fun delay(p: DoubleArray) {
@@ -331,13 +332,12 @@ internal class ResponseModel(
         val start = p[ownStart(term)]
         if (start == 0.0) return
         val tau = p[TIME_CONSTANT]
-        val own = p[slot(term)]
-        val other = if (term.cause == Cause.TWO_PATH_RESPONSE) tau * minOf(own, slowest(tau)) else own
+        val other = if (term.cause == Cause.TWO_PATH_RESPONSE) tau * slowRatio(p) else p[slot(term)]
         val apart = 1 / other - 1 / tau
+        val fades = fades(tau)
         for (i in 0 until n) {
             val age = series.times[i] - series.times[0]
-            val fade = exp(-age / tau)
-            val share = if (abs(age * apart) < ALIKE) age * fade else (fade - exp(-age / other)) / apart
+            val share = if (abs(age * apart) < ALIKE) age * fades[i] else (fades[i] - exp(-age / other)) / apart
             out[i] += start * share / tau
         }
     }

@@ -65,7 +65,7 @@ internal class SlowRivals(private val last: ModelFit, chosen: List<Trial>) {
 
     /** An offset that goes with the heading; one jump may well have come at a turn. */
     private fun turned(): Rival? {
-        if (median(series.speed) < SLOWEST || slow.sumOf { width(it) } < 2) return null
+        if (!series.isMoving || slow.sumOf { width(it) } < 2) return null
         val heading = series.heading
         val east = DoubleArray(series.size) { cos(heading[it]) }
         val north = DoubleArray(series.size) { sin(heading[it]) }
@@ -94,8 +94,5 @@ internal class SlowRivals(private val last: ModelFit, chosen: List<Trial>) {
         /** Twice the logarithm of odds of 10:1. */
         const val CLEARLY = 4.6
         const val LEAST = 1e-9
-
-        /** Of a boat that moves, m/s. */
-        const val SLOWEST = 0.02
     }
 }

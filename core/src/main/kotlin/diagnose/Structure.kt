@@ -80,7 +80,7 @@ internal class Structure(private val fit: ModelFit) {
         val age = standard(DoubleArray(n) { series.times[it] })
         add("the rate of change, more at some times than at others" to moved(slope, age))
         add("the value, more at some times than at others" to listOf(times(value, age), times(value, power(age, 2))))
-        if (moves()) track(value, slope)
+        if (series.isMoving) track(value, slope)
         for ((name, column) in scales.centred) {
             if (name == Conditions.HEADING) continue
             val condition = standard(column)
@@ -125,8 +125,6 @@ internal class Structure(private val fit: ModelFit) {
             state
         }
     }
-
-    private fun moves(): Boolean = median(series.speed) > 0.02
 
     /** The truth earlier by several shares of the response's time: any linear response is near a sum of these. */
     private fun response(): List<DoubleArray> {

@@ -176,7 +176,7 @@ internal class Weighing(
         add(Term(Cause.DEAD_TIME))
         add(Term(Cause.SLEW_LIMIT))
         val spread = sqrt(scales.logSpeed.map { it * it }.average())
-        val moving = median(series.speed) > SLOWEST
+        val moving = series.isMoving
         if (moving && spread > LEAST_SPREAD) add(Term(Cause.FLOW_DEPENDENT_RESPONSE))
         if (scales.warmth.any { abs(it) > LEAST_WARMTH }) add(Term(Cause.TEMPERATURE_DEPENDENT_RESPONSE))
         for ((name, column) in scales.centred) {
@@ -329,7 +329,6 @@ internal class Weighing(
         const val FEWEST_CHANGES = 5
         const val NORMAL_95 = 1.96
         const val LEFT = 0.25
-        const val SLOWEST = 0.02
         const val LEAST_SPREAD = 0.03
         const val LEAST_WARMTH = 0.05
         const val COARSE = 0.3

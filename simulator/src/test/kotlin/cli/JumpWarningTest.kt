@@ -3,6 +3,7 @@ package stillwater.cli
 import com.github.ajalt.clikt.core.subcommands
 import com.github.ajalt.clikt.testing.CliktCommandTestResult
 import com.github.ajalt.clikt.testing.test
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.io.TempDir
 import java.nio.file.Path
 import java.util.Locale
@@ -35,40 +36,53 @@ class JumpWarningTest {
         }
     }
 
+    /** Three rows 300 m off, and later one at 0, 0: each there and back. */
+    private val leaps = legs { i -> "400,50".takeIf { i in 100..102 } ?: "0,0".takeIf { i == 150 } }
+
+    private fun assertLeapsTold(command: String, vararg more: String) {
+        val told = run(command, leaps, *more)
+        assertEquals(0, told.statusCode, told.output)
+        // Row 100 is line 102.
+        val words = "4 jumps in the positions are faster than 20 m/s, the first at line 102: check the receiver's"
+        assertContains(told.stderr, "$words fixes")
+        val calm = run(command, legs(), *more)
+        assertFalse("in the positions" in calm.stderr, calm.stderr)
+    }
+
     @Test
     fun aFixThatLeapsIsTold() {
-        // Three rows 300 m off, and later one at 0, 0: each there and back.
-        val log = legs { i -> "400,50".takeIf { i in 100..102 } ?: "0,0".takeIf { i == 150 } }
-        for ((command, more) in mapOf("map" to emptyList(), "correct" to emptyList(), "diagnose" to NO_FIGURES)) {
-            val told = run(command, log, *more.toTypedArray())
-            assertEquals(0, told.statusCode, told.output)
-            // Row 100 is line 102.
-            val words = "4 jumps in the positions are faster than 20 m/s, the first at line 102: check the receiver's"
-            assertContains(told.stderr, "$words fixes")
+        assertLeapsTold("map")
+        assertLeapsTold("correct")
+        assertTrue(Regex(""""position_jumps": ?4\b""") in run("map", leaps, "--json").stdout)
+    }
+
+    /** A reading each second of such a log, as a Platypus boat writes it. */
+    private val platypus = buildString {
+        for (i in 1..240) {
+            val along = (i % 80).let { if (it < 40) it else 80 - it } + if (i in 120..122) 300 else 0
+            val pose = "[${500_000 + along}.0,${5_000_000 + i / 40 * 2}.0,0.0]"
+            appendLine("${1000 * i}\tI\t{\"pose\":{\"p\":$pose,\"q\":[1,0,0,0],\"zone\":\"18North\"}}")
+            val value = String.format(Locale.ROOT, "%.2f", 8 + sin(along / 6.0))
+            appendLine("${1000 * i}\tI\t{\"sensor\":{\"channel\":1,\"type\":\"ATLAS_DO\",\"data\":[$value]}}")
         }
-        assertFalse("in the positions" in run("map", legs()).stderr)
-        assertTrue(Regex(""""position_jumps": ?4\b""") in run("map", log, "--json").stdout)
+    }
+
+    private fun assertPlatypusLeapsTold(command: String, vararg more: String) {
+        val told = run(command, platypus, *more)
+        assertEquals(0, told.statusCode, told.output)
+        assertContains(told.stderr, "2 jumps in the positions are faster than 20 m/s, the first at line 240")
     }
 
     @Test
     fun theLineOfAPlatypusLogIsThatOfTheReading() {
-        val log = buildString {
-            for (i in 1..240) {
-                val along = (i % 80).let { if (it < 40) it else 80 - it } + if (i in 120..122) 300 else 0
-                val pose = "[${500_000 + along}.0,${5_000_000 + i / 40 * 2}.0,0.0]"
-                appendLine("${1000 * i}\tI\t{\"pose\":{\"p\":$pose,\"q\":[1,0,0,0],\"zone\":\"18North\"}}")
-                val value = String.format(Locale.ROOT, "%.2f", 8 + sin(along / 6.0))
-                appendLine("${1000 * i}\tI\t{\"sensor\":{\"channel\":1,\"type\":\"ATLAS_DO\",\"data\":[$value]}}")
-            }
-        }
-        for (command in listOf("map", "correct")) {
-            val told = run(command, log)
-            assertEquals(0, told.statusCode, told.output)
-            assertContains(told.stderr, "2 jumps in the positions are faster than 20 m/s, the first at line 240")
-        }
+        assertPlatypusLeapsTold("map")
+        assertPlatypusLeapsTold("correct")
     }
 
-    private companion object {
-        val NO_FIGURES = listOf("--numbers-only")
+    @Test
+    @Tag("long")
+    fun diagnoseTellsThemAlike() {
+        assertLeapsTold("diagnose", "--numbers-only")
+        assertPlatypusLeapsTold("diagnose", "--numbers-only")
     }
 }
