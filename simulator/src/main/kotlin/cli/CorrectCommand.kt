@@ -153,7 +153,9 @@ class CorrectCommand : WorkCommand("correct") {
 
     private fun open(file: Path, choice: LogChoice): SurveyLog {
         val wanted = conditions.toMap() + reference?.let { mapOf(CorrectedLog.REFERENCE to it) }.orEmpty()
-        val opened = SurveyLog.open(file, choice.copy(conditions = wanted))
+        // A sensor that is given or shown by a reference is undone in time: passes alone need places.
+        val needsPlace = sensor == null && reference == null
+        val opened = SurveyLog.open(file, choice.copy(conditions = wanted, needsPlace = needsPlace))
         if (reference != null && opened.format.startsWith("Platypus")) {
             throw failure("--reference: expected a CSV log, found a Platypus log")
         }

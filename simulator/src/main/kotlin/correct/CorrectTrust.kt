@@ -38,6 +38,7 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     /** How seldom the boat was where it had been; legs beside each other are different places. */
     private fun crossings() = when {
+        !result.log.hasPlaces -> "the log has no places"
         result.log.oneDimensional -> "later passes go through ${places()} again"
         agreement.crossings == 0 -> "the boat's track nowhere crosses itself"
         else -> "the boat's track crosses itself in ${places()} only"

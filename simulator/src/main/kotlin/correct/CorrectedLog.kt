@@ -160,7 +160,7 @@ class CorrectedLog internal constructor(
             progress: (Long) -> Unit = {},
         ): CorrectedLog {
             val undone = given?.let(UndoableSensor::of)
-            undone?.let { requireConditions(it, conditions.keys) }
+            undone?.let { requireConditions(it, conditions.keys, knowsSpeed(log, conditions.keys)) }
             val names = conditions.keys.toList()
             val rows = Rows(names.size)
             val scan = SurveyScan()
@@ -176,8 +176,7 @@ class CorrectedLog internal constructor(
             val measured = names.mapIndexed { i, name -> name to rows.condition(i) }.toMap()
             val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
-            // Along a transect in any unit no speed is known.
-            val series = if (log.oneDimensional) plain else plain.withSpeedOf(others)
+            val series = if (knowsSpeed(log, conditions.keys)) plain.withSpeedOf(others) else plain
             SquareReach.require(log, series.values, rows.references())
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
@@ -223,9 +222,14 @@ class CorrectedLog internal constructor(
             )
         }
 
-        /** Refuses [conditions] that lack one that undoing [sensor] takes. */
-        private fun requireConditions(sensor: UndoableSensor, conditions: Set<String>) {
-            val missing = sensor.needs - conditions - Conditions.SPEED
+        /** Whether [log] tells the speed: along a transect in any unit places do not, unless it is one of [conditions]. */
+        private fun knowsSpeed(log: SurveyLog, conditions: Set<String>) =
+            Conditions.SPEED in conditions || (log.hasPlaces && !log.oneDimensional)
+
+        /** Refuses [conditions] that lack one that undoing [sensor] takes; places tell the speed if [knowsSpeed]. */
+        private fun requireConditions(sensor: UndoableSensor, conditions: Set<String>, knowsSpeed: Boolean) {
+            val told = if (knowsSpeed) conditions + Conditions.SPEED else conditions
+            val missing = sensor.needs - told
             require(missing.isEmpty()) {
                 "undoing it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}"
             }

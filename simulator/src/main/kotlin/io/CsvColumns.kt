@@ -178,7 +178,7 @@ internal data class CsvColumns(
             return when {
                 x != null && y != null -> " (--x '$x' --y '$y' if these are metres)"
                 depth != null -> " (--x '$depth' for a profile)"
-                else -> " (a log without places is for diagnose --reference)"
+                else -> " (without places: diagnose or correct with --reference, or correct with --sensor)"
             }
         }
 

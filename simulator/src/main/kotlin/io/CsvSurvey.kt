@@ -34,7 +34,8 @@ internal class CsvSurvey internal constructor(
         .plus(columns.notes())
         .joinToString()
     override val quantity: String = columns.names[columns.value]
-    override val oneDimensional = columns.latitude == CsvColumns.NONE && columns.y == CsvColumns.NONE
+    override val hasPlaces = columns.latitude != CsvColumns.NONE || columns.x != CsvColumns.NONE
+    override val oneDimensional = columns.x != CsvColumns.NONE && columns.y == CsvColumns.NONE
     override val xName: String = if (columns.x == CsvColumns.NONE) "x_m" else columns.names[columns.x]
     override var frame: LocalFrame? = null
         private set

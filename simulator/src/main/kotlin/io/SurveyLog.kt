@@ -57,6 +57,9 @@ interface SurveyLog {
     /** Whether positions have only an x: a transect or a vertical profile. */
     val oneDimensional: Boolean
 
+    /** Whether readings have places; else all are at 0, 0. */
+    val hasPlaces: Boolean get() = true
+
     /** What positions are counted in: m, or the units of the only coordinate of a transect. */
     val lengthUnit: String get() = if (oneDimensional) "units of $xName" else "m"
 

@@ -94,6 +94,52 @@ class GivenSensorTest {
         assertTrue(error(rows("corrected.csv"), "corrected", truth) > 2 * corrected)
     }
 
+    /** A bench whose sample is changed every 100 s, and its flow every 60 s; without places. */
+    private fun bench(stage: SensorStage) = buildString {
+        appendLine("time_s,do_mg_l,truth,flow")
+        val sensor = SensorSpec("test", listOf(stage, SensorStage.Noise(0.01))).build(8.0, Random(1))
+        for (row in 0 until 600) {
+            val truth = if (row / 100 % 2 == 0) 8.0 else 4.0
+            val flow = if (row / 60 % 2 == 0) 1.0 else 0.25
+            val shown = sensor.step(truth, 1.0, Conditions(mapOf(Conditions.SPEED to flow)))
+            appendLine("$row,${Math.rint(shown * 1000) / 1000},$truth,$flow")
+        }
+    }
+
+    @Test
+    fun aLogWithoutPlacesIsCorrectedInTime() {
+        val log = file("bench.csv", bench(SensorStage.Lag(12.0)))
+        for (known in listOf(listOf("--sensor", spec(SensorStage.Lag(12.0))), listOf("--reference", "truth"))) {
+            val result = run("correct", log, "--value", "do_mg_l", *known.toTypedArray())
+            assertEquals(0, result.statusCode, result.output)
+            assertContains(result.stdout, "not checked, for the log has no places")
+            val rows = rows("corrected.csv")
+            val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }
+            assertTrue(error(rows, "corrected", truth) < 0.2 * error(rows, "do_mg_l", truth), "$known")
+        }
+        val unknown = run("correct", log, "--value", "do_mg_l")
+        assertEquals(2, unknown.statusCode, unknown.output)
+        assertContains(unknown.stderr, "or correct with --sensor")
+    }
+
+    @Test
+    fun withoutPlacesTheSpeedThatASensorFollowsMustBeThere() {
+        val stage = SensorStage.FlowLag(12.0, 1.0, 0.5)
+        val log = file("bench.csv", bench(stage))
+        val given = arrayOf("correct", log, "--value", "do_mg_l", "--sensor", spec(stage))
+        val without = run(*given)
+        assertEquals(2, without.statusCode, without.output)
+        assertContains(without.stderr, "--condition speed=COLUMN")
+        assertFalse(out.exists())
+        val told = run(*given, "--condition", "speed=flow")
+        assertEquals(0, told.statusCode, told.output)
+        val rows = rows("corrected.csv")
+        val truth: (Map<String, Double>) -> Double = { it.getValue("truth") }
+        assertTrue(error(rows, "corrected", truth) < 0.2 * error(rows, "do_mg_l", truth))
+        // Along a line in unknown units no speed is known either.
+        assertEquals(2, run(*given, "--x", "truth").statusCode)
+    }
+
     @Test
     fun aSensorThatSetsOppositeLegsApartIsWarnedOf() {
         val log = file("log.csv", survey(SensorStage.Lag(4.0)))
