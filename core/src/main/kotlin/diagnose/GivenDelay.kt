@@ -17,17 +17,18 @@ internal class GivenDelay(
     private val settings: DiagnosisSettings,
     private val given: SensorSpec,
     private val loops: Loops,
-    private val progress: (Double) -> Unit,
+    progress: (Double) -> Unit,
 ) {
+    private val progress = ProgressParts(progress)
     private val delay = GivenLag.delay(given)
 
     /** The answer. */
     fun answer(): DiagnosisResult {
-        val taken = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress)
+        val taken = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress.next(HALF))
         val result = DelayTaken(delay).whole(taken.run())
         if (result.verdict == Verdict.Consistent) return result
         val prompt = given.copy(stages = given.stages.filter { it !is SensorStage.Delay })
-        val without = BlindDiagnosis(series, settings.copy(base = prompt), loops)
+        val without = BlindDiagnosis(series, settings.copy(base = prompt), loops, progress.next(1.0))
         val found = without.run()
         val ratio = (without.found?.score ?: return result) - (taken.found?.score ?: return result)
         val more = DelayTaken.causes(found.verdict).compareTo(DelayTaken.causes(result.verdict))
@@ -65,5 +66,10 @@ internal class GivenDelay(
         val warning =
             "The dead time of the sensor given, ${three(delay)} s, is too long: without it the log is likelier."
         return DelayTaken.retold(given, found, verdict, numbers, sensor, ratio, warning)
+    }
+
+    private companion object {
+        /** Of the work, the part that the log with the dead time taken off takes. */
+        const val HALF = 0.5
     }
 }

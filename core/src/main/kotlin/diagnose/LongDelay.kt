@@ -11,11 +11,13 @@ internal class LongDelay(
     private val series: MeasuredSeries,
     private val settings: DiagnosisSettings,
     private val loops: Loops,
-    private val progress: (Double) -> Unit,
+    progress: (Double) -> Unit,
 ) {
+    private val progress = ProgressParts(progress)
+
     /** The answer. */
     fun answer(): DiagnosisResult {
-        val plain = BlindDiagnosis(series, settings, loops, progress)
+        val plain = BlindDiagnosis(series, settings, loops, progress.next(PLAIN))
         val result = plain.run()
         val before = plain.found ?: return result
         val late = if (isVague(result.baseline)) PassShift(series).late() else null
@@ -35,7 +37,7 @@ internal class LongDelay(
 
     /** The answer with a dead time of [delay] s off the log; null where that is not for certain better than [before]. */
     private fun tried(delay: Double, before: BlindState, result: DiagnosisResult): DiagnosisResult? {
-        val later = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops)
+        val later = BlindDiagnosis(series.atPlacesBefore(delay), settings, loops, progress.next(HALF))
         val found = later.run()
         val after = later.found ?: return null
         val ratio = after.score - before.score
@@ -72,6 +74,10 @@ internal class LongDelay(
         /** Of the shift that suits passes, which holds the lag as well: what is taken off, the larger first. */
         val SHARES = listOf(0.75, 0.5)
         const val NEARLY = 0.95
+
+        /** Of the work, the part that the log as it is takes; and of what is left, that which each time more takes. */
+        const val PLAIN = 0.6
+        const val HALF = 0.5
         val ALONE = Verdict.Named(listOf(Cause.DEAD_TIME))
     }
 }
