@@ -17,6 +17,12 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     private val resolution = state.model.scales.resolution
     private val inside = 2 * REACH until series.size - 2 * REACH
 
+    /** Rows at an end of the range, or with such beside them: no noise moves these, and that of all others would look heavy. */
+    private val isStill = BooleanArray(series.size).also { out ->
+        val isAtEnd = RangeEnd.beyond(state.model, state.numbers) ?: return@also
+        for (i in out.indices) if (isAtEnd[i]) out.fill(true, maxOf(0, i - REACH), minOf(out.size, i + REACH + 1))
+    }
+
     /** Readings less what a parabola through the rows beside them says, in robust deviations of those about them. */
     private val off = series.values.let { values ->
         val hasSides = REACH until values.size - REACH
@@ -24,8 +30,8 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     }
 
     /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */
-    val rows: List<Int> =
-        (Spikes.of(z) + sharp()).distinct().sorted().filter { it > 0 && it < residuals.size - 1 && isSingle(it) }
+    val rows: List<Int> = (Spikes.of(z, isStill::get) + sharp()).distinct().sorted()
+        .filter { it > 0 && it < residuals.size - 1 && isSingle(it) }
 
     /**
      * The rows that stick out of the readings themselves: a parabola through the rows beside them foretells them badly.
@@ -68,11 +74,15 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     /** [column] over the robust deviation of the rows about each, rounding's at least. */
     private fun evened(column: DoubleArray): DoubleArray {
         val rounded = resolution * sqrt(Neighbours.errorVariance / ROUNDED)
+        fun middle(rows: List<Int>) = median(DoubleArray(rows.size) { abs(column[rows[it]]) })
+        val moved = column.indices.filterNot { isStill[it] }.ifEmpty { column.indices.toList() }
+        val all = middle(moved)
         // Where a logger repeats a reading nothing scatters about it.
-        val least = maxOf(rounded, STUCK * median(DoubleArray(column.size) { abs(column[it]) }))
+        val least = maxOf(rounded, STUCK * all)
         return DoubleArray(column.size) { i ->
-            val about = (maxOf(0, i - NEAR)..minOf(column.size - 1, i + NEAR)).filter { it != i }
-            column[i] / maxOf(NORMAL * median(DoubleArray(about.size) { abs(column[about[it]]) }), least, TINY)
+            val about = (maxOf(0, i - NEAR)..minOf(column.size - 1, i + NEAR)).filter { it != i && !isStill[it] }
+            val usual = if (about.size < FEWEST) all else middle(about)
+            column[i] / maxOf(NORMAL * usual, least, TINY)
         }
     }
 
@@ -84,7 +94,7 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
         }
     }
 
-    private val columns = inside.filterNot { isAboutFront[it] }.let { rows ->
+    private val columns = inside.filterNot { isAboutFront[it] || isStill[it] }.let { rows ->
         listOf(off, evened(z)).map { column -> DoubleArray(rows.size) { column[rows[it]] } }
     }
 
@@ -145,6 +155,9 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
         const val WINDOW = 12
         const val REACH = Neighbours.REACH
         const val NEAR = 30
+
+        /** Rows about one that tell how far readings scatter there. */
+        const val FEWEST = 10
         const val FAR = 5.0
         const val NORMAL = 1.4826
         const val ROUNDED = 12.0

@@ -24,12 +24,16 @@ internal object Spikes {
      * The rows whose residual is more than 5.5 robust standard deviations off the median of the seven around it.
      *
      * A model that is wrong elsewhere has residuals that neighbours share; those are not single.
+     *
+     * @param isStill whether no noise moves a row, which then says nothing of the deviation.
      */
-    fun of(residuals: DoubleArray): List<Int> {
+    fun of(residuals: DoubleArray, isStill: (Int) -> Boolean = { false }): List<Int> {
         val n = residuals.size
         if (n < 4 * HALF_WINDOW) return emptyList()
         val off = off(residuals)
-        val spread = NORMAL * median(DoubleArray(n) { abs(off[it]) })
+        val moved = off.filterIndexed { i, _ -> !isStill(i) }
+        if (moved.isEmpty()) return emptyList()
+        val spread = NORMAL * median(DoubleArray(moved.size) { abs(moved[it]) })
         if (!(spread > 0)) return emptyList()
         return off.indices.filter { i ->
             val beside = maxOf(abs(off.getOrElse(i - 1) { 0.0 }), abs(off.getOrElse(i + 1) { 0.0 }))

@@ -19,14 +19,17 @@ class BlindOutliersTest {
     private val y = track.y
     private val truth = DoubleArray(n) { sin(x[it] / 4) + sin(y[it] / 5 + 1) }
 
-    /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them [off], by up to 0.14. */
+    /** The readings of a lag of 4 s under noise of 0.02, one in [every] of them [off], by up to 0.14, to [end] at most. */
     private fun outliers(
         every: Int,
         noise: Double = 0.02,
         off: (Random) -> Double = { it.nextDouble(-0.14, 0.14) },
+        truth: DoubleArray = this.truth,
+        end: Double? = null,
         added: (Int) -> Double = { 0.0 },
     ): BlindOutliers {
-        val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(noise))
+        val ends = listOfNotNull(end?.let { SensorStage.Range(null, it) })
+        val stages = listOf(SensorStage.Lag(4.0), SensorStage.Noise(noise)) + ends
         val sensor = SensorSpec("hidden", stages).build(truth[0], Random(7))
         val random = Random(8)
         val values = DoubleArray(n) { i ->
@@ -37,9 +40,10 @@ class BlindOutliersTest {
         val modes = WaterModes.flat(series, SmoothTrack.of(series), MOST, SHORTEST)
         val white = CorrelatedNoise(times, 0.0, 10.0, BooleanArray(n) { true })
         val even = BlindNoise(white, DoubleArray(n) { 1.0 })
-        val numbers = doubleArrayOf(3.5, 1.0, 0.0, 0.0)
+        val terms = ends.map { Term(Cause.SATURATION) }
+        val numbers = doubleArrayOf(3.5, 1.0, 0.0, 0.0) + listOfNotNull(end?.let { -ResponseModel.NO_END }, end)
         val search = BlindSearch(series)
-        return BlindOutliers(search, search.settled(emptyList(), numbers, even, DoubleArray(0), ROUNDS, modes))
+        return BlindOutliers(search, search.settled(terms, numbers, even, DoubleArray(0), ROUNDS, modes))
     }
 
     @Test
@@ -58,6 +62,22 @@ class BlindOutliersTest {
     fun noiseAloneHasNone() {
         val none = outliers(every = 10 * n)
         assertTrue(none.pValue > 0.01, "${none.pValue}")
+    }
+
+    @Test
+    fun rowsAtAnEndOfTheRangeMakeNoTails() {
+        // So slow that half a minute and more is spent at the end.
+        for (slow in listOf(2.0, 3.0, 5.0)) {
+            val water = DoubleArray(n) { sin(x[it] / 4 / slow) + sin(y[it] / 5 / slow + 1) }
+            val sorted = water.sorted()
+            for (share in listOf(0.7, 0.8, 0.9)) {
+                val end = sorted[(n * share).toInt()]
+                val none = outliers(every = 10 * n, truth = water, end = end)
+                assertTrue(none.pValue > 0.01, "$slow, $share: ${none.pValue}")
+                val some = outliers(every = 30, truth = water, end = end, off = { it.nextDouble(-0.28, 0.28) })
+                assertTrue(some.pValue < 1e-4, "$slow, $share: ${some.pValue}")
+            }
+        }
     }
 
     @Test
