@@ -100,7 +100,7 @@ internal class BlindRound(
             val settled = if (isAsked || trial in likely) settled(trial, other(trial)) else trial
             val clear = if (isBlurred) BeyondWaves.of(settled, search) else settled
             val placed = if (mayBeOnArm(trial)) far(clear) else clear
-            return if (isOfLag(placed)) doubted(placed) else placed.atMost(0.0)
+            return if (isOfLag(placed) && !(isShapeOpen && placed.isLate)) doubted(placed) else placed.atMost(0.0)
         }
         fun gained(trial: BlindTrial) = maxOf(trial.gain, other(trial)?.gain ?: 0.0)
         fun isSure(trial: BlindTrial) = trial.pValue < settings.level

@@ -20,7 +20,7 @@ internal object BlindTerms {
 
     /**
      * All that the log may show; of a lag's shape only where it [hasShape], but for a slow path, which lasts for far longer
-     * than a lag of either kind.
+     * than a lag of either kind, and a place, which may be ahead as no lag is.
      */
     fun of(search: BlindSearch, hasShape: Boolean): List<Term> = buildList {
         add(Term(Cause.ASYMMETRIC_RESPONSE))
@@ -43,7 +43,7 @@ internal object BlindTerms {
         val noise = sqrt(search.lastVariance)
         if (scales.resolution > COARSE * noise) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
-        if (spread > EVEN && hasShape) add(Term(Cause.POSITION_OFFSET))
+        if (spread > EVEN) add(Term(Cause.POSITION_OFFSET))
     }
 
     /**

@@ -33,6 +33,14 @@ internal class BlindTrial(
     /** [pValue] where [chance] is [adjusted] for all that was tried: fits without stretches are asked of what was chosen. */
     fun sure(adjusted: Double): Double = maxOf(adjusted, leftOut)
 
+    /** Whether the sensor is behind the fixes, which makes readings late as a lag of either kind does; none is ahead. */
+    val isLate: Boolean
+        get() {
+            val place = term?.takeIf { it.cause == Cause.POSITION_OFFSET } ?: return false
+            val (model, numbers) = state?.let { it.model to it.numbers } ?: (model to point?.numbers)
+            return checkNotNull(numbers)[checkNotNull(model).slot(place)] > 0
+        }
+
     /** Whether the two halves of the log contradict each other about the size of it, at 1 %. */
     val isContradicted: Boolean get() = abs(halves) > NORMAL_99
 
