@@ -38,7 +38,7 @@ internal class BlindTrial(
         get() {
             val place = term?.takeIf { it.cause == Cause.POSITION_OFFSET } ?: return false
             val (model, numbers) = state?.let { it.model to it.numbers } ?: (model to point?.numbers)
-            return checkNotNull(numbers)[checkNotNull(model).slot(place)] > 0
+            return checkNotNull(SmallShifts.late(place, checkNotNull(model), checkNotNull(numbers))) > 0
         }
 
     /** Whether the two halves of the log contradict each other about the size of it, at 1 %. */
