@@ -30,8 +30,12 @@ internal class BlindTrial(
     /** [chance], or that of what fits without each stretch of the log say, where that is larger. */
     val pValue: Double get() = sure(chance)
 
-    /** [pValue] where [chance] is [adjusted] for all that was tried: fits without stretches are asked of what was chosen. */
-    fun sure(adjusted: Double): Double = maxOf(adjusted, leftOut)
+    /**
+     * [pValue] where [chance] is [adjusted] for all that was tried: fits without stretches are asked of what was chosen.
+     * Where nearly all that is known comes of one stretch the others agree less clearly, as does what the model gets wrong
+     * in it; they then need to agree at five times the level, if [chance] is next to nothing.
+     */
+    fun sure(adjusted: Double): Double = maxOf(adjusted, if (chance < NEXT_TO_NOTHING) leftOut / EASED else leftOut)
 
     /** Whether the sensor is behind the fixes, which makes readings late as a lag of either kind does; none is ahead. */
     val isLate: Boolean
@@ -110,6 +114,13 @@ internal class BlindTrial(
 
     private companion object {
         const val NORMAL_99 = 2.576
+
+        /**
+         * Of a cause or a look: the root of its likelihood ratio is 7 and more. In eight logs in the field without an effect
+         * it was 4 to 6 (core/docs/Diagnosis.md (13)).
+         */
+        const val NEXT_TO_NOTHING = 1e-12
+        const val EASED = 5.0
     }
 }
 
