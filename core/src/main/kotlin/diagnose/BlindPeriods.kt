@@ -51,7 +51,8 @@ internal class BlindPeriods(private val state: BlindState, private val tries: Bl
         }
         val strongest = places.sortedByDescending { powers[it] }.take(CANDIDATES)
         // Noise has its own colours: a period must stand out of those beside it.
-        val clearest = places.sortedByDescending { powers[it] / beside(powers, it) }.take(CANDIDATES)
+        val clear = places.associateWith { powers[it] / beside(powers, it) }
+        val clearest = places.sortedByDescending { clear.getValue(it) }.take(CANDIDATES)
         val looks = (strongest + clearest).distinct().map(::look)
         return looks.zip(state.fit.design.loops.all(looks, tries::looked)).maxBy { (_, trial) -> trial.ratio }.first
     }
