@@ -32,8 +32,8 @@ internal class BlindTrial(
 
     /**
      * [pValue] where [chance] is [adjusted] for all that was tried: fits without stretches are asked of what was chosen.
-     * Where nearly all that is known comes of one stretch the others agree less clearly, as does what the model gets wrong
-     * in it; they then need to agree at five times the level, if [chance] is next to nothing.
+     * What these say counts a fifth where [chance] is next to nothing: where one stretch has nearly all that is known of it
+     * the others cannot agree as clearly.
      */
     fun sure(adjusted: Double): Double = maxOf(adjusted, if (chance < NEXT_TO_NOTHING) leftOut / EASED else leftOut)
 
