@@ -17,7 +17,6 @@ internal class BlindAnswer(
     private val outliers: BlindOutliers,
     private val given: GivenLag?,
 ) {
-    private val n = series.size
     private val bounds = ArrayList<String>()
     private val rounding = CoarseRounding(series, search.used, search.scales.resolution)
     private val isCoarse = rounding.isCoarse(rmse(last.residuals))
@@ -196,7 +195,9 @@ internal class BlindAnswer(
 
     private fun estimates(model: ResponseModel, numbers: DoubleArray, errors: DoubleArray, terms: List<Term>) =
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
-            .map { i -> estimate(model.parameters[i], numbers[i], errors[i]) }
+            .map { i ->
+                FitReport.slowest(model, numbers, i, bounds) ?: estimate(model.parameters[i], numbers[i], errors[i])
+            }
 
     private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
         val reach = BlindErrors.REACH * error
@@ -243,7 +244,7 @@ internal class BlindAnswer(
             spread,
             noise.share,
             noise.time,
-            DoubleArray(n) { state.whitened[it] / spread },
+            DoubleArray(series.size) { state.whitened[it] / spread },
         )
     }
 
@@ -276,12 +277,12 @@ internal class BlindAnswer(
                 term.cause,
                 term.condition,
                 numbers,
-                rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / n)),
+                rmse(state.residuals) * sqrt(exp(-trial.ratio * trial.inflation / series.size)),
                 Double.NaN,
                 Double.NaN,
                 trial.pValue,
                 first.adjustedCauses[i],
-                DoubleArray(n) { predicted[it] + trial.change[it] },
+                DoubleArray(series.size) { predicted[it] + trial.change[it] },
             ) to trial.worth
         }
         return listOfNotNull(givenCandidate()) + list.sortedByDescending { it.second }.map { it.first }

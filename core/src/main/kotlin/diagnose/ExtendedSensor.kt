@@ -11,7 +11,8 @@ import kotlin.math.sqrt
  *
  * @param spikes single readings that are far off; null for none. @param isRounded whether readings are rounded although
  *   the model says nothing of it. @param leftOut what of the model is no property of the sensor. @param range of which
- *   the model says nothing; null for none.
+ *   the model says nothing; null for none. @param hasWander whether noise of the fit that wanders is the sensor's: without a
+ *   reference it may be the water's.
  */
 internal class ExtendedSensor(
     private val fit: ModelFit,
@@ -19,6 +20,7 @@ internal class ExtendedSensor(
     private val isRounded: Boolean = false,
     private val leftOut: Set<Cause> = emptySet(),
     private val range: SensorStage.Range? = null,
+    private val hasWander: Boolean = false,
 ) {
     private val model = fit.model
     private val numbers = fit.numbers
@@ -85,6 +87,16 @@ internal class ExtendedSensor(
         }
     }
 
+    /** Noise of which [rounding], sensor units², comes of digits. */
+    private fun noise(rounding: Double): List<SensorStage> {
+        val known = value(Cause.QUANTISATION)
+        val share = if (hasWander && known == null) fit.noise.share else 0.0
+        val white = known ?: sqrt(maxOf((1 - share) * fit.variance - rounding, 0.0))
+        val wander = sqrt(share * fit.variance)
+        return listOf(SensorStage.Noise(white)).filter { white > 0 } +
+            listOf(SensorStage.Wander(wander, fit.noise.time)).filter { wander > 0 }
+    }
+
     private fun shown(): List<SensorStage> = buildList {
         val offset = numbers[ResponseModel.OFFSET]
         if (gain != 1.0 || offset != 0.0) add(SensorStage.Calibration(gain, offset))
@@ -120,8 +132,7 @@ internal class ExtendedSensor(
         val isCoarse = (isRounded || value(Cause.QUANTISATION) != null) && resolution > 0
         // What rounding adds to the noise it adds once more in the simulation.
         val rounding = if (isCoarse) resolution * resolution / 12 else 0.0
-        val spread = value(Cause.QUANTISATION) ?: sqrt(maxOf(fit.variance - rounding, 0.0))
-        if (spread > 0) add(SensorStage.Noise(spread))
+        addAll(noise(rounding))
         spikes?.let { add(SensorStage.Outlying(it.probability, it.size)) }
         if (isCoarse) add(SensorStage.Quantum(resolution))
     }

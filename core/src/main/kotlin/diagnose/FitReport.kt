@@ -71,7 +71,7 @@ internal class FitReport(
 
     /** Number [i] of [fit], as the model has it: no path is slower than a log of this length shows. */
     private fun value(fit: ModelFit, i: Int) =
-        if (fit.model.parameters[i].name == "slow_ratio") fit.model.slowRatio(fit.numbers) else fit.numbers[i]
+        if (fit.model.parameters[i].name == SLOW_RATIO) fit.model.slowRatio(fit.numbers) else fit.numbers[i]
 
     private fun interval(fit: ModelFit, i: Int, error: Double, isAnswer: Boolean): Interval? {
         val parameter = fit.model.parameters[i]
@@ -168,20 +168,31 @@ internal class FitReport(
     /** Standard error of the time constant of [fit], on a logarithmic scale. */
     fun timeConstantError(fit: ModelFit): Double = errors(fit)[ResponseModel.TIME_CONSTANT]
 
-    private companion object {
-        const val NORMAL_95 = 1.96
-        const val SLOWEST =
+    companion object {
+        private const val NORMAL_95 = 1.96
+
+        private const val SLOWEST =
             "The slow path is as slow as is looked for in a log of this length, an eighth of it: it may be slower."
 
+        /** Number [i] of [numbers] where it is that of a path slower than [model] takes it to be, told of in [words]; else null. */
+        fun slowest(model: ResponseModel, numbers: DoubleArray, i: Int, words: MutableList<String>): Estimate? {
+            val parameter = model.parameters[i]
+            if (parameter.name != SLOW_RATIO || model.slowRatio(numbers) >= numbers[i]) return null
+            words += SLOWEST
+            return Estimate(parameter.name, parameter.unit, model.slowRatio(numbers), null)
+        }
+
+        private const val SLOW_RATIO = "slow_ratio"
+
         /** Twice a log-likelihood ratio by which another way is less likely and still may be. */
-        const val AS_LIKELY = 6.0
+        private const val AS_LIKELY = 6.0
 
         /** Chi-square with one degree of freedom at 90 %: 95 % to one side. */
-        const val ONE_SIDED_95 = 2.71
+        private const val ONE_SIDED_95 = 2.71
 
         /** Logarithm of the factor either way from which a number does not show. */
-        const val FAR = 7.0
-        const val SMALLEST_PART = 1e-4
-        const val MOST_STEPS = 14
+        private const val FAR = 7.0
+        private const val SMALLEST_PART = 1e-4
+        private const val MOST_STEPS = 14
     }
 }

@@ -81,7 +81,7 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
                 gain *= stage.gain
                 passed++
             }
-            is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
+            is SensorStage.Noise, is SensorStage.Wander, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
         }
     }
 

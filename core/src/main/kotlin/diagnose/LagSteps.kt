@@ -26,6 +26,9 @@ internal class LagSteps(
         ((ticks - 1) / 2 + if (steps == Steps.UNTIL_NEXT) 1 else 0) / ticks
     }
 
+    /** What time constants are times while the sensor rises, [up], and while it falls, [down]. */
+    class Sides(val up: Double, val down: Double)
+
     /** What is left over a step; worked out where it is not as in the step before. */
     private class Fade {
         private var lastDt = Double.NaN
@@ -53,11 +56,11 @@ internal class LagSteps(
     }
 
     /**
-     * Writes what a lag with [factor] times the time constants [taus], s, shows of [input] into [out]. [curve] goes through
-     * [input], or is not used where steps are held. All of length n.
+     * Writes what a lag with [factor] times the time constants [taus], s, shows of [input] into [out], [first] above it at first.
+     * [curve] goes through [input], or is not used where steps are held. All of length n.
      */
-    fun even(input: DoubleArray, curve: Spline, taus: DoubleArray, factor: Double, out: DoubleArray) {
-        var state = input[0]
+    fun even(input: DoubleArray, curve: Spline, taus: DoubleArray, factor: Double, first: Double, out: DoubleArray) {
+        var state = input[0] + first
         out[0] = state
         val fade = Fade()
         for (i in 1 until n) {
@@ -79,26 +82,25 @@ internal class LagSteps(
     }
 
     /**
-     * [even] with [up] times the time constants while what it shows rises and [down] times while it falls; it changes by no
-     * more than [most], units of [input] a second.
+     * [even] with the [sides] of an asymmetric lag; it changes by no more than [most], units of [input] a second.
      */
     fun uneven(
         input: DoubleArray,
         curve: Spline,
         taus: DoubleArray,
-        up: Double,
-        down: Double,
+        sides: Sides,
+        first: Double,
         most: Double,
         out: DoubleArray,
     ) {
-        var state = input[0]
+        var state = input[0] + first
         out[0] = state
         val fade = Fade()
         for (i in 1 until n) {
             val dt = series.times[i] - series.times[i - 1]
             val before = if (held) heldOver(i, input) else input[i - 1]
             val after = if (held) before else input[i]
-            val tau = taus[i] * if ((before + after) / 2 > state) up else down
+            val tau = taus[i] * if ((before + after) / 2 > state) sides.up else sides.down
             if (isGap(i)) {
                 state = input[i]
             } else {
@@ -143,6 +145,39 @@ internal class LagSteps(
             val dt = series.times[i] - series.times[i - 1]
             if (!isGap(i)) out[i] = out[i].coerceIn(out[i - 1] - rate * dt, out[i - 1] + rate * dt)
         }
+    }
+
+    /**
+     * A play of [width], [start] widths above the middle of it at first. Where the truth goes on between the rows it takes the
+     * turning points there, too: a parabola through three rows says how far they are.
+     */
+    fun play(out: DoubleArray, width: Double, start: Double) {
+        var earlier = out[0]
+        var before = out[0]
+        out[0] += start * width
+        for (i in 1 until n) {
+            val here = out[i]
+            var state = out[i - 1]
+            if (!held) {
+                state = pulled(state, if (i > 1) turn(earlier, before, here) else before, width)
+                state = pulled(state, if (i < n - 1) turn(out[i + 1], here, before) else here, width)
+            }
+            out[i] = pulled(state, here, width)
+            earlier = before
+            before = here
+        }
+    }
+
+    private fun pulled(state: Double, to: Double, width: Double) = state.coerceIn(to - width / 2, to + width / 2)
+
+    /**
+     * The extreme of a parabola through [far], [near] and [beyond], each a row apart, where it lies between the last
+     * two; else [near].
+     */
+    private fun turn(far: Double, near: Double, beyond: Double): Double {
+        val slope = (beyond - far) / 2
+        val bend = beyond - 2 * near + far
+        return if (bend != 0.0 && -slope / bend in 0.0..1.0) near - slope * slope / (2 * bend) else near
     }
 
     private companion object {

@@ -46,10 +46,17 @@ internal class ResponseModel(
     private val isWithin = limit?.isWithin == true && Cause.TWO_PATH_RESPONSE !in causes
     private val lags = LagSteps(series, scales.unknown?.isGap, steps)
 
+    /**
+     * Whether the first state goes through the response, instead of fading by itself: a probe that comes from far off settles
+     * as it responds. Where the water is inferred it fades, because there it counts as one of the water's heights.
+     */
+    private val isFirstShaped = scales.unknown != null && causes.any { it in SHAPING_FIRST }
+
     /** Which numbers change what comes before gain and offset. */
     private val isShaping = BooleanArray(parameters.size).also { shaping ->
         shaping[TIME_CONSTANT] = true
-        shaping[GAIN] = limit != null || Cause.HYSTERESIS in causes
+        shaping[FIRST] = isFirstShaped
+        shaping[GAIN] = isFirstShaped || limit != null || Cause.HYSTERESIS in causes
         for (term in terms) if (term.cause.isTiming) slot(term).let { shaping.fill(true, it, it + width(term)) }
         for (term in terms) if (term.hasOwnStart) shaping[ownStart(term)] = term.cause == Cause.HYSTERESIS
     }
@@ -136,24 +143,25 @@ internal class ResponseModel(
     private fun shape(p: DoubleArray, out: DoubleArray) {
         delay(p)
         timeConstants(p)
+        val first = if (isFirstShaped && p[GAIN] != 0.0) p[FIRST] / p[GAIN] else 0.0
         val asymmetry = if (Cause.ASYMMETRIC_RESPONSE in causes) p[slot(Cause.ASYMMETRIC_RESPONSE)] else 0.0
         if (Cause.TWO_PATH_RESPONSE in causes) {
             val at = slot(Cause.TWO_PATH_RESPONSE)
-            lag(work, second, slowRatio(p), 0.0)
-            lag(work, out, 1.0, asymmetry)
+            lag(work, second, slowRatio(p), 0.0, first)
+            lag(work, out, 1.0, asymmetry, first)
             for (i in 0 until n) out[i] += p[at + 1] * (second[i] - out[i])
         } else {
             val most = if (limit != null && isWithin) p[slot(limit)] / abs(p[GAIN]) else Double.POSITIVE_INFINITY
-            lag(work, out, 1.0, asymmetry, most)
+            lag(work, out, 1.0, asymmetry, first, most)
         }
         if (Cause.SECOND_ORDER_RESPONSE in causes) {
             taus.fill(p[slot(Cause.SECOND_ORDER_RESPONSE)])
-            lag(out, second, 1.0, 0.0)
+            lag(out, second, 1.0, 0.0, 0.0)
             second.copyInto(out)
         }
         if (limit != null && !isWithin) lags.slew(out, p[slot(limit)] / abs(p[GAIN]))
         terms.firstOrNull { it.cause == Cause.HYSTERESIS }?.let { term ->
-            play(out, p[slot(term)] / abs(p[GAIN]), if (term.hasOwnStart) p[ownStart(term)] else 0.0)
+            lags.play(out, p[slot(term)] / abs(p[GAIN]), if (term.hasOwnStart) p[ownStart(term)] else 0.0)
         }
     }
 
@@ -245,63 +253,32 @@ internal class ResponseModel(
     }
 
     /**
-     * A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. It changes by no
-     * more than [most], sensor units/s.
+     * A lag of [factor] times the time constants; rising ones are exp([asymmetry]) times the falling ones. It begins [first]
+     * above its input and changes by no more than [most], sensor units/s.
      */
     private fun lag(
         input: DoubleArray,
         out: DoubleArray,
         factor: Double,
         asymmetry: Double,
+        first: Double,
         most: Double = Double.POSITIVE_INFINITY,
     ) {
         val isTruth = input === work && !isDelayed
         val curve = if (isTruth && !held) truthCurve() else spline
         if (!held && !isTruth) spline.fitForLags(input)
         if (asymmetry == 0.0 && most == Double.POSITIVE_INFINITY) {
-            lags.even(input, curve, taus, factor, out)
+            lags.even(input, curve, taus, factor, first, out)
         } else {
-            lags.uneven(input, curve, taus, factor * exp(asymmetry / 2), factor * exp(-asymmetry / 2), most, out)
+            val sides = LagSteps.Sides(factor * exp(asymmetry / 2), factor * exp(-asymmetry / 2))
+            lags.uneven(input, curve, taus, sides, first, most, out)
         }
-    }
-
-    /**
-     * A play of [width], [start] widths above the middle of it at first. Where the truth goes on between the rows it takes the
-     * turning points there, too: a parabola through three rows says how far they are.
-     */
-    private fun play(out: DoubleArray, width: Double, start: Double) {
-        var earlier = out[0]
-        var before = out[0]
-        out[0] += start * width
-        for (i in 1 until n) {
-            val here = out[i]
-            var state = out[i - 1]
-            if (!held) {
-                state = pulled(state, if (i > 1) turn(earlier, before, here) else before, width)
-                state = pulled(state, if (i < n - 1) turn(out[i + 1], here, before) else here, width)
-            }
-            out[i] = pulled(state, here, width)
-            earlier = before
-            before = here
-        }
-    }
-
-    private fun pulled(state: Double, to: Double, width: Double) = state.coerceIn(to - width / 2, to + width / 2)
-
-    /**
-     * The extreme of a parabola through [far], [near] and [beyond], each a row apart, where it lies between the last
-     * two; else [near].
-     */
-    private fun turn(far: Double, near: Double, beyond: Double): Double {
-        val slope = (beyond - far) / 2
-        val bend = beyond - 2 * near + far
-        return if (bend != 0.0 && -slope / bend in 0.0..1.0) near - slope * slope / (2 * bend) else near
     }
 
     private fun calibrate(p: DoubleArray, out: DoubleArray) {
         val gain = p[GAIN]
         val offset = p[OFFSET]
-        val first = p[FIRST]
+        val first = if (isFirstShaped) 0.0 else p[FIRST]
         if (first == 0.0) {
             for (i in 0 until n) out[i] = offset + gain * out[i]
         } else {
@@ -380,6 +357,16 @@ internal class ResponseModel(
         const val OFFSET = 2
         const val FIRST = 3
         const val BASE = 4
+
+        /** Causes of a response that is not the same lag all the time, or not one. Two in a row have a first state of their own. */
+        private val SHAPING_FIRST = setOf(
+            Cause.TWO_PATH_RESPONSE,
+            Cause.ASYMMETRIC_RESPONSE,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.SLEW_LIMIT,
+            Cause.HYSTERESIS,
+        )
 
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e11

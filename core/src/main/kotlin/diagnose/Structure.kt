@@ -91,21 +91,26 @@ internal class Structure(private val fit: ModelFit) {
 
     private fun MutableList<Pair<String, List<DoubleArray>>>.track(value: DoubleArray, slope: DoubleArray) {
         val heading = series.heading
-        val east = DoubleArray(n) { cos(heading[it]) }
-        val north = DoubleArray(n) { sin(heading[it]) }
-        val twice = DoubleArray(n) { cos(2 * heading[it]) }
-        val twiceToo = DoubleArray(n) { sin(2 * heading[it]) }
-        add("the heading" to listOf(east, north, twice, twiceToo))
-        add("the value, more on some headings than on others" to listOf(times(value, east), times(value, north)))
-        add(
-            "the rate of change, more on some headings than on others" to
-                listOf(followed(times(slope, east)), followed(times(slope, north))),
-        )
+        // A log without places, or a way that never turns, has no headings to differ between.
+        if (heading.any { abs(sin((it - heading[0]) / 2)) > LEAST_TURN }) {
+            val east = DoubleArray(n) { cos(heading[it]) }
+            val north = DoubleArray(n) { sin(heading[it]) }
+            val twice = DoubleArray(n) { cos(2 * heading[it]) }
+            val twiceToo = DoubleArray(n) { sin(2 * heading[it]) }
+            add("the heading" to listOf(east, north, twice, twiceToo))
+            add("the value, more on some headings than on others" to listOf(times(value, east), times(value, north)))
+            add(
+                "the rate of change, more on some headings than on others" to
+                    listOf(followed(times(slope, east)), followed(times(slope, north))),
+            )
+        }
         val speed = standard(series.speed)
         add("the speed" to listOf(speed, power(speed, 2)))
         val x = standard(series.x)
         val y = standard(series.y)
-        add("the position" to listOf(x, y, times(x, y), power(x, 2), power(y, 2)))
+        if (series.x.any { it != series.x[0] } || series.y.any { it != series.y[0] }) {
+            add("the position" to listOf(x, y, times(x, y), power(x, 2), power(y, 2)))
+        }
     }
 
     /**
@@ -205,6 +210,9 @@ internal class Structure(private val fit: ModelFit) {
                 cos(PI * k * (series.times[it] - series.times[0]) / maxOf(series.duration, 1e-9))
             }
         }
+
+        /** Sine of half the angle between headings that are the same. */
+        private const val LEAST_TURN = 1e-3
 
         /** Of times within which an offset settles, so many count as one. */
         private const val ALIKE = 2

@@ -90,20 +90,20 @@ internal class Weighing(
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         val size = loose.size().takeIf { outliers }
         val unnamed = (equal + small).map { (trial, _) -> trial.term.cause }.toSet()
-        val sensor = ExtendedSensor(last, size, rounded, leftOut = unnamed)
+        val sensor = ExtendedSensor(last, size, rounded, leftOut = unnamed, hasWander = true)
         val extended = if (named) sensor.spec("extended") else null
         val candidates = candidates(size, loose.pValue)
         // A shift that is fitted beside and not named belongs to the base: without it lag and gain make up for it.
         val isShifted = verdict is Verdict.Consistent && small.isNotEmpty() && equal.isEmpty()
         val baseline = if (isShifted) assessment(last) else report.assessment(base, baseHeldOut)
-        val baseSensor = if (isShifted) sensor.spec("base") else ExtendedSensor(base, null).spec("base")
+        val baseSensor = if (isShifted) sensor else ExtendedSensor(base, null, hasWander = true)
         val after = if (named) assessment(last) else null
         return DiagnosisResult(
             verdict,
             candidates,
             baseline,
             after,
-            settings.base ?: baseSensor,
+            settings.base ?: baseSensor.spec("base"),
             extended,
             (verdict as? Verdict.Ambiguous)?.let { open ->
                 Manoeuvres.of(open.sets.filter { it.size > 1 }.flatten().toSet())

@@ -1,8 +1,11 @@
 package stillwater.estimate
 
+import stillwater.sensor.SensorStage
 import kotlin.math.abs
 import kotlin.math.ceil
 import kotlin.math.exp
+import kotlin.math.expm1
+import kotlin.math.pow
 
 /**
  * How the water changes along a track, and how well it is read.
@@ -34,16 +37,25 @@ internal class Transition(val move: DoubleArray, val spread: DoubleArray)
 /**
  * Transitions of a field with [along] seen through [lags], by length of step. Steps that differ by less than a
  * thousandth of [usual] are taken as one. With a [slowShare] w both lags see the field, and the last state is what is
- * shown of them, (1 − w) s₁ + w s₂.
+ * shown of them, (1 − w) s₁ + w s₂. With a [wander] one more state has that noise on top of what is shown.
  */
 internal class FieldMotion(
     private val along: AlongTrack,
     private val lags: List<ResponseLag>,
     private val usual: Double,
     private val slowShare: Double = 0.0,
+    private val wander: SensorStage.Wander? = null,
 ) {
-    /** Number of states: the field's, then one a lag. */
-    val size: Int = along.states + lags.size
+    private val quiet = along.states + lags.size
+
+    /** Number of states: the field's, one a lag, and that with the noise. */
+    val size: Int = quiet + if (wander == null) 0 else 1
+
+    /** What is shown without the noise that wanders. */
+    private val followed = if (lags.isEmpty()) 0 else quiet - 1
+
+    /** The state that the readings show. */
+    val shown: Int = if (wander == null) followed else quiet
     private val known = HashMap<Long, Transition>()
     private val shortest = minOf(1 / along.decay, lags.minOfOrNull { minOf(it.rising, it.falling) } ?: Double.MAX_VALUE)
 
@@ -53,13 +65,20 @@ internal class FieldMotion(
         val field = stationary()
         val n = along.states
         for (i in 0 until n) for (j in 0 until n) p[i * size + j] = field[i * n + j]
-        for (i in along.states until size) {
+        for (i in along.states until quiet) {
             for (j in 0 until along.states) {
                 p[i * size + j] = p[j]
                 p[j * size + i] = p[j]
             }
-            for (j in along.states until size) p[i * size + j] = p[0]
+            for (j in along.states until quiet) p[i * size + j] = p[0]
             p[i * size + i] = p[0] * (1 + UNSETTLED)
+        }
+        if (wander != null) {
+            for (j in 0 until quiet) {
+                p[shown * size + j] = p[followed * size + j]
+                p[j * size + shown] = p[followed * size + j]
+            }
+            p[shown * size + shown] = p[followed * size + followed] + wander.standardDeviation.pow(2)
         }
         return p
     }
@@ -115,13 +134,25 @@ internal class FieldMotion(
             for (j in 0 until n) noise[row][j] = weights.now * noise[input][j]
             if (k == 1 && slowShare > 0) beside(weights, move, noise)
         }
+        wander?.let { follow(exp(-dt / it.correlationTime), move, noise) }
         val own = fieldSpread(field)
         val spread = DoubleArray(size * size) { at ->
             var sum = 0.0
             for (a in 0 until n) for (b in 0 until n) sum += noise[at / size][a] * own[a * n + b] * noise[at % size][b]
             sum
         }
+        wander?.let {
+            spread[size * size - 1] -= it.standardDeviation.pow(2) * expm1(-2 * dt / it.correlationTime)
+        }
         return Transition(move, spread)
+    }
+
+    /** The last state as q = s + c, with s what is shown without noise: q ← s′ + [fade] (q − s). */
+    private fun follow(fade: Double, move: DoubleArray, noise: Array<DoubleArray>) {
+        for (j in 0 until size) move[shown * size + j] = move[followed * size + j]
+        move[shown * size + shown] += fade
+        move[shown * size + followed] -= fade
+        noise[followed].copyInto(noise[shown])
     }
 
     /**
@@ -129,8 +160,8 @@ internal class FieldMotion(
      * q ← (1 − w) s₁′ + keep (q − (1 − w) s₁) + w (before u + now u′), with s₁′ the first lag's own next value.
      */
     private fun beside(weights: LagWeights, move: DoubleArray, noise: Array<DoubleArray>) {
-        val shown = size - 1
-        val fast = size - 2
+        val shown = quiet - 1
+        val fast = quiet - 2
         val rest = 1 - slowShare
         for (j in 0 until size) {
             move[shown * size + j] = rest * move[fast * size + j] + slowShare * weights.now * move[j]

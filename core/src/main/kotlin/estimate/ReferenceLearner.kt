@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.sensor.SensorStage
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
@@ -62,6 +63,16 @@ public class ReferenceLearner(
         val (gain, offset) = calibration(response)
         leave(gain, offset)
         return residuals.copyOf()
+    }
+
+    /** Noise of the readings that wanders, sensor units, where the sensor is [response]; null where none shows. */
+    public fun wander(response: Response): SensorStage.Wander? {
+        val left = residuals(response)
+        val rows = left.indices.filter { starts.counts[it] }
+        return WanderingNoise(
+            DoubleArray(rows.size) { series.times[rows[it]] },
+            DoubleArray(rows.size) { left[rows[it]] },
+        ).stage()
     }
 
     /**

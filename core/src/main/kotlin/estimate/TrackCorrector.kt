@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.sensor.SensorStage
 import kotlin.math.exp
 import kotlin.math.hypot
 import kotlin.math.ln
@@ -69,12 +70,13 @@ public class CorrectedTrack internal constructor(
  * @param series the readings. Retained.
  * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
  * @param unusable readings that are known to say nothing, or one side only, of what the sensor is at; more wild ones
- *   may be found.
+ *   may be found. @param wander noise of the readings that wanders, sensor units; null where none is known.
  */
 public class TrackCorrector(
     private val series: TrackSeries,
     private val resolution: Double = 0.0,
     private val unusable: UnusableReadings = UnusableReadings.none(series.size),
+    private val wander: SensorStage.Wander? = null,
 ) {
     init {
         require(unusable.wild.size == series.size) {
@@ -118,6 +120,14 @@ public class TrackCorrector(
         }
         return track
     }
+
+    private fun smoother(
+        stretch: Stretch,
+        response: Response,
+        along: AlongTrack,
+        agitation: DoubleArray,
+        step: Double,
+    ) = TrackSmoother(stretch, response, along, agitation, step, wander)
 
     private val isConstant = series.values.all { it == series.values[0] }
 
@@ -163,7 +173,7 @@ public class TrackCorrector(
         val mean = DoubleArray(stretch.size)
         val variance = DoubleArray(stretch.size)
         val agitation = agitation(stretch, part.response, part.along, part.timed.medianStep)
-        TrackSmoother(stretch, part.response, part.along, agitation, part.timed.medianStep).smooth(mean, variance)
+        smoother(stretch, part.response, part.along, agitation, part.timed.medianStep).smooth(mean, variance)
         for (row in from until to) {
             val i = row - rows.first
             val side = if (!part.sides.silent[row]) {
@@ -188,7 +198,7 @@ public class TrackCorrector(
     /** How much livelier than usual the water is at each reading, from the readings' own surprises. */
     private fun agitation(stretch: Stretch, response: Response, along: AlongTrack, step: Double): DoubleArray {
         val factor = DoubleArray(stretch.size) { 1.0 }
-        val smoother = TrackSmoother(stretch, response, along, factor, step)
+        val smoother = smoother(stretch, response, along, factor, step)
         repeat(ADAPTATIONS) {
             smoother.logLikelihood()
             if (it == ADAPTATIONS - 1) OutlierSearch(stretch, smoother::logLikelihood).mark(smoother.surprises.copyOf())
@@ -226,8 +236,7 @@ public class TrackCorrector(
             // A weak belief keeps what the readings leave open within the log's own scales.
             val belief = (logs[0] - ln(spread)).let { it * it / 8 } +
                 (logs[1] + ln(RATE_STEPS * step)).let { it * it / 32 }
-            return TrackSmoother(stretch, response, at(logs, smoothness), calm, step).logLikelihood() -
-                belief
+            return smoother(stretch, response, at(logs, smoothness), calm, step).logLikelihood() - belief
         }
         val start =
             doubleArrayOf(ln(spread), -ln(RATE_STEPS * step), maxOf(least, ln(spread * FIRST_NOISE)))

@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import stillwater.sensor.SensorStage
 import kotlin.math.PI
 import kotlin.math.hypot
 import kotlin.math.ln
@@ -30,7 +31,8 @@ internal class Stretch(
  * backwards (Bierman 1977, doi:10.1137/0714031), which inverts no matrix.
  *
  * @param stretch the readings. @param response the sensor's. @param along the water's.
- * @param agitation factor on the variance of the field's change over each reading, length n. Retained.
+ * @param agitation factor on the variance of the field's change over each reading, length n. Retained. @param wander noise
+ * of the readings that wanders; null for none.
  */
 internal class TrackSmoother(
     private val stretch: Stretch,
@@ -38,8 +40,9 @@ internal class TrackSmoother(
     private val along: AlongTrack,
     private val agitation: DoubleArray,
     usual: Double,
+    wander: SensorStage.Wander? = null,
 ) {
-    private val motion = FieldMotion(along, response.lags, usual, response.slowShare)
+    private val motion = FieldMotion(along, response.lags, usual, response.slowShare, wander)
     private val size = motion.size
 
     /** Events in the order of time: reading k seen (2k) a dead time early, field at reading k wanted (2k + 1). */
@@ -126,8 +129,7 @@ internal class TrackSmoother(
         }
     }
 
-    /** The sensor shows its last lag, or the field itself. */
-    private val shown = if (response.lags.isEmpty()) 0 else size - 1
+    private val shown = motion.shown
 
     private fun see(reading: Int, tape: Tape?, event: Int) {
         if (stretch.outlying[reading]) return pass(reading)

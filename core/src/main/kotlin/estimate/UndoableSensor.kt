@@ -5,6 +5,7 @@ import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import stillwater.sensor.TimeConstant
 import kotlin.math.abs
+import kotlin.math.hypot
 import kotlin.math.sqrt
 
 /**
@@ -17,6 +18,7 @@ import kotlin.math.sqrt
  * @property needs names of the conditions without which it cannot be undone.
  * @property range between which readings are shown, sensor units; infinite where it has no end. Readings at an end say
  * one side only.
+ * @property wander noise that wanders, sensor units of the readings before all gains; null for none.
  * @property play width of the dead band within which the truth may move unseen, sensor units; 0 for none.
  */
 public class UndoableSensor private constructor(
@@ -26,6 +28,7 @@ public class UndoableSensor private constructor(
     public val needs: Set<String>,
     public val range: ClosedFloatingPointRange<Double> = ENDLESS,
     public val play: Double = 0.0,
+    public val wander: SensorStage.Wander? = null,
 ) {
     public val gain: Double =
         shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { product, stage -> product * stage.gain }
@@ -86,7 +89,23 @@ public class UndoableSensor private constructor(
         val shown = ArrayList<SensorStage>()
         var range = ENDLESS
         var play = 0.0
+        var wander: SensorStage.Wander? = null
         val needs = LinkedHashSet<String>()
+
+        /** The gains so far, dimensionless. */
+        val gain: Double get() = shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { g, c -> g * c.gain }
+
+        /** Several that wander are as one that has the variance of all, for as long as the longest. */
+        fun wanders(stage: SensorStage.Wander) {
+            if (stage.standardDeviation == 0.0) return
+            val own = stage.copy(standardDeviation = stage.standardDeviation / abs(gain))
+            wander = wander?.let {
+                SensorStage.Wander(
+                    hypot(it.standardDeviation, own.standardDeviation),
+                    maxOf(it.correlationTime, own.correlationTime),
+                )
+            } ?: own
+        }
 
         fun follows(change: Response) {
             require(shown.isEmpty()) {
@@ -173,7 +192,15 @@ public class UndoableSensor private constructor(
                 }
             }
             val range = found.range
-            return UndoableSensor(found.response, found.shown, found.changing, found.needs, range, found.play)
+            return UndoableSensor(
+                found.response,
+                found.shown,
+                found.changing,
+                found.needs,
+                range,
+                found.play,
+                found.wander,
+            )
         }
 
         /** Whether a lag that changes with conditions stands beside something else that takes time. */
@@ -191,6 +218,7 @@ public class UndoableSensor private constructor(
             when (stage) {
                 // Outliers are found in the readings one by one.
                 is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
+                is SensorStage.Wander -> found.wanders(stage)
                 is SensorStage.Delay -> found.follows(response.copy(deadTime = response.deadTime + stage.deadTime))
                 is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))
                 is SensorStage.LimitedLag -> {
@@ -225,10 +253,7 @@ public class UndoableSensor private constructor(
                     found.needs += stage.condition
                 }
                 is SensorStage.Range -> found.ends(stage)
-                is SensorStage.Backlash -> {
-                    val gain = found.shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { g, c -> g * c.gain }
-                    found.play += stage.width / abs(gain)
-                }
+                is SensorStage.Backlash -> found.play += stage.width / abs(found.gain)
             }
         }
     }

@@ -66,6 +66,21 @@ public sealed interface SensorStage {
         override fun build(initial: Double, random: Random): SensorModel = GaussianNoise(standardDeviation, random)
     }
 
+    /** [CorrelatedNoise] of [standardDeviation], sensor units, over [correlationTime], s. */
+    @Serializable
+    @SerialName("correlated-noise")
+    public data class Wander(
+        @SerialName("standard_deviation") val standardDeviation: Double,
+        @SerialName("correlation_time_s") val correlationTime: Double,
+    ) : SensorStage {
+        init {
+            build(0.0, Random(0))
+        }
+
+        override fun build(initial: Double, random: Random): SensorModel =
+            CorrelatedNoise(standardDeviation, correlationTime, random)
+    }
+
     /** [Quantisation] to multiples of [step], sensor units. */
     @Serializable
     @SerialName("quantisation")

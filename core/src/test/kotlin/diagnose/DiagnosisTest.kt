@@ -1,6 +1,8 @@
 package stillwater.diagnose
 
+import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.Tag
+import org.junit.jupiter.api.TestFactory
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -73,6 +75,38 @@ class DiagnosisTest {
         // A tenth, the bar for numbers of strong effects.
         assertEquals(8.0, lag.rising, 0.8)
         assertEquals(5.0, lag.falling, 0.5)
+    }
+
+    /** A probe let down from the air settles as it responds: with what is left of 12 units as one lag would, it "warms up". */
+    @TestFactory
+    fun aProbeThatComesFromFarOffSettlesAsItResponds() = listOf(
+        Cause.ASYMMETRIC_RESPONSE to listOf(SensorStage.Asymmetric(8.0, 7.5)),
+        Cause.TWO_PATH_RESPONSE to listOf(SensorStage.TwoPath(5.0, 30.0, 0.1)),
+        Cause.SECOND_ORDER_RESPONSE to listOf(SensorStage.Lag(6.0), SensorStage.Lag(3.0)),
+        Cause.HYSTERESIS to listOf(SensorStage.Lag(6.0), SensorStage.Backlash(0.1)),
+    ).map { (cause, stages) ->
+        dynamicTest("$cause") {
+            val sensor = SensorSpec("hidden", stages + SensorStage.Noise(0.01)).build(truth[0] + 12, Random(7))
+            val values = DoubleArray(n) { i ->
+                // Twenty steps a row, in water that goes straight from row to row.
+                val before = truth[maxOf(i - 1, 0)]
+                (1..20).map { sensor.step(before + (truth[i] - before) * it / 20, 0.05, Conditions.NONE) }.last()
+            }
+            val times = DoubleArray(n) { it.toDouble() }
+            val found = Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, truth)).run()
+            assertEquals(Verdict.Named(listOf(cause)), found.verdict)
+        }
+    }
+
+    @Test
+    fun noiseThatWandersIsInTheSensor() {
+        val result = Diagnosis(log(SensorStage.Lag(6.0), SensorStage.Wander(0.02, 8.0))).run()
+        val wander = result.baseSensor.stages.filterIsInstance<SensorStage.Wander>().single()
+        // Ninety times 8 s: a standard error of some 10 % of the deviation.
+        assertEquals(0.02, wander.standardDeviation, 0.006)
+        assertEquals(8.0, wander.correlationTime, 5.0)
+        val noise = result.baseSensor.stages.filterIsInstance<SensorStage.Noise>().single()
+        assertEquals(0.01, noise.standardDeviation, 0.003)
     }
 
     @Test

@@ -58,7 +58,11 @@ internal data class Learned(
 ) {
     /** What is undone of [stages] before the [likely] responses are: of a given sensor all that is not in its response. */
     val calibration: List<SensorStage>
-        get() = if (origin == SensorOrigin.GIVEN) stages else stages.filterIsInstance<SensorStage.Calibration>()
+        get() = if (origin == SensorOrigin.GIVEN) {
+            stages
+        } else {
+            stages.filter { it is SensorStage.Calibration || it is SensorStage.Wander }
+        }
 
     /** Whether delays differ along a track on which too few crossings, see [agreement], show that better. */
     fun isUneven(agreement: TrackAgreement): Boolean = (unevenness(agreement) ?: 0.0) > 0
@@ -239,7 +243,7 @@ internal object SensorLearning {
         val response = choice.first.response
         val (gain, offset) = learner.calibration(response)
         val calibration = SensorStage.Calibration(if (gain == 0.0) 1.0 else gain, offset)
-        val stages = response.stages(series.referenceSpeed) + calibration
+        val stages = response.stages(series.referenceSpeed) + listOfNotNull(calibration, learner.wander(response))
         return Learned(
             SensorOrigin.REFERENCE,
             choice,

@@ -38,6 +38,7 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
         Cause.OFFSET_STEPS -> (stage as? SensorStage.Jumps)?.let { jumps ->
             "at " + jumps.times.joinToString(" and ") { seconds(it) }
         }
+        Cause.CROSS_SENSITIVITY -> (stage as? SensorStage.Cross)?.let { "of ${it.condition}" }
         Cause.QUANTISATION -> (stage as? SensorStage.Quantum)?.let { "steps of ${three.format(it.step)}$unitAfter" }
         else -> null
     }

@@ -81,6 +81,7 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
                         longest += stage.timeConstant * if (stage.slowShare > 0) stage.slowOverFast else 1.0
                     is SensorStage.Delay -> longest += stage.deadTime
                     is SensorStage.Noise -> error += NOISE_REACH * stage.standardDeviation
+                    is SensorStage.Wander -> error += NOISE_REACH * stage.standardDeviation
                     is SensorStage.Quantum -> error += stage.step / 2
                     is SensorStage.Backlash -> error += stage.width / 2
                     else -> Unit
@@ -97,6 +98,7 @@ class MapWorth(val before: Double, val after: Double, val error: Double, val env
                     is SensorStage.Slew -> stage.copy(rate = stage.rate / range)
                     is SensorStage.LimitedLag -> stage.copy(rate = stage.rate / range)
                     is SensorStage.Noise -> stage.copy(standardDeviation = stage.standardDeviation / range)
+                    is SensorStage.Wander -> stage.copy(standardDeviation = stage.standardDeviation / range)
                     is SensorStage.Quantum -> stage.copy(step = stage.step / range)
                     is SensorStage.Calibration ->
                         stage.copy(offset = (stage.gain * zero + stage.offset - zero) / range)
