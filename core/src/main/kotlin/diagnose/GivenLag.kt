@@ -65,6 +65,6 @@ internal class GivenLag(
             spec.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
 
         private fun isLookedAt(stage: SensorStage) = stage is SensorStage.Lag || stage is SensorStage.Delay ||
-            stage is SensorStage.Calibration || stage is SensorStage.Noise
+            stage is SensorStage.Calibration || stage is SensorStage.Noise || stage is SensorStage.Wander
     }
 }

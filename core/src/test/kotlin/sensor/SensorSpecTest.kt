@@ -160,7 +160,7 @@ class SensorSpecTest {
             stage("""{"type": "warp", "factor": 9}""") to
                 listOf(
                     "type",
-                    "asymmetric-lag, combined-lag, cross-sensitivity, dead-time, drift, first-order-lag",
+                    "asymmetric-lag, combined-lag, correlated-noise, cross-sensitivity, dead-time, drift, first-order",
                     "stages[1]",
                 ),
             stage("""{"type": "first-order-lag", "time_constant_s": -2}""") to

@@ -360,10 +360,10 @@ class BenchmarkBadInputTest {
             sensor(":1:1: expected an object in braces with name, stages, found the end", ""),
             sensor(":1:1: expected the field stages, found none", """{"name": "x"}"""),
             sensor(
-                ":1:35: stages[0].type: expected one of asymmetric-lag, combined-lag, cross-sensitivity, dead-time, " +
-                    "drift, first-order-lag, flow-dependent-lag, gain-offset, hysteresis, noise, offset-steps, " +
-                    "outliers, quantisation, rate-limited-lag, saturation, slew-limit, temperature-dependent-lag, " +
-                    "two-path-lag, found 'magic'",
+                ":1:35: stages[0].type: expected one of asymmetric-lag, combined-lag, correlated-noise, " +
+                    "cross-sensitivity, dead-time, drift, first-order-lag, flow-dependent-lag, gain-offset, " +
+                    "hysteresis, noise, offset-steps, outliers, quantisation, rate-limited-lag, saturation, " +
+                    "slew-limit, temperature-dependent-lag, two-path-lag, found 'magic'",
                 """{"name": "x", "stages": [{"type": "magic"}]}""",
             ),
             sensor(
