@@ -23,14 +23,7 @@ internal class FixScatter(
         median(DoubleArray(n) { hypot(series.x[it] - track.x[it], series.y[it] - track.y[it]) }) / RAYLEIGH_MEDIAN
 
     /** Root mean square of how steep what the sensor shows is along the way, sensor units/m. */
-    private val steepness: Double = run {
-        val shown = last.shown
-        val slopes = (1 until n - 1).mapNotNull { i ->
-            val way = hypot(track.x[i + 1] - track.x[i - 1], track.y[i + 1] - track.y[i - 1])
-            if (way > 0) (shown[i + 1] - shown[i - 1]) / way else null
-        }
-        sqrt(slopes.sumOf { it * it } / maxOf(slopes.size, 1))
-    }
+    private val steepness: Double = sqrt(squares(last.modes.steepness(last.shown)) / n)
 
     /** What readings scatter by themselves, sensor units: third differences hold 20 times its square, and no water. */
     private val own: Double = run {

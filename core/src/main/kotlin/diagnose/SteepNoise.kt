@@ -13,7 +13,7 @@ internal object SteepNoise {
     fun of(state: BlindState, noise: CorrelatedNoise): BlindNoise {
         val series = state.model.series
         val n = series.size
-        val steep = state.modes.steepness(state.fit.heights)
+        val steep = state.modes.let { it.steepness(it.along(state.fit.heights)) }
         val tau = maxOf(state.timeConstant, series.period)
         var felt = 0.0
         for (i in 0 until n) {

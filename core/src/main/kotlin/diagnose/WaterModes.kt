@@ -205,14 +205,11 @@ internal class WaterModes private constructor(
         return out
     }
 
-    /** How steep the water with heights [beta] is along the way at each row, sensor units/m. */
-    fun steepness(beta: DoubleArray): DoubleArray {
-        val u = along(beta)
-        return DoubleArray(n) { i ->
-            val from = maxOf(i - 1, 0)
-            val to = minOf(i + 1, n - 1)
-            (u[to] - u[from]) / maxOf(hypot(track.x[to] - track.x[from], track.y[to] - track.y[from]), step)
-        }
+    /** How steep [column], length n, is along the way at each row, its units/m; a boat that stands still goes a usual step. */
+    fun steepness(column: DoubleArray): DoubleArray = DoubleArray(n) { i ->
+        val from = maxOf(i - 1, 0)
+        val to = minOf(i + 1, n - 1)
+        (column[to] - column[from]) / maxOf(hypot(track.x[to] - track.x[from], track.y[to] - track.y[from]), step)
     }
 
     companion object {

@@ -30,8 +30,7 @@ public class UndoableSensor private constructor(
     public val play: Double = 0.0,
     public val wander: SensorStage.Wander? = null,
 ) {
-    public val gain: Double =
-        shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { product, stage -> product * stage.gain }
+    public val gain: Double = gainOf(shown)
 
     /**
      * [series] as a sensor with the response alone would have read it, in the time in which that is constant.
@@ -93,7 +92,7 @@ public class UndoableSensor private constructor(
         val needs = LinkedHashSet<String>()
 
         /** The gains so far, dimensionless. */
-        val gain: Double get() = shown.filterIsInstance<SensorStage.Calibration>().fold(1.0) { g, c -> g * c.gain }
+        val gain: Double get() = gainOf(shown)
 
         /** Several that wander are as one that has the variance of all, for as long as the longest. */
         fun wanders(stage: SensorStage.Wander) {
@@ -168,6 +167,9 @@ public class UndoableSensor private constructor(
     public companion object {
         /** A range without ends. */
         public val ENDLESS: ClosedFloatingPointRange<Double> = Double.NEGATIVE_INFINITY..Double.POSITIVE_INFINITY
+
+        private fun gainOf(stages: List<SensorStage>) =
+            stages.filterIsInstance<SensorStage.Calibration>().fold(1.0) { product, stage -> product * stage.gain }
 
         private const val TWO_LIMITS = "two limits of the rate cannot be undone"
         private const val WITH_OTHERS =
