@@ -57,14 +57,13 @@ internal class BlindAnswer(
         val certain = if (end.isOfTime(strongest)) CERTAIN_OF_TIME else CERTAIN
         val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
             (chosen.isEmpty() && (end.isOfBoat(strongest) || left.first().adjusted < certain))
-        // Who gives one number for many readings shows nothing else; what hides in noise shows where nothing was found.
+        // One number for many readings hides all else; what hides in noise shows where nothing was found.
         val unlisted = still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
-        val verdict = verdict(all, left.first(), looks[strongest].sureness, isOthers, chosen, unlisted)
+        val verdict = verdict(all, left.first(), strongest, end, isOthers, chosen, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
-        val shown = asFit(named)
-        val sensor = ExtendedSensor(shown, outliers.size()?.takeIf { isLoose }, isRounded, range = range)
+        val sensor = ExtendedSensor(asFit(named), outliers.size()?.takeIf { isLoose }, isRounded, range = range)
         val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
         val tried = candidates(first).map { candidate ->
             if (candidate.cause == Cause.SATURATION && range != null) ended(candidate, range, still) else candidate
@@ -109,13 +108,14 @@ internal class BlindAnswer(
         changed > NAMED_CHANGE && chosen.isNotEmpty() && chosen.none { it.trial.term?.cause == Cause.QUANTISATION }
 
     /**
-     * Where [left] is the strongest of what is left, with [sureness], which [isOthers] if a lag that may be of either
-     * kind is not enough for it; [unlisted] is what hides all else, in words.
+     * Where [left] is the [strongest] of what is left at the [end], which [isOthers] if a lag that may be of either kind is
+     * not enough for it; [unlisted] is what hides all else, in words.
      */
     private fun verdict(
         all: List<List<Cause>>,
         left: Dependence,
-        sureness: Double,
+        strongest: Int,
+        end: BlindRound,
         isOthers: Boolean,
         chosen: List<BlindStep>,
         unlisted: String?,
@@ -125,22 +125,22 @@ internal class BlindAnswer(
         val weakest = chosen.minOfOrNull { it.trial.sureness }
         val outweighs = when {
             isOpen && isOthers -> true
-            weakest != null -> sureness > LEFT * weakest
+            weakest != null -> end.looks[strongest].sureness > LEFT * weakest
             else -> !isOpen
         }
         // An end at which readings stand still is in no model, and shows in what is left.
-        val isEnded =
-            listOf(Cause.SATURATION) in all && chosen.none { it.trial.term?.cause == Cause.SATURATION }
+        val isEnded = listOf(Cause.SATURATION) in all && chosen.none { it.trial.term?.cause == Cause.SATURATION }
         val isStructured = left.adjusted < settings.structureLevel && outweighs && !isEnded
         val sets = all + listOfNotNull(lagSet(isOpen))
-        val contradicted = chosen.map { it.trial }
-            .firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
+        val contradicted = chosen.map { it.trial }.firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
         return when {
             unlisted != null -> Verdict.Unexplained(unlisted, listOfNotNull(openLag(isOpen)))
             contradicted != null -> Verdict.Unexplained(
                 "the halves of the log contradict each other about the ${contradicted.name}",
                 listOfNotNull(openLag(isOpen)),
             )
+            isStructured && end.isOfWater(strongest) && search.fixes.areFar(last) ->
+                Verdict.InsufficientData("fixes that are so far off may be why residuals depend on ${left.description}")
             isStructured ->
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->

@@ -3,19 +3,37 @@ package stillwater.diagnose
 import kotlin.math.ln
 
 /**
- * How readings are whitened: each is divided by its own spread, then the correlation of [noise] is taken off.
+ * How readings are whitened: each is divided by its own spread, then the correlation of [noise] is taken off, and that of
+ * what [places] add to it.
  *
- * @property spread relative standard deviation of each row's noise, length n, above 0.
+ * @property spread relative standard deviation of each row's noise, length n, above 0. @property places errors of fixes;
+ *   null where they do nothing.
  */
-internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
+internal class BlindNoise(
+    val noise: CorrelatedNoise,
+    val spread: DoubleArray,
+    val places: PlaceErrors? = null,
+) {
+    private val placed = places?.let { PlacedNoise(noise, it) }
+
+    /** The same with [other] for [noise]. */
+    fun with(other: CorrelatedNoise) = BlindNoise(other, spread, places)
+
+    /** The same with another [spread]. */
+    fun with(spread: DoubleArray) = BlindNoise(noise, spread, places)
+
+    /** The same where [rows] alone are in use. */
+    fun over(rows: BooleanArray) = with(noise.over(rows))
+
     /** Whitens [column] into [out], which may be the same. */
     fun whiten(column: DoubleArray, out: DoubleArray) {
         for (i in column.indices) out[i] = column[i] / spread[i]
-        noise.whiten(out, out)
+        if (placed == null) noise.whiten(out, out) else placed.whiten(out, out)
     }
 
     /** Whitens [columns] from [from] until [to] where they are, two together: each waits for its own row before. */
     fun whiten(columns: List<DoubleArray>, from: Int, to: Int) {
+        if (placed != null) return (from until to).forEach { whiten(columns[it], columns[it]) }
         for (k in from until to step 2) {
             val one = columns[k]
             if (k + 1 == to) return whiten(one, one)
@@ -32,7 +50,7 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
     fun turned(whitened: DoubleArray): DoubleArray = DoubleArray(whitened.size).also { turned(whitened, it) }
 
     private fun turned(whitened: DoubleArray, out: DoubleArray) {
-        noise.turned(whitened, out)
+        if (placed == null) noise.turned(whitened, out) else placed.turned(whitened, out)
         for (i in out.indices) out[i] /= spread[i]
     }
 
@@ -47,11 +65,11 @@ internal class BlindNoise(val noise: CorrelatedNoise, val spread: DoubleArray) {
     }
 
     /** Whether [other] whitens in the same way. */
-    fun isSame(other: BlindNoise): Boolean =
-        this === other || (noise.isSame(other.noise) && spread.contentEquals(other.spread))
+    fun isSame(other: BlindNoise): Boolean = this === other ||
+        (places === other.places && noise.isSame(other.noise) && spread.contentEquals(other.spread))
 
     /** Sum of ln of the variances that whitening divides by. */
-    val logDeterminant: Double = noise.logDeterminant + 2 * spread.sumOf { ln(it) }
+    val logDeterminant: Double = (placed?.logDeterminant ?: noise.logDeterminant) + 2 * spread.sumOf { ln(it) }
 }
 
 /**

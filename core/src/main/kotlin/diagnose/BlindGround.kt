@@ -4,6 +4,7 @@ package stillwater.diagnose
 internal class BlindGround(series: MeasuredSeries, loops: Loops) {
     val track = SmoothTrack.of(series)
     val scales = Scales(series)
+    val fixes = FixScatter(series, track, scales.resolution)
     val designs = BlindColumns(series, scales, loops)
     private val few = (series.size / 5).coerceIn(BlindSearch.FEWEST_WAVES, BlindSearch.MOST_WAVES / 2)
     val rough = WaterModes.flat(series, track, few, loops = loops)

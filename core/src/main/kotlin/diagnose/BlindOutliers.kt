@@ -11,7 +11,7 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     private val spread = sqrt(state.variance)
     private val z = DoubleArray(series.size).also { out ->
         val all = BooleanArray(series.size) { true }
-        BlindNoise(noise.noise.over(series.times, all), noise.spread).whiten(state.residuals, out)
+        noise.over(all).whiten(state.residuals, out)
     }
     private val residuals = state.residuals
     private val resolution = state.model.scales.resolution

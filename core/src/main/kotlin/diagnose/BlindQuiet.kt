@@ -46,9 +46,14 @@ internal fun BlindSearch.likelier(state: BlindState, quiet: BlindState): BlindSt
  * not have, and leaves little for it to explain.
  */
 internal fun BlindSearch.quiet(state: BlindState): BlindState? =
-    if (state.fit.design.noise.noise.share < WANDERING) null else climbed(again(state, hardlyWandering(state)))
+    state.fit.design.noise.let {
+        val isQuiet = it.noise.share < WANDERING && it.places == null
+        if (isQuiet) null else climbed(again(state, hardlyWandering(state)))
+    }
 
 private fun BlindSearch.hardlyWandering(state: BlindState) =
-    BlindNoise(noise(QUIET, BlindSearch.FIRST_STEPS), state.fit.design.noise.spread)
+    noise(QUIET, BlindSearch.FIRST_STEPS).let {
+        if (state.fit.design.noise.places == null) state.fit.design.noise.with(it) else steep.without(state, it)
+    }
 
 private fun isFar(state: BlindState, quiet: BlindState) = state.score - quiet.score > FAR_BEHIND

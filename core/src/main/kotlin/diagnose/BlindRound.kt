@@ -5,8 +5,8 @@ import kotlin.math.ln
 /**
  * All causes and looks on top of one model of a log without a reference.
  *
- * @param lag what the log says of a lag alone: where not even a time constant and a dead time can be told apart nothing
- *   between them can be named. @param arms looks for far arms. @param settledStill the model on water that does not
+ * @param lag what the log says of a lag alone: where not even a time constant and a dead time can be told apart, nothing
+ *   between them can be named, nor where fixes are far off. @param arms looks for far arms. @param settledStill the model on water that does not
  *   change. @param tell told how much of the round is done, 0..1.
  */
 internal class BlindRound(
@@ -56,7 +56,7 @@ internal class BlindRound(
         if (open.isResolved) changing / BlindEvidence.inflation(listOf(column), open.whitened) else 0.0
     }
 
-    private val terms = BlindTerms.of(search, !isShapeOpen).filter(::isNew)
+    private val terms = BlindTerms.of(search, !isShapeOpen && !search.fixes.areFar(state)).filter(::isNew)
 
     /**
      * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:

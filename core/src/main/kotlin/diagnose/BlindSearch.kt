@@ -24,6 +24,10 @@ internal class BlindSearch private constructor(
     /** Where the boat was. */
     val track: SmoothTrack get() = ground.track
 
+    /** How far fixes scatter. */
+    val fixes: FixScatter get() = ground.fixes
+    val steep = SteepNoise(ground.fixes)
+
     /** Quantities of the log. */
     val scales: Scales get() = ground.scales
     val designs get() = ground.designs
@@ -55,7 +59,7 @@ internal class BlindSearch private constructor(
         val open = gaps ?: return state
         val now = state.fit.design.noise
         shocks = open.shocks(state.timeConstant, 1.0, sqrt(state.variance), isHeld = false)
-        return again(state, BlindNoise(noiseOver(now.noise.share, now.noise.time), now.spread))
+        return again(state, now.with(noiseOver(now.noise.share, now.noise.time)))
     }
 
     /** The same search in readings that are less by [change], length n. */
@@ -171,7 +175,7 @@ internal class BlindSearch private constructor(
         val noises = SHARES.flatMap { share ->
             TIMES.filter { share > 0 || it == TIMES[0] }.map { steps -> noise(share, steps) }
         }
-        return (listOf(state) + loops.all(noises) { again(state, SteepNoise.of(state, it)) }).maxBy { it.score }
+        return (listOf(state) + loops.all(noises) { again(state, steep.of(state, it)) }).maxBy { it.score }
     }
 
     /** [state] with noise that wanders less or more, and sooner or later, as long as that suits it better. */
@@ -186,7 +190,7 @@ internal class BlindSearch private constructor(
             if (toShare !in SHARES.indices || toTime !in TIMES.indices || (share == 0 && toShare == 0)) return false
             val noise = noise(SHARES[toShare], TIMES[toTime])
             if (!asked.add(toShare to toTime) || best.isFarBehind(noise)) return false
-            val next = again(best, BlindNoise(noise, best.fit.design.noise.spread))
+            val next = again(best, steep.with(best, noise))
             if (next.score <= best.score) {
                 best.learn(noise, best.score - next.score)
                 return false
@@ -212,9 +216,9 @@ internal class BlindSearch private constructor(
     fun evened(state: BlindState): BlindState {
         val now = state.fit.design.noise
         val noise = noiseOver(now.noise.share, now.noise.time)
-        var best = if (now.noise.rows == noise.rows) state else again(state, BlindNoise(noise, now.spread))
+        var best = if (now.noise.rows == noise.rows) state else again(state, now.with(noise))
         repeat(EVENINGS) {
-            val next = again(best, SteepNoise.of(best, noise))
+            val next = again(best, steep.of(best, noise))
             val gain = next.score - best.score
             if (gain > 0) best = next
             if (!(gain > ENOUGH)) return best

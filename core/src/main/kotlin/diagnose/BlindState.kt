@@ -71,6 +71,9 @@ internal class BlindState(
     /** The water along the track, sensor units. */
     val water: DoubleArray get() = checkNotNull(model.series.reference)
 
+    /** How the water rises to the east and to the north at each row, sensor units/m; null where the track is a line. */
+    val gradient: Pair<DoubleArray, DoubleArray>? by lazy { modes.gradient(fit.heights) }
+
     /** Whether the finest waves are small, over the noise: where they are not, still finer ones may be there. */
     val isResolved: Boolean
         get() = modes.isWhole || (!modes.isCut && power(modes.bands - 1) < MOST_FINEST * variance)

@@ -70,7 +70,7 @@ internal class BlindWarnings(
                     "passes looks like a sensor that also shows it.",
             )
         }
-        addAll(listOfNotNull(FixScatter(series, search, last).words(), rounding?.words(), search.gaps?.words()))
+        addAll(listOfNotNull(search.fixes.words(last), rounding?.words(), search.gaps?.words()))
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }

@@ -254,7 +254,7 @@ internal class CauseSearch(
 
     /** The gain where each row counts as much as readings scatter there: noise need not be the same everywhere. */
     private fun evenly(base: ModelFit, best: ModelFit): Double {
-        val noise = best.noise.over(series.times, used)
+        val noise = best.noise.over(used)
         val before = DoubleArray(used.size).also { noise.whiten(base.residuals, it) }
         val after = DoubleArray(used.size).also { noise.whiten(best.residuals, it) }
         val factors = LocalSpread.of(best, after)

@@ -14,16 +14,15 @@ import kotlin.math.sqrt
  *
  * Source: Jones 1981, Fitting a continuous time autoregression to discrete data, in Applied Time Series Analysis II.
  *
- * [shocks] add what is not known of the sensor's state after a gap: a second process, filtered with the first.
- *
- * @property share φ, dimensionless, within 0..1. @property time τ, s, above 0.
+ * @property times of the rows, s. @property share φ, dimensionless, within 0..1. @property time τ, s, above 0. @property used whether a row counts.
+ * @property shocks add what is not known of the sensor's state after a gap: a second process, filtered with the first.
  */
 internal class CorrelatedNoise(
-    times: DoubleArray,
+    val times: DoubleArray,
     val share: Double,
     val time: Double,
-    private val used: BooleanArray,
-    private val shocks: UnknownTruth.Shocks? = null,
+    val used: BooleanArray,
+    val shocks: UnknownTruth.Shocks? = null,
 ) {
     private val keep = DoubleArray(times.size)
     private val gain = DoubleArray(times.size)
@@ -174,7 +173,7 @@ internal class CorrelatedNoise(
         share == other.share && time == other.time && shocks === other.shocks && used.contentEquals(other.used)
 
     /** The same noise where [rows] alone are in use. */
-    fun over(times: DoubleArray, rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks)
+    fun over(rows: BooleanArray) = CorrelatedNoise(times, share, time, rows, shocks)
 
     /**
      * Twice the log-likelihood, less a constant, of whitened residuals with the square sum [squares]; σ² is profiled.
@@ -182,7 +181,8 @@ internal class CorrelatedNoise(
     fun twiceLogLikelihood(squares: Double): Double = twiceLogLikelihood(squares, rows, logDeterminant)
 
     companion object {
-        private const val SMALLEST = 1e-9
+        /** Part of the variance that is added to each innovation's, so that none is 0. */
+        const val SMALLEST = 1e-9
         private const val SAME = 1e-9
         private const val SAME_VARIANCE = 1e-13
         private const val TINY = 1e-290

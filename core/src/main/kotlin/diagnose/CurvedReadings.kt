@@ -46,7 +46,7 @@ internal class CurvedReadings(private val search: BlindSearch, private val state
         // Noise is of the readings as they are.
         val noise = state.fit.design.noise
         val spreads = DoubleArray(standard.size) { noise.spread[it] / sqrt(slopes[it]) }
-        return Curved(straight, straight.improved(straight.again(state, BlindNoise(noise.noise, spreads))), gain)
+        return Curved(straight, straight.improved(straight.again(state, noise.with(spreads))), gain)
     }
 
     /** Where the parabola through three [points] is highest; the middle one of them is the highest. */

@@ -36,9 +36,9 @@ internal object HeldOut {
             val held = BooleanArray(n) { used[it] && stretches[it] % FOLDS == fold }
             val trained = BooleanArray(n) { used[it] && !held[it] }
             val times = fit.model.series.times
-            val train = fit.noise.over(times, trained)
+            val train = fit.noise.over(trained)
             val refit = Fitting.fit(fit.model, fit.numbers, free, trained, fit.noise.time, noise = train)
-            val test = fit.noise.over(times, held)
+            val test = fit.noise.over(held)
             val z = DoubleArray(n)
             test.whiten(refit.residuals, z)
             for (i in 0 until n) if (held[i]) squareSum += refit.residuals[i] * refit.residuals[i]

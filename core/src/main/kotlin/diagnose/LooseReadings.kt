@@ -55,7 +55,7 @@ internal class LooseReadings(private val fit: ModelFit) {
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->
-        fit.noise.over(series.times, rows).whiten(fit.residuals, out)
+        fit.noise.over(rows).whiten(fit.residuals, out)
         for (i in out.indices) if (isInDoubt(i)) out[i] = 0.0
     }
 

@@ -15,12 +15,13 @@ import kotlin.math.sin
  * through the others alone.
  *
  * @property x metres east, length n. @property y metres north, length n. @property behind how far behind the fixes these
- *   places are, m.
+ *   places are, m. @property fixes how far fixes scatter about this and about narrower parabolas.
  */
 internal class SmoothTrack private constructor(
     private val series: MeasuredSeries,
     val x: DoubleArray,
     val y: DoubleArray,
+    val fixes: FixErrors,
     val behind: Double = 0.0,
     boat: SmoothTrack? = null,
 ) {
@@ -54,7 +55,7 @@ internal class SmoothTrack private constructor(
             if (isFirst) for (k in 0 until i) put(k)
             put(i)
         }
-        return SmoothTrack(series, east, north, distance, this)
+        return SmoothTrack(series, east, north, fixes, distance, this)
     }
 
     companion object {
@@ -69,15 +70,19 @@ internal class SmoothTrack private constructor(
             val known = RepeatedFixes.known(series)
             val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, known, it) }
             val best = fits.minBy { it.missed }
-            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys) ?: return SmoothTrack(series, best.x, best.y)
+            fun errors(used: Parabolas) =
+                FixErrors(used.reach, used.scatter, fits[1].scatter / fits[0].scatter, used.period)
+            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys)
+                ?: return SmoothTrack(series, best.x, best.y, errors(best))
             val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
             val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
             val other = LONG_REACHES.map { Parabolas(series, east, north, known, it) }.minBy { it.missed }
-            if (other.missed > best.missed) return SmoothTrack(series, best.x, best.y)
+            if (other.missed > best.missed) return SmoothTrack(series, best.x, best.y, errors(best))
             return SmoothTrack(
                 series,
                 DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
                 DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
+                errors(other),
             )
         }
     }
@@ -85,10 +90,10 @@ internal class SmoothTrack private constructor(
     /** Parabolas through [reach] rows either side of those whose fix is [known]. */
     private class Parabolas(
         private val series: MeasuredSeries,
-        from: DoubleArray,
-        north: DoubleArray,
+        private val from: DoubleArray,
+        private val north: DoubleArray,
         private val known: BooleanArray,
-        private val reach: Int,
+        val reach: Int,
     ) {
         val x = from.copyOf()
         val y = north.copyOf()
@@ -105,6 +110,19 @@ internal class SmoothTrack private constructor(
                     out[i] = middle(column, rows, i, false)
                 }
             }
+        }
+
+        private val fresh = known.indices.filter { known[it] }
+
+        /** Standard deviation of a fix about these on either axis, m: the median distance is 1.18 of it. */
+        val scatter: Double by lazy {
+            median(DoubleArray(fresh.size) { fresh[it].let { i -> hypot(from[i] - x[i], north[i] - y[i]) } }) /
+                RAYLEIGH_MEDIAN
+        }
+
+        /** From one new fix to the next, s. */
+        val period: Double by lazy {
+            median(DoubleArray(fresh.size - 1) { series.times[fresh[it + 1]] - series.times[fresh[it]] })
         }
 
         private fun rows(i: Int): IntRange {
@@ -148,6 +166,7 @@ internal class SmoothTrack private constructor(
 
         private companion object {
             const val FEWEST = 4
+            const val RAYLEIGH_MEDIAN = 1.1774
         }
     }
 }

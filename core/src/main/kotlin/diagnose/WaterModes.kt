@@ -56,6 +56,8 @@ internal class WaterModes private constructor(
     var isCut: Boolean = false
         private set
 
+    private var gradient: RingGradient? = null
+
     /** The processes that change in time. */
     val moving: IntRange
 
@@ -79,6 +81,7 @@ internal class WaterModes private constructor(
             val found = rings.columns(spectrum, left, still)
             isCut = !isFlat && found.left > MOST_CUT
             val columns = found.all.groupBy({ it.first }, { it.second }).toSortedMap()
+            gradient = found.gradient
             lengths = List(next) { Double.POSITIVE_INFINITY } + columns.keys.map { rings.lengths[it] }
             finest = lengths.last()
             columns.forEach { (ring, own) ->
@@ -204,6 +207,13 @@ internal class WaterModes private constructor(
         Combination.add(found, beta, out)
         return out
     }
+
+    /**
+     * How what is still of the water with [heights] rises to the east and to the north at each row, sensor units/m; null where
+     * the track is a line.
+     */
+    fun gradient(heights: DoubleArray): Pair<DoubleArray, DoubleArray>? =
+        gradient?.of(along(DoubleArray(size) { if (band[it] > moving.last) heights[it] else 0.0 }))
 
     /** How steep [column], length n, is along the way at each row, its units/m; a boat that stands still goes a usual step. */
     fun steepness(column: DoubleArray): DoubleArray = DoubleArray(n) { i ->

@@ -61,8 +61,11 @@ internal class WaterRings(
         return low
     }
 
-    /** Columns along the track and the ring of each in [all], and the variance that they leave of some row, [left]. */
-    class Columns(val all: List<Pair<Int, DoubleArray>>, val left: Double)
+    /**
+     * Columns along the track and the ring of each in [all], the variance that they leave of some row, [left], and what
+     * tells the gradient of their sums.
+     */
+    class Columns(val all: List<Pair<Int, DoubleArray>>, val left: Double, val gradient: RingGradient)
 
     /**
      * Columns along the track and the ring of each, the longest waves first.
@@ -74,7 +77,8 @@ internal class WaterRings(
         val factor = factor(spectrum, left, most, 1)
         val turned = SymmetricEigen(order(factor, spectrum), loops)
         val rings = List(factor.pivots.size) { turned.values[it].roundToInt().coerceIn(0, size - 1) }
-        return Columns(rings.zip(turned(factor, turned.vectors)).sortedBy { it.first }, factor.left)
+        val gradient = RingGradient(x, y, factor.pivots, step(spectrum)) { covariance(spectrum, it) }
+        return Columns(rings.zip(turned(factor, turned.vectors)).sortedBy { it.first }, factor.left, gradient)
     }
 
     /** In what order waves are: L⁻¹ (Σ ring · its covariance) L⁻ᵀ has the ring of a wave for its eigenvalue. */

@@ -1,36 +1,67 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Test
-import stillwater.model.Conditions
-import stillwater.sensor.SensorSpec
-import stillwater.sensor.SensorStage
-import kotlin.random.Random
+import kotlin.math.exp
+import kotlin.math.sqrt
 import kotlin.test.assertEquals
 import kotlin.test.assertNotNull
+import kotlin.test.assertTrue
 
 class FixScatterTest {
     private val n = 900
     private val track = CrossingTrack(n)
-    private val values: DoubleArray = run {
-        val sensor = SensorSpec("", listOf(SensorStage.Lag(5.0), SensorStage.Noise(0.004)))
-            .build(track.truth[0], Random(7))
-        DoubleArray(n) { sensor.step(track.truth[it], 1.0, Conditions.NONE) }
+    private val shown = track.shown(LAG)
+
+    /** The log with fixes that are off by what [errors] makes of [java.util.Random], m, on either axis. */
+    private fun log(noise: Double, errors: (java.util.Random) -> DoubleArray): MeasuredSeries {
+        val random = java.util.Random(SEED)
+        val values = DoubleArray(n) { shown[it] + noise * random.nextGaussian() }
+        fun off(column: DoubleArray) = errors(random).let { error -> DoubleArray(n) { column[it] + error[it] } }
+        return MeasuredSeries(track.times, off(track.x), off(track.y), values, null)
     }
 
-    /** What is said of fixes that are off by [scatter], m, on either axis. */
-    private fun warning(scatter: Double): String? {
-        val random = java.util.Random(3)
-        fun off(column: DoubleArray) = DoubleArray(n) { column[it] + scatter * random.nextGaussian() }
-        val log = MeasuredSeries(DoubleArray(n) { it.toDouble() }, off(track.x), off(track.y), values, null)
-        return Diagnosis(log).run().warnings.firstOrNull { "fixes scatter" in it }
+    private fun scattered(by: Double) = log(0.004) { random -> DoubleArray(n) { by * random.nextGaussian() } }
+
+    private fun wandering(by: Double, time: Double) = log(0.03) { random ->
+        val keep = exp(-1 / time)
+        var now = by * random.nextGaussian()
+        DoubleArray(n) {
+            now = keep * now + by * sqrt(1 - keep * keep) * random.nextGaussian()
+            now
+        }
     }
+
+    private fun told(result: DiagnosisResult) =
+        result.warnings.firstOrNull { "fixes are off" in it || "fixes scatter" in it }
 
     @Test
+    fun fixesThatAreRightAreNotSpokenOf() = assertEquals(null, told(Diagnosis(scattered(0.0)).run()))
+
+    /** The parabolas through the fixes about each one leave about a third of errors that are new with each. */
+    @Test
     fun fixesThatScatterByMoreThanTheReadingsDoAreTold() {
-        assertEquals(null, warning(0.0))
-        val told = assertNotNull(warning(0.8))
-        // A parabola through the fixes about each one takes part of its own error.
-        val scatter = Regex("scatter by ([0-9.]+) m about").find(told)?.groupValues?.get(1)?.toDouble()
-        assertEquals(0.8, assertNotNull(scatter, told), 0.1, told)
+        val told = assertNotNull(told(Diagnosis(scattered(0.8)).run()))
+        val by = Regex("(off by some|scatter by) ([0-9.]+) m").find(told)?.groupValues?.get(2)?.toDouble()
+        assertTrue(assertNotNull(by, told) in 0.15..0.9, told)
+    }
+
+    /** An error that wanders is in the readings as the water is steep, and no response of another shape. */
+    @Test
+    fun fixesThatWanderAreToldAndNothingElseIsFound() {
+        val result = Diagnosis(wandering(0.35, 10.0)).run()
+        assertTrue(result.verdict is Verdict.Consistent, "${result.verdict}, seed $SEED")
+        val told = assertNotNull(told(result))
+        val by = Regex("off by some ([0-9.]+) m for ([0-9.]+) s").find(told)?.groupValues
+        val (deviation, time) = assertNotNull(by, told).drop(1).map { it.toDouble() }
+        assertEquals(0.35, deviation, 0.15, told)
+        assertTrue(time in 4.0..25.0, told)
+        val lag = result.baseline.parameters.first { it.name == "time_constant_s" }
+        val interval = assertNotNull(lag.interval)
+        assertTrue(LAG in interval.lower..interval.upper, "$interval, seed $SEED")
+    }
+
+    private companion object {
+        const val LAG = 5.0
+        const val SEED = 3L
     }
 }
