@@ -29,10 +29,9 @@ internal class BlindAnswer(
         end: BlindRound,
     ): DiagnosisResult {
         val looks = end.looks
-        val adjustedLooks = end.adjustedLooks
-        val order = order(looks, adjustedLooks)
+        val order = order(looks, end.adjustedLooks)
         val left = order.map { i ->
-            Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, adjustedLooks[i])
+            Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, end.adjustedLooks[i])
         }
         val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         // What shifts readings by next to nothing, however surely, stays in the model.
@@ -131,6 +130,7 @@ internal class BlindAnswer(
         // An end at which readings stand still is in no model, and shows in what is left.
         val isEnded = listOf(Cause.SATURATION) in all && chosen.none { it.trial.term?.cause == Cause.SATURATION }
         val isStructured = left.adjusted < settings.structureLevel && outweighs && !isEnded
+        val isOfFixes = end.isOfWater(strongest) && search.fixes.areFar(last)
         val sets = all + listOfNotNull(lagSet(isOpen))
         val contradicted = chosen.map { it.trial }.firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
         return when {
@@ -139,10 +139,10 @@ internal class BlindAnswer(
                 "the halves of the log contradict each other about the ${contradicted.name}",
                 listOfNotNull(openLag(isOpen)),
             )
-            isStructured && end.isOfWater(strongest) && search.fixes.areFar(last) ->
-                Verdict.InsufficientData("fixes that are so far off may be why residuals depend on ${left.description}")
-            isStructured ->
+            isStructured && !isOfFixes ->
                 Verdict.Unexplained("the residuals depend on ${left.description}", listOfNotNull(openLag(isOpen)))
+            isStructured && !(isOpen && chosen.isEmpty()) ->
+                Verdict.InsufficientData("fixes that are so far off may be why residuals depend on ${left.description}")
             sets.isEmpty() && !lag.isSeen && longest() > MOST_STEPS * series.period ->
                 Verdict.InsufficientData(NO_LAG + atMost(longest()))
             sets.isEmpty() && base.timeConstant > LONGEST * series.duration -> Verdict.InsufficientData(

@@ -10,6 +10,20 @@ private const val WANDERING = 0.5
 /** Twice the log-likelihood that such noise is behind where noise wanders for certain. */
 private const val FAR_BEHIND = 300.0
 
+/** [state] with the noise, as [of] makes it, that suits it best; never a less likely one. */
+internal fun BlindSearch.quieted(
+    state: BlindState,
+    of: (BlindState, CorrelatedNoise) -> BlindNoise = steep::of,
+): BlindState {
+    val noises = BlindSearch.SHARES.flatMap { share ->
+        BlindSearch.TIMES.filter { share > 0 || it == BlindSearch.TIMES[0] }.map { steps -> noise(share, steps) }
+    }
+    return (listOf(state) + loops.all(noises) { again(state, of(state, it)) }).maxBy { it.score }
+}
+
+/** [state] with errors of fixes in its noise, where these may show: noise that wanders may have taken what they do. */
+internal fun BlindSearch.placed(state: BlindState): BlindState = if (fixes.isWide(state)) quieted(state) else state
+
 /**
  * [state], or what is likelier and is found from noise that hardly wanders, and from longer lags: a lag that is too
  * short and noise that wanders make up for each other.

@@ -92,10 +92,13 @@ internal class BlindSearch private constructor(
         }
         // With few waves first. The lag before the noise: what a wrong lag leaves would be taken for noise
         // that wanders.
-        val first = quieted(stepped(improved(shaken(improved(coarse.maxBy { it.score })))))
+        val found = stepped(improved(shaken(improved(coarse.maxBy { it.score }))))
+        // Without errors of fixes: such as few waves tell may take a long lag for themselves.
+        val first = quieted(found, steep::without)
         progress(2 * ROUGH)
         var state = shaken(finer(improved(first)))
         fine = state.modes
+        state = placed(state)
         // More waves may explain what looked like noise that wanders.
         progress(3 * ROUGH)
         state = improved(improved(requieted(evened(state))))
@@ -169,14 +172,6 @@ internal class BlindSearch private constructor(
 
     /** Numbers of a lag of [timeConstant] s. */
     fun base(timeConstant: Double) = doubleArrayOf(timeConstant, 1.0, 0.0, 0.0)
-
-    /** [state] with the noise that suits it best; never a less likely one. */
-    fun quieted(state: BlindState): BlindState {
-        val noises = SHARES.flatMap { share ->
-            TIMES.filter { share > 0 || it == TIMES[0] }.map { steps -> noise(share, steps) }
-        }
-        return (listOf(state) + loops.all(noises) { again(state, steep.of(state, it)) }).maxBy { it.score }
-    }
 
     /** [state] with noise that wanders less or more, and sooner or later, as long as that suits it better. */
     fun requieted(state: BlindState): BlindState {
