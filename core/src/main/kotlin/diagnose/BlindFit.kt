@@ -33,14 +33,13 @@ internal class BlindNoise(
 
     /** Whitens [columns] from [from] until [to] where they are, two together: each waits for its own row before. */
     fun whiten(columns: List<DoubleArray>, from: Int, to: Int) {
+        if (placed != null) {
+            for (k in from until to) whiten(columns[k], columns[k])
+            return
+        }
         for (k in from until to step 2) {
             val one = columns[k]
             if (k + 1 == to) return whiten(one, one)
-            if (placed != null) {
-                whiten(one, one)
-                whiten(columns[k + 1], columns[k + 1])
-                continue
-            }
             val two = columns[k + 1]
             for (i in one.indices) {
                 one[i] /= spread[i]

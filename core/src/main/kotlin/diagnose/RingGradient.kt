@@ -4,8 +4,7 @@ import kotlin.math.sqrt
 
 /**
  * The gradient of water that is a sum of the columns of [WaterRings]: such water is Σ cₚ k(|place − p|) over the places p
- * that were pivots, c the inverse of their
- * covariance times what it is there, and so is what it is beside the track.
+ * that were pivots, c the inverse of their covariance times what it is there, and so is what it is beside the track.
  *
  * @param x metres east. @param y metres north. @param pivots rows. @param step a distance within which the covariance
  *   hardly bends, m. @param covariance k, of a distance, m.
