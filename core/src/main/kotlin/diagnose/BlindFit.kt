@@ -33,10 +33,6 @@ internal class BlindNoise(
 
     /** Whitens [columns] from [from] until [to] where they are, two together: each waits for its own row before. */
     fun whiten(columns: List<DoubleArray>, from: Int, to: Int) {
-        if (placed != null) {
-            for (k in from until to) whiten(columns[k], columns[k])
-            return
-        }
         for (k in from until to step 2) {
             val one = columns[k]
             if (k + 1 == to) return whiten(one, one)
@@ -45,7 +41,7 @@ internal class BlindNoise(
                 one[i] /= spread[i]
                 two[i] /= spread[i]
             }
-            noise.whitenBoth(one, two)
+            if (placed == null) noise.whitenBoth(one, two) else placed.whitenBoth(one, two)
         }
     }
 

@@ -39,17 +39,48 @@ internal class CorrelatedNoise(
     val freshShare: Double
 
     init {
+        var variance = share
+        var both = 0.0
+        var shaken = 0.0
+        var step = Double.NaN
+        var factor = 1.0
+        var lastInnovation = 0.0
+        var inverse = 0.0
+        var logarithm = 0.0
         var sum = 0.0
         var fresh = 0.0
-        filter(times, share, time, used, shocks) { i, fade, gained, scaled, shaken, logarithm ->
-            keep[i] = fade
-            if (used[i]) {
-                gain[i] = gained
-                scale[i] = scaled
-                if (shocks != null) second[i] = shaken
-                sum += logarithm
-                fresh += (1 - share) * scaled * scaled
+        for (i in times.indices) {
+            val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
+            // Even times differ by a rounding error.
+            if (!(abs(dt - step) < SAME * dt)) {
+                factor = exp(-dt / time)
+                step = dt
             }
+            keep[i] = factor
+            variance = factor * factor * variance + share * (1 - factor * factor)
+            if (shocks != null) {
+                both *= factor * shocks.keep[i]
+                shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]
+            }
+            if (!used[i]) continue
+            val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
+            val first = variance + both
+            // Among even rows the filter soon stands still.
+            if (abs(innovation - lastInnovation) > SAME_VARIANCE * innovation) {
+                lastInnovation = innovation
+                inverse = 1 / sqrt(innovation)
+                logarithm = ln(innovation)
+            }
+            gain[i] = first / innovation
+            scale[i] = inverse
+            variance -= gain[i] * first
+            if (shocks != null) {
+                second[i] = (both + shaken) / innovation
+                both -= gain[i] * (both + shaken)
+                shaken -= second[i] * (second[i] * innovation)
+            }
+            sum += logarithm
+            fresh += (1 - share) * inverse * inverse
         }
         logDeterminant = sum
         freshShare = (fresh / maxOf(rows, 1)).coerceIn(0.0, 1.0)
@@ -183,156 +214,22 @@ internal class CorrelatedNoise(
     companion object {
         /** Part of the variance that is added to each innovation's, so that none is 0. */
         const val SMALLEST = 1e-9
-        private const val SAME = 1e-9
+
+        /** Part of a step by which another one differs by rounding alone. */
+        const val SAME = 1e-9
         private const val SAME_VARIANCE = 1e-13
         private const val TINY = 1e-290
-        private val SHARES = doubleArrayOf(0.0, 0.2, 0.5, 0.8, 0.95, 0.99)
-        private val STEPS = doubleArrayOf(1.5, 4.0, 10.0, 25.0, 60.0, 150.0)
-        private const val REFINEMENTS = 4
 
         /** White noise. */
         fun white(scales: Scales, used: BooleanArray) =
             CorrelatedNoise(scales.series.times, 0.0, 1.0, used, scales.shocks)
 
-        private fun twiceLogLikelihood(squares: Double, rows: Int, logDeterminant: Double) =
+        /**
+         * Twice the log-likelihood, less a constant, of the whitened residuals of so many [rows] with the square sum
+         * [squares]; σ² is profiled.
+         */
+        fun twiceLogLikelihood(squares: Double, rows: Int, logDeterminant: Double): Double =
             -rows * ln(maxOf(squares, TINY) / maxOf(rows, 1)) - logDeterminant
-
-        /**
-         * The Kalman filter of the noise, which tells [row] of each row i what is left of the process since the one before and,
-         * of one in use, its gain, one over the innovation's deviation, the gain of what [shocks] leave open, and ln of
-         * the innovation's variance.
-         */
-        private inline fun filter(
-            times: DoubleArray,
-            share: Double,
-            time: Double,
-            used: BooleanArray,
-            shocks: UnknownTruth.Shocks?,
-            row: (i: Int, keep: Double, gain: Double, scale: Double, second: Double, logarithm: Double) -> Unit,
-        ) {
-            var variance = share
-            var both = 0.0
-            var shaken = 0.0
-            var step = Double.NaN
-            var factor = 1.0
-            var gain = 0.0
-            var second = 0.0
-            var lastInnovation = 0.0
-            var scale = 0.0
-            var logarithm = 0.0
-            var isStill = false
-            for (i in times.indices) {
-                val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
-                // Even times differ by a rounding error.
-                if (!(abs(dt - step) < SAME * dt)) {
-                    factor = exp(-dt / time)
-                    step = dt
-                    isStill = false
-                }
-                // Among even rows the filter soon stands still, to the last bit: all is as in the row before.
-                if (!isStill || !used[i]) {
-                    val before = variance
-                    variance = factor * factor * variance + share * (1 - factor * factor)
-                    if (shocks != null) {
-                        both *= factor * shocks.keep[i]
-                        shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]
-                    }
-                    if (used[i]) {
-                        val innovation = variance + 2 * both + shaken + 1 - share + SMALLEST
-                        val first = variance + both
-                        gain = first / innovation
-                        if (abs(innovation - lastInnovation) > SAME_VARIANCE * innovation) {
-                            lastInnovation = innovation
-                            scale = 1 / sqrt(innovation)
-                            logarithm = ln(innovation)
-                        }
-                        variance -= gain * first
-                        if (shocks != null) {
-                            second = (both + shaken) / innovation
-                            both -= gain * (both + shaken)
-                            shaken -= second * (second * innovation)
-                        }
-                    }
-                    isStill = used[i] && shocks == null && variance == before
-                }
-                row(i, factor, gain, scale, second, logarithm)
-            }
-        }
-
-        /** Twice the log-likelihood of [residuals], less a constant, under noise of which nothing is kept. */
-        private fun score(
-            residuals: DoubleArray,
-            times: DoubleArray,
-            share: Double,
-            time: Double,
-            used: BooleanArray,
-            shocks: UnknownTruth.Shocks?,
-        ): Double {
-            var state = 0.0
-            var open = 0.0
-            var squares = 0.0
-            var sum = 0.0
-            var rows = 0
-            filter(times, share, time, used, shocks) { i, keep, gain, scale, second, logarithm ->
-                state *= keep
-                if (shocks != null) open *= shocks.keep[i]
-                if (used[i]) {
-                    val innovation = residuals[i] - state - open
-                    val white = innovation * scale
-                    squares += white * white
-                    state += gain * innovation
-                    if (shocks != null) open += second * innovation
-                    sum += logarithm
-                    rows++
-                }
-            }
-            return twiceLogLikelihood(squares, rows, sum)
-        }
-
-        /**
-         * The noise under which [residuals] are likeliest; correlation times reach [longest] s. Looked for everywhere,
-         * or near [guess] alone. Not modified.
-         */
-        fun of(
-            scales: Scales,
-            residuals: DoubleArray,
-            used: BooleanArray,
-            longest: Double,
-            guess: CorrelatedNoise? = null,
-        ): CorrelatedNoise {
-            val series = scales.series
-            val shocks = scales.shocks
-            var bestShare = 0.0
-            var bestTime = series.period
-            var bestScore = score(residuals, series.times, bestShare, bestTime, used, shocks)
-            fun offer(anyShare: Double, anyTime: Double) {
-                val share = anyShare.coerceIn(0.0, 1.0)
-                val time = anyTime.coerceIn(series.period / 2, longest)
-                val score = score(residuals, series.times, share, time, used, shocks)
-                if (score > bestScore) {
-                    bestShare = share
-                    bestTime = time
-                    bestScore = score
-                }
-            }
-            if (guess != null) offer(guess.share, guess.time)
-            if (guess == null || guess.share == 0.0) {
-                for (share in SHARES) for (step in STEPS) if (share > 0) offer(share, step * series.period)
-            }
-            var width = if (guess == null) 1.0 else 0.5
-            repeat(if (guess == null) REFINEMENTS else REFINEMENTS - 1) {
-                val share = bestShare.coerceIn(0.01, 0.999)
-                val odds = ln(share / (1 - share))
-                for (s in -1..1) {
-                    for (t in -1..1) {
-                        if (s == 0 && t == 0) continue
-                        offer(1 / (1 + exp(-(odds + s * width))), bestTime * exp(t * width / 2))
-                    }
-                }
-                width /= 2
-            }
-            return CorrelatedNoise(series.times, bestShare, bestTime, used, shocks)
-        }
     }
 }
 

@@ -81,7 +81,7 @@ internal object Fitting {
         if (noise != null) return fit
         repeat(2) { round ->
             val near = current.takeIf { round > 0 }
-            current = CorrelatedNoise.of(model.scales, fit.residuals, used, longest, near)
+            current = NoiseSearch(model.scales, fit.residuals, used, longest).near(near)
             fit = descend(model, fit.numbers, free, current)
         }
         return fit

@@ -133,15 +133,23 @@ internal class WayTimes(private val series: MeasuredSeries) {
         return way
     }
 
-    /** The time at which the way was that at row [i] plus [distance] m, s; first or last time beyond the ends. */
-    fun timeAt(i: Int, distance: Double): Double {
-        val wanted = smooth[i] + distance
-        val found = smooth.binarySearch(wanted)
-        if (found >= 0) return series.times[found]
-        val after = -found - 1
-        if (after == 0) return series.times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], 0.01)
-        if (after == smooth.size) return series.times.last()
-        val share = (wanted - smooth[after - 1]) / (smooth[after] - smooth[after - 1])
-        return series.times[after - 1] + share * (series.times[after] - series.times[after - 1])
+    /** The times at which the way was [distance] m further than at each row, asked for row after row. */
+    fun at(distance: Double): Walk = Walk(distance)
+
+    /** Goes along the track [distance] m ahead of the rows. */
+    inner class Walk(private val distance: Double) {
+        private var after = 0
+
+        /** The time that belongs to row [i], no earlier than the last one asked for, s; the last time beyond the end. */
+        fun timeAt(i: Int): Double {
+            val times = series.times
+            val wanted = smooth[i] + distance
+            while (after < smooth.size && smooth[after] < wanted) after++
+            if (after == smooth.size) return times.last()
+            if (smooth[after] == wanted) return times[after]
+            if (after == 0) return times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], 0.01)
+            val share = (wanted - smooth[after - 1]) / (smooth[after] - smooth[after - 1])
+            return times[after - 1] + share * (times[after] - times[after - 1])
+        }
     }
 }

@@ -1,5 +1,6 @@
 package stillwater.diagnose
 
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.ln
 import kotlin.math.sqrt
@@ -14,16 +15,9 @@ import kotlin.math.sqrt
 internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
     private val used = noise.used
     private val n = used.size
-    private val keep = DoubleArray(n)
-    private val keepPlace = DoubleArray(n)
-    private val keepShown = DoubleArray(n)
-    private val east = DoubleArray(n)
-    private val north = DoubleArray(n)
-    private val gain = DoubleArray(n)
-    private val gainEast = DoubleArray(n)
-    private val gainNorth = DoubleArray(n)
-    private val gainShown = DoubleArray(n)
-    private val scale = DoubleArray(n)
+
+    /** What whitening does at each row, [FACTORS] numbers a row. */
+    private val factors = DoubleArray(n * FACTORS)
 
     /** Sum over the rows in use of ln of the innovation's variance. */
     val logDeterminant: Double
@@ -33,18 +27,11 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
         val filter = Filter(noise, places)
         for (i in 0 until n) {
             filter.step(i)
-            keep[i] = filter.keep
-            keepPlace[i] = filter.keepPlace
-            keepShown[i] = filter.keepShown
-            east[i] = filter.east
-            north[i] = filter.north
-            if (!used[i]) continue
-            gain[i] = filter.gain
-            gainEast[i] = filter.gainEast
-            gainNorth[i] = filter.gainNorth
-            gainShown[i] = filter.gainShown
-            scale[i] = 1 / sqrt(filter.innovation)
-            sum += ln(filter.innovation)
+            filter.write(factors, i * FACTORS)
+            if (used[i]) {
+                filter.writeGains(factors, i * FACTORS)
+                sum += ln(filter.innovation)
+            }
         }
         logDeterminant = sum
     }
@@ -56,20 +43,53 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
         var f = 0.0
         var s = 0.0
         for (i in column.indices) {
-            c *= keep[i]
-            e *= keepPlace[i]
-            f *= keepPlace[i]
-            s = keepShown[i] * s + east[i] * e + north[i] * f
-            if (used[i]) {
-                val innovation = column[i] - c - s
-                out[i] = innovation * scale[i]
-                c += gain[i] * innovation
-                e += gainEast[i] * innovation
-                f += gainNorth[i] * innovation
-                s += gainShown[i] * innovation
-            } else {
-                out[i] = 0.0
-            }
+            val at = i * FACTORS
+            c *= factors[at + KEEP]
+            e *= factors[at + KEEP_PLACE]
+            f *= factors[at + KEEP_PLACE]
+            s = factors[at + KEEP_SHOWN] * s + factors[at + EAST] * e + factors[at + NORTH] * f
+            val innovation = if (used[i]) column[i] - c - s else 0.0
+            out[i] = innovation * factors[at + SCALE]
+            c += factors[at + GAIN] * innovation
+            e += factors[at + GAIN_EAST] * innovation
+            f += factors[at + GAIN_NORTH] * innovation
+            s += factors[at + GAIN_SHOWN] * innovation
+        }
+    }
+
+    /** Whitens [one] and [two], which are modified: each waits for its own row before, and the other goes on meanwhile. */
+    fun whitenBoth(one: DoubleArray, two: DoubleArray) {
+        var c = 0.0
+        var e = 0.0
+        var f = 0.0
+        var s = 0.0
+        var cTwo = 0.0
+        var eTwo = 0.0
+        var fTwo = 0.0
+        var sTwo = 0.0
+        for (i in one.indices) {
+            val at = i * FACTORS
+            val keepPlace = factors[at + KEEP_PLACE]
+            c *= factors[at + KEEP]
+            cTwo *= factors[at + KEEP]
+            e *= keepPlace
+            eTwo *= keepPlace
+            f *= keepPlace
+            fTwo *= keepPlace
+            s = factors[at + KEEP_SHOWN] * s + factors[at + EAST] * e + factors[at + NORTH] * f
+            sTwo = factors[at + KEEP_SHOWN] * sTwo + factors[at + EAST] * eTwo + factors[at + NORTH] * fTwo
+            val innovation = if (used[i]) one[i] - c - s else 0.0
+            val innovationTwo = if (used[i]) two[i] - cTwo - sTwo else 0.0
+            one[i] = innovation * factors[at + SCALE]
+            two[i] = innovationTwo * factors[at + SCALE]
+            c += factors[at + GAIN] * innovation
+            cTwo += factors[at + GAIN] * innovationTwo
+            e += factors[at + GAIN_EAST] * innovation
+            eTwo += factors[at + GAIN_EAST] * innovationTwo
+            f += factors[at + GAIN_NORTH] * innovation
+            fTwo += factors[at + GAIN_NORTH] * innovationTwo
+            s += factors[at + GAIN_SHOWN] * innovation
+            sTwo += factors[at + GAIN_SHOWN] * innovationTwo
         }
     }
 
@@ -80,17 +100,15 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
         var f = 0.0
         var s = 0.0
         for (i in whitened.indices.reversed()) {
-            val innovation = if (used[i]) {
-                gain[i] * c + gainEast[i] * e + gainNorth[i] * f + gainShown[i] * s + scale[i] * whitened[i]
-            } else {
-                0.0
-            }
+            val at = i * FACTORS
+            val innovation = factors[at + GAIN] * c + factors[at + GAIN_EAST] * e + factors[at + GAIN_NORTH] * f +
+                factors[at + GAIN_SHOWN] * s + factors[at + SCALE] * whitened[i]
             out[i] = innovation
-            c = keep[i] * (c - innovation)
+            c = factors[at + KEEP] * (c - innovation)
             s -= innovation
-            e = keepPlace[i] * (e + east[i] * s)
-            f = keepPlace[i] * (f + north[i] * s)
-            s *= keepShown[i]
+            e = factors[at + KEEP_PLACE] * (e + factors[at + EAST] * s)
+            f = factors[at + KEEP_PLACE] * (f + factors[at + NORTH] * s)
+            s *= factors[at + KEEP_SHOWN]
         }
     }
 
@@ -128,7 +146,8 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
         fun step(i: Int) {
             val times = noise.times
             val dt = if (i == 0) 0.0 else times[i] - times[i - 1]
-            if (dt != last) {
+            // Even times differ by a rounding error.
+            if (!(abs(dt - last) < CorrelatedNoise.SAME * dt)) {
                 keep = exp(-dt / noise.time)
                 keepPlace = exp(-dt / places.time)
                 keepShown = exp(-dt / places.timeConstant)
@@ -139,6 +158,24 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
             foretell()
             noise.shocks?.let { ss += it.variance[i] }
             if (noise.used[i]) take()
+        }
+
+        /** Puts how the states go on to this row into [factors] from [at] on. */
+        fun write(factors: DoubleArray, at: Int) {
+            factors[at + KEEP] = keep
+            factors[at + KEEP_PLACE] = keepPlace
+            factors[at + KEEP_SHOWN] = keepShown
+            factors[at + EAST] = east
+            factors[at + NORTH] = north
+        }
+
+        /** Puts what the innovation of this row, which is in use, does into [factors] from [at] on. */
+        fun writeGains(factors: DoubleArray, at: Int) {
+            factors[at + GAIN] = gain
+            factors[at + GAIN_EAST] = gainEast
+            factors[at + GAIN_NORTH] = gainNorth
+            factors[at + GAIN_SHOWN] = gainShown
+            factors[at + SCALE] = 1 / sqrt(innovation)
         }
 
         private fun foretell() {
@@ -185,6 +222,19 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
 
     companion object {
         private const val TINY = 1e-290
+
+        // Of a row's factors: what is left of each state, what the lag lets through of errors, gains, and the scale.
+        private const val KEEP = 0
+        private const val KEEP_PLACE = 1
+        private const val KEEP_SHOWN = 2
+        private const val EAST = 3
+        private const val NORTH = 4
+        private const val GAIN = 5
+        private const val GAIN_EAST = 6
+        private const val GAIN_NORTH = 7
+        private const val GAIN_SHOWN = 8
+        private const val SCALE = 9
+        private const val FACTORS = 10
 
         /** How likely [residuals] are under [noise] and what [places] add to it. */
         fun score(residuals: DoubleArray, noise: CorrelatedNoise, places: PlaceErrors): Score {

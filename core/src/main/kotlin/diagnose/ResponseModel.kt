@@ -225,11 +225,10 @@ internal class ResponseModel(
 
     /** Has [see] told for each row after which row and at what time the sensor has what it shows there. */
     private inline fun late(deadTime: Double, distance: Double, see: (Int, Int, Double) -> Unit) {
+        val walk = if (distance != 0.0) layout.way.at(-distance) else null
         var from = 0
         for (i in 0 until n) {
-            var time = series.times[i]
-            if (distance != 0.0) time = layout.way.timeAt(i, -distance)
-            time -= deadTime
+            val time = (walk?.timeAt(i) ?: series.times[i]) - deadTime
             while (from < n - 2 && series.times[from + 1] < time) from++
             while (from > 0 && series.times[from] > time) from--
             see(i, from, time)

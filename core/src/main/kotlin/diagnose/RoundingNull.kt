@@ -70,7 +70,7 @@ internal class RoundingNull(private val fit: ModelFit, private val longest: Doub
         var odds = odds(fit.noise)
         var time = ln(fit.noise.time)
         repeat(TRIES) {
-            val seen = CorrelatedNoise.of(model.scales, rounded(odds, time), used, longest)
+            val seen = NoiseSearch(model.scales, rounded(odds, time), used, longest).near(null)
             odds += (odds(fit.noise) - odds(seen)).coerceIn(-1.5, 1.5)
             time = (time + (ln(fit.noise.time) - ln(seen.time)).coerceIn(-0.7, 0.7)).coerceAtMost(ln(longest))
         }

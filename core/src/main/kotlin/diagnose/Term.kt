@@ -20,7 +20,7 @@ internal data class Term(
     val hasOwnStart: Boolean = false,
 ) {
     /** What tells terms of one cause apart: jumps of another time, or another form of it, are the same term. */
-    val key: String get() = cause.label + (condition?.let { " ($it)" } ?: "")
+    val key: String = cause.label + (condition?.let { " ($it)" } ?: "")
 
     /** The same with a quantity of its own, where it has one, without most of that one's noise. */
     fun quiet(): Term = if (cause == Cause.CROSS_SENSITIVITY) copy(isQuiet = true) else this

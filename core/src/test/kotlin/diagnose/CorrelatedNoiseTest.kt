@@ -47,10 +47,30 @@ class CorrelatedNoiseTest {
     @Test
     fun theLikeliestNoiseIsNearTheTrueOne() {
         val series = MeasuredSeries(times, times, times, times, null)
-        val found = CorrelatedNoise.of(Scales(series), noise(0.7, 8.0), used, 200.0)
+        val search = NoiseSearch(Scales(series), noise(0.7, 8.0), used, 200.0)
+        val found = search.near(null)
         // About four standard errors at this length, from repeated draws.
         assertEquals(0.7, found.share, 0.1)
         assertEquals(8.0, found.time, 3.0)
+        val again = search.near(found)
+        assertEquals(found.share, again.share, 0.05, "begun where it was found")
+        assertEquals(found.time, again.time, 0.5, "begun where it was found")
+    }
+
+    /** What several shares score in one pass is what each scores whitened by itself. */
+    @Test
+    fun sharesScoreTogetherAsEachDoesAlone() = ofAnyNoise(20_269, Arb.int(1, 400)) { noise, n, random, seed ->
+        val residuals = DoubleArray(n) { random.nextDouble(-10.0, 10.0) }
+        val series = MeasuredSeries(noise.times, residuals, residuals, residuals, null)
+        val shares = doubleArrayOf(0.0, noise.share, 0.999)
+        val scales = Scales(series, shocks = noise.shocks)
+        val scores = NoiseSearch(scales, residuals, noise.used, 50.0).scores(noise.time, shares)
+        for (k in shares.indices) {
+            val alone = CorrelatedNoise(noise.times, shares[k], noise.time, noise.used, noise.shocks)
+            val white = DoubleArray(n).also { alone.whiten(residuals, it) }
+            val expected = alone.twiceLogLikelihood(squares(white))
+            assertEquals(expected, scores[k], 1e-7 * (1 + abs(expected)), "share ${shares[k]}, seed $seed")
+        }
     }
 
     @Test

@@ -9,6 +9,7 @@ import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.random.Random
 import kotlin.test.Test
+import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
@@ -59,6 +60,16 @@ class PlacedNoiseTest {
         val turned = DoubleArray(some.n).also { noise.turned(w, it) }
         assertEquals(dot(w, white), dot(turned, c), 1e-8 * (1 + abs(dot(w, white))), said)
         assertTrue(white.indices.all { some.used[it] || white[it] == 0.0 }, said)
+    }
+
+    /** Both at once are to the bit what each is alone. */
+    @Test
+    fun whiteningTwoAtOnceIsWhiteningEach() = ofAny(20_270, Arb.int(1, 40)) { some, said ->
+        val noise = PlacedNoise(some.noise, some.places)
+        val columns = List(2) { some.column() }
+        val alone = columns.map { column -> DoubleArray(some.n).also { noise.whiten(column, it) } }
+        noise.whitenBoth(columns[0], columns[1])
+        for (k in 0..1) assertContentEquals(alone[k], columns[k], "column $k, $said")
     }
 
     /** How much of what came before row j is left of it at row i of a lag. */
