@@ -359,9 +359,6 @@ internal class BlindAnswer(
         private const val MOST_FACTOR = 1e9
         private const val AT_END = 1e-6
 
-        /** [value] with three significant digits. */
-        fun three(value: Double) = "%.3g".format(java.util.Locale.ROOT, value)
-
         /**
          * The result for a log that cannot show anything, because of [why], but that the rows [off] are far off, and what
          * [warnings] say.

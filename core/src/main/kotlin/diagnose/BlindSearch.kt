@@ -46,7 +46,7 @@ internal class BlindSearch private constructor(
     val gaps: UnknownTruth? by lazy { UnknownTruth.ofGaps(series) }
 
     /** What is not known of the sensor's state after gaps in the log; null while that is not asked, and where there are none. */
-    private var shocks: UnknownTruth.Shocks? = null
+    private var shocks: Shocks? = null
 
     /** Noise of which [share] wanders over so many [steps]. */
     fun noise(share: Double, steps: Double) = noiseOver(share, steps * series.period)
@@ -334,7 +334,7 @@ internal class BlindSearch private constructor(
     fun along(modes: WaterModes, heights: Array<DoubleArray>): Array<DoubleArray> = designs.along(modes, heights)
 
     private fun precisions(variances: DoubleArray, modes: WaterModes) = DoubleArray(modes.size + 1) { k ->
-        if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, MOST)
+        if (k == 0 || k == modes.size) FLAT else 1 / variances[modes.band[k]].coerceIn(LEAST, WaterModes.MOST)
     }
 
     companion object {
@@ -380,7 +380,6 @@ internal class BlindSearch private constructor(
         const val HARDLY = 0.05
         const val FLAT = 1e-8
         const val LEAST = 1e-8
-        const val MOST = 1e10
         val LAGS = doubleArrayOf(0.1, 1.5, 3.0, 6.0, 12.0, 24.0).toList()
 
         /** Shares of the noise that may wander, and over how many rows. */

@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import stillwater.diagnose.BlindAnswer.Companion.three
 
 /** What a reader must know beside the verdict of a log without a reference. */
 internal class BlindWarnings(

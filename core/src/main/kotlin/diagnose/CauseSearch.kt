@@ -3,29 +3,6 @@ package stillwater.diagnose
 import kotlin.math.ln
 import kotlin.math.sqrt
 
-/**
- * A cause tried on top of a model.
- *
- * @property term what was tried. @property fit the model with it. @property ratio twice the gain in log-likelihood,
- * divided by [inflation], which the scores' correlation inflates it by. @property degrees numbers more than without it.
- * @property cost what as many meaningless numbers and places would gain, as twice a log-likelihood.
- * @property worth what it gains beyond [cost]; nothing, -∞, where held-out blocks are left worse than without it.
- * @property pValue of [ratio], with the search for places of jumps allowed for. @property heldOut score on held-out
- * blocks. @property foretells whether it foretells rows it was not fitted to better than the model without it.
- */
-internal class Trial(
-    val term: Term,
-    val fit: ModelFit,
-    val ratio: Double,
-    val inflation: Double,
-    val degrees: Int,
-    val cost: Double,
-    val worth: Double,
-    val pValue: Double,
-    val heldOut: HeldOutScore,
-    val foretells: Boolean,
-)
-
 /** Tries causes one by one on top of a fitted model, adds the best, and drops what then is no longer needed. */
 internal class CauseSearch(
     private val series: MeasuredSeries,
@@ -183,7 +160,7 @@ internal class CauseSearch(
         val rows = BooleanArray(used.size) { i ->
             used[i] && series.values[i] > start[slot] && series.values[i] < start[slot + 1]
         }
-        val white = CorrelatedNoise.white(scales, rows)
+        val white = scales.white(rows)
         val inner = Fitting.fit(base.model, base.numbers, base.free, rows, longest, noise = white)
         val numbers = model.carried(base.model, inner.numbers)
         return start.copyInto(numbers, slot, slot, slot + model.width(term))
@@ -220,7 +197,7 @@ internal class CauseSearch(
 
     /** Under which fits begin, and places of jumps are looked for. */
     private fun noises(base: ModelFit) =
-        listOf(base.noise, CorrelatedNoise.white(scales, used)).distinctBy { it.share }
+        listOf(base.noise, scales.white(used)).distinctBy { it.share }
 
     /** [base] with the best jump, and with the best two, by [noise]. */
     private fun jumps(base: ModelFit, noise: CorrelatedNoise): List<ModelFit> {

@@ -36,7 +36,7 @@ internal class CoarseRounding(series: MeasuredSeries, used: BooleanArray, val st
 
     /** What is to be said of it where it is coarse. */
     fun words() =
-        "Rounding to steps of ${BlindAnswer.three(step)} is most of what the readings scatter from row to row."
+        "Rounding to steps of ${three(step)} is most of what the readings scatter from row to row."
 
     private companion object {
         const val HALF = 0.5

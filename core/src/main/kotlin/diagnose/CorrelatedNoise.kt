@@ -22,7 +22,7 @@ internal class CorrelatedNoise(
     val share: Double,
     val time: Double,
     val used: BooleanArray,
-    val shocks: UnknownTruth.Shocks? = null,
+    val shocks: Shocks? = null,
 ) {
     private val keep = DoubleArray(times.size)
     private val gain = DoubleArray(times.size)
@@ -220,10 +220,6 @@ internal class CorrelatedNoise(
         private const val SAME_VARIANCE = 1e-13
         private const val TINY = 1e-290
 
-        /** White noise. */
-        fun white(scales: Scales, used: BooleanArray) =
-            CorrelatedNoise(scales.series.times, 0.0, 1.0, used, scales.shocks)
-
         /**
          * Twice the log-likelihood, less a constant, of the whitened residuals of so many [rows] with the square sum
          * [squares]; σ² is profiled.
@@ -231,11 +227,4 @@ internal class CorrelatedNoise(
         fun twiceLogLikelihood(squares: Double, rows: Int, logDeterminant: Double): Double =
             -rows * ln(maxOf(squares, TINY) / maxOf(rows, 1)) - logDeterminant
     }
-}
-
-/** Sum of squares. */
-internal fun squares(numbers: DoubleArray): Double {
-    var sum = 0.0
-    for (number in numbers) sum += number * number
-    return sum
 }

@@ -248,11 +248,12 @@ public class Diagnosis private constructor(
     private fun weighing(steps: Steps?): Weighing {
         series.readRows().copyInto(used)
         val settled = settled(steps)
+        val sure = BeyondDoubt(settled)
         // Rounding moves readings by up to half a step: what is within a step need not be wild.
         val spikes = lone(settled).filter {
             val isDoubtful = shaken.isInDoubt(it) || settled.model.scales.isInDoubt(it)
             abs(settled.residuals[it]) > settled.model.scales.resolution && Spikes.isSingle(settled.residuals, it) &&
-                (!isDoubtful || settled.isBeyondDoubt(it))
+                (!isDoubtful || it in sure)
         }
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else base(steps, settled), spikes, 0.0)

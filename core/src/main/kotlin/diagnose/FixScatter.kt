@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import stillwater.diagnose.BlindAnswer.Companion.three
 import kotlin.math.abs
 import kotlin.math.sqrt
 

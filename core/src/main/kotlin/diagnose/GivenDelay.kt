@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import stillwater.diagnose.BlindAnswer.Companion.three
 import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage

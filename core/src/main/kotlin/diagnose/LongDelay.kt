@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import stillwater.diagnose.BlindAnswer.Companion.three
 
 /**
  * The diagnosis of a log without a reference whose readings may be later than any lag tells: water that takes half a

@@ -6,6 +6,7 @@ import kotlin.math.sqrt
 /** Single readings that the model of [fit] leaves far off, among all rows. */
 internal class LooseReadings(private val fit: ModelFit) {
     private val series = fit.model.series
+    private val sure = BeyondDoubt(fit)
     private val z = whitened(series.readRows())
     private val spread = sqrt(fit.variance)
 
@@ -51,7 +52,7 @@ internal class LooseReadings(private val fit: ModelFit) {
     }
 
     private fun isInDoubt(i: Int) =
-        (fit.model.scales.isInDoubt(i) && !fit.isBeyondDoubt(i)) || series.isRead?.get(i) == false
+        (fit.model.scales.isInDoubt(i) && i !in sure) || series.isRead?.get(i) == false
 
     /** Residuals over what is foretold of each from those of [rows] before it; 0 in rows in doubt and all others. */
     private fun whitened(rows: BooleanArray) = DoubleArray(series.size).also { out ->

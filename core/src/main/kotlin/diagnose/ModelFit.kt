@@ -39,22 +39,9 @@ internal class ModelFit(
         }
     }
 
-    private val usual by lazy { Spikes.spread(model.series.shown(whitened)) }
-
-    /**
-     * Whether row [i] is off alone by more than what is not known of the truth may make it: that fades with the lag, over
-     * the rows after it.
-     */
-    fun isBeyondDoubt(i: Int): Boolean = numbers[ResponseModel.TIME_CONSTANT] > FADING * model.series.period &&
-        abs(residuals[i]) > FAR_OFF * usual && Spikes.isSingle(residuals, i)
-
     /** Parameter [i] on the scale it is fitted on. */
     fun scaled(i: Int): Double = if (model.parameters[i].logarithmic) ln(numbers[i]) else numbers[i]
 }
-
-/** Rows, within a time constant, that show what fades; and deviations of the noise by which a row is far off in doubt. */
-private const val FADING = 3.0
-private const val FAR_OFF = 20.0
 
 /** Finds the numbers under which a log is likeliest: Levenberg-Marquardt on whitened residuals, the noise in turn. */
 internal object Fitting {
@@ -76,7 +63,7 @@ internal object Fitting {
         noise: CorrelatedNoise? = null,
         guess: CorrelatedNoise? = null,
     ): ModelFit {
-        var current = noise ?: guess ?: CorrelatedNoise.white(model.scales, used)
+        var current = noise ?: guess ?: model.scales.white(used)
         var fit = descend(model, start, free, current)
         if (noise != null) return fit
         repeat(2) { round ->
@@ -194,108 +181,4 @@ internal object Fitting {
         "sensor units/s" -> model.scales.range / maxOf(model.series.duration, 1.0)
         else -> 0.1
     }
-}
-
-/** Normal equations of a least-squares problem. */
-internal class SymmetricSystem(private val matrix: Array<DoubleArray>, private val right: DoubleArray) {
-    private val size = right.size
-
-    /** The step that solves (A + damping diag A) step = right; columns without weight stay where they are. */
-    fun solve(damping: Double): DoubleArray {
-        val scale = DoubleArray(size) { if (matrix[it][it] > 0) 1 / sqrt(matrix[it][it]) else 0.0 }
-        val lower = factor(scale, damping + 1e-12)
-        val step = DoubleArray(size) { right[it] * scale[it] }
-        for (i in 0 until size) {
-            for (j in 0 until i) step[i] -= lower[i][j] * step[j]
-            step[i] /= lower[i][i]
-        }
-        for (i in size - 1 downTo 0) {
-            for (j in i + 1 until size) step[i] -= lower[j][i] * step[j]
-            step[i] /= lower[i][i]
-        }
-        return DoubleArray(size) { step[it] * scale[it] }
-    }
-
-    /** Element ([k], [k]) of the inverse. */
-    fun inverseDiagonal(k: Int): Double {
-        val unit = SymmetricSystem(matrix, DoubleArray(size) { if (it == k) 1.0 else 0.0 })
-        return unit.solve(0.0)[k]
-    }
-
-    private fun factor(scale: DoubleArray, damping: Double): Array<DoubleArray> {
-        val lower = Array(size) { DoubleArray(size) }
-        for (i in 0 until size) {
-            for (j in 0..i) {
-                var sum = if (i == j) 1 + damping else matrix[i][j] * scale[i] * scale[j]
-                for (k in 0 until j) sum -= lower[i][k] * lower[j][k]
-                lower[i][j] = if (i == j) sqrt(maxOf(sum, 1e-14)) else sum / lower[j][j]
-            }
-        }
-        return lower
-    }
-
-    companion object {
-        /** The normal equations of [columns] and the vector [target]. */
-        fun of(columns: Array<DoubleArray>, target: DoubleArray): SymmetricSystem {
-            val matrix = Array(columns.size) { DoubleArray(columns.size) }
-            val right = DoubleArray(columns.size)
-            for ((i, column) in columns.withIndex()) {
-                val products = dots(column, columns.take(i + 1) + target)
-                for (j in 0..i) {
-                    matrix[i][j] = products[j]
-                    matrix[j][i] = products[j]
-                }
-                right[i] = products[i + 1]
-            }
-            return SymmetricSystem(matrix, right)
-        }
-    }
-}
-
-/** Inner product. */
-internal fun dot(a: DoubleArray, b: DoubleArray): Double {
-    var sum = 0.0
-    for (i in a.indices) sum += a[i] * b[i]
-    return sum
-}
-
-/** Inner products of [column] with each of [others], four at a time: sums that do not wait for each other. */
-internal fun dots(column: DoubleArray, others: List<DoubleArray>): DoubleArray {
-    val products = DoubleArray(others.size)
-    for (from in others.indices step TOGETHER) {
-        if (from + TOGETHER > others.size) {
-            for (k in from until others.size) products[k] = dot(column, others[k])
-        } else {
-            dots(column, others[from], others[from + 1], others[from + 2], others[from + 3], products, from)
-        }
-    }
-    return products
-}
-
-private const val TOGETHER = 4
-
-private fun dots(
-    column: DoubleArray,
-    a: DoubleArray,
-    b: DoubleArray,
-    c: DoubleArray,
-    d: DoubleArray,
-    out: DoubleArray,
-    at: Int,
-) {
-    var first = 0.0
-    var second = 0.0
-    var third = 0.0
-    var fourth = 0.0
-    for (i in column.indices) {
-        val here = column[i]
-        first += here * a[i]
-        second += here * b[i]
-        third += here * c[i]
-        fourth += here * d[i]
-    }
-    out[at] = first
-    out[at + 1] = second
-    out[at + 2] = third
-    out[at + 3] = fourth
 }

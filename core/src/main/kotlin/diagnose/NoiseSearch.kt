@@ -7,8 +7,8 @@ import kotlin.math.ln
 /**
  * Finds the [CorrelatedNoise] under which residuals are likeliest.
  *
- * Of a correlation time the likelihoods of several shares are found in one pass: a filter waits for itself at each row, and
- * others go on meanwhile.
+ * Of a correlation time the likelihoods of several shares are found in one pass: each filter waits for its own row
+ * before, and the others go on meanwhile.
  *
  * @param residuals as long as the log; not modified. @param used whether a row counts. @param longest longest
  * correlation time, s.
@@ -39,7 +39,7 @@ internal class NoiseSearch(
         return CorrelatedNoise(series.times, share, time, used, shocks)
     }
 
-    /** Offers what is beside the likeliest so far: odds and correlation times [width] and half of it away, as logarithms. */
+    /** Offers what is beside the likeliest so far: log odds [width] away, correlation times by half of it as a logarithm. */
     private fun refine(width: Double) {
         val middle = share.coerceIn(0.01, 0.999)
         val odds = ln(middle / (1 - middle))

@@ -57,7 +57,7 @@ internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
         }
     }
 
-    /** Whitens [one] and [two], which are modified: each waits for its own row before, and the other goes on meanwhile. */
+    /** Whitens [one] and [two], which are modified, at the price of little more than one. */
     fun whitenBoth(one: DoubleArray, two: DoubleArray) {
         var c = 0.0
         var e = 0.0

@@ -12,12 +12,15 @@ import kotlin.math.ln
 internal class Scales(
     val series: MeasuredSeries,
     val unknown: UnknownTruth? = null,
-    val shocks: UnknownTruth.Shocks? = null,
+    val shocks: Shocks? = null,
 ) {
     private val n = series.size
 
     /** Whether row [i] may be far off for what is not known of the truth before it. */
     fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true
+
+    /** White noise where [rows] are in use, and what is not known of the sensor's state. */
+    fun white(rows: BooleanArray) = CorrelatedNoise(series.times, 0.0, 1.0, rows, shocks)
 
     /** Speed that counts as ordinary, m/s. */
     val ordinarySpeed: Double = maxOf(median(series.speed), SLOWEST)

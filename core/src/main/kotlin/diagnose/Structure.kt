@@ -9,20 +9,6 @@ import kotlin.math.expm1
 import kotlin.math.sin
 import kotlin.math.sqrt
 
-/**
- * A way in which residuals depend on something that they should not depend on.
- *
- * @property description what they depend on, in words. @property ratio likelihood ratio, corrected for correlation.
- * @property degrees of freedom. @property pValue of it. @property adjusted p-value for all looks taken, after Holm.
- */
-public data class Dependence(
-    val description: String,
-    val ratio: Double,
-    val degrees: Int,
-    val pValue: Double,
-    val adjusted: Double = pValue,
-)
-
 /** Looks for any dependence of residuals that no cause of the list need explain. */
 internal class Structure(private val fit: ModelFit) {
     private val series = fit.model.series

@@ -40,12 +40,6 @@ internal class UnknownTruth private constructor(
     /** Whether the truth beside row [i] is in doubt, so that a reading there may be far off without being wrong. */
     fun isInDoubt(i: Int): Boolean = (maxOf(i - 1, 0)..minOf(i + 1, doubts.size - 1)).any { doubts[it] > 0 }
 
-    /** Shocks before rows in [variance] of the noise, length n, of which [keep] stays until the row after. */
-    class Shocks(val variance: DoubleArray, val keep: DoubleArray) {
-        /** Whether row [i] is shaken by so much that it may be far off without being wrong. */
-        fun isShaken(i: Int): Boolean = variance[i] > SHAKEN
-    }
-
     /**
      * Shocks to the reading of a sensor with a lag of [timeConstant] s and [gain] under noise of [spread], sensor
      * units; those of gaps and of missing rows alone if the truth [isHeld] over each step, but that sharp steps may come a
@@ -201,8 +195,5 @@ internal class UnknownTruth private constructor(
 
         /** Shocks below this, in standard deviations of the noise, are left out. */
         private const val LEAST = 0.1
-
-        /** Shocks above this variance, in that of the noise, make a row doubtful. */
-        private const val SHAKEN = 0.25
     }
 }

@@ -1,6 +1,5 @@
 package stillwater.diagnose
 
-import stillwater.diagnose.BlindAnswer.Companion.three
 import stillwater.estimate.ReferenceLearner
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.TrackSeries

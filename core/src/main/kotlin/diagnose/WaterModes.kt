@@ -123,7 +123,7 @@ internal class WaterModes private constructor(
         val next = DoubleArray(spectrum.size) { ring ->
             // A ring without columns of its own is as strong as the next one, where nothing is known of it.
             val times = own[ring] ?: if (isFlat) own.minBy { (other, _) -> abs(other - ring) }.value else 1.0
-            if (rings.lengths[ring] in offered) 1.0 else minOf(spectrum[ring] * times, BlindSearch.MOST)
+            if (rings.lengths[ring] in offered) 1.0 else minOf(spectrum[ring] * times, MOST)
         }
         // The kernel itself is interpolated.
         val left = maxOf(UNSEEN, LEAST_SHARE * next.sum())
@@ -223,6 +223,9 @@ internal class WaterModes private constructor(
     }
 
     companion object {
+        /** The largest variance that waves are given. */
+        const val MOST = 1e10
+
         /**
          * Water of [most] columns of which nothing is known: all rings that so many can show are as strong, down to
          * waves of [shortest] m and of eight steps; found in parts that [loops] goes through.

@@ -18,7 +18,7 @@ internal object WaterVariances {
             if (isOff) {
                 BlindSearch.LEAST
             } else {
-                (squares[it] / maxOf(known[it], 1e-6)).coerceIn(BlindSearch.LEAST, BlindSearch.MOST)
+                (squares[it] / maxOf(known[it], 1e-6)).coerceIn(BlindSearch.LEAST, WaterModes.MOST)
             }
         }
     }

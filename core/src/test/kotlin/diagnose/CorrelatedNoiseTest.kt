@@ -99,7 +99,7 @@ class CorrelatedNoiseTest {
         assertEquals(dot(w, white), dot(turned, c), 1e-8 * (1 + abs(dot(w, white))), "seed $seed")
     }
 
-    private fun shocks(n: Int, random: Random) = UnknownTruth.Shocks(
+    private fun shocks(n: Int, random: Random) = Shocks(
         DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
         DoubleArray(n) { random.nextDouble(0.0, 1.0) },
     )
@@ -120,7 +120,7 @@ class CorrelatedNoiseTest {
         }
 
     /** The variance at each row of what [shocks] have left of themselves. */
-    private fun variances(shocks: UnknownTruth.Shocks): DoubleArray {
+    private fun variances(shocks: Shocks): DoubleArray {
         var shaken = 0.0
         return DoubleArray(shocks.keep.size) { i ->
             shaken = shocks.keep[i] * shocks.keep[i] * shaken + shocks.variance[i]

@@ -20,7 +20,7 @@ class PlacedNoiseTest {
         val times = DoubleArray(n).also { times ->
             for (i in 1 until n) times[i] = times[i - 1] + random.nextDouble(0.1, 9.0)
         }
-        val shocks = UnknownTruth.Shocks(
+        val shocks = Shocks(
             DoubleArray(n) { if (random.nextInt(4) == 0) random.nextDouble(0.0, 5.0) else 0.0 },
             // Another lag than that of the places would be a state of its own.
             DoubleArray(n) { Double.NaN },
