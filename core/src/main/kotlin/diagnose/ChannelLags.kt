@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.blind.BlindDiagnosis
+import stillwater.diagnose.blind.BlindErrors
 import stillwater.model.Interval
 import kotlin.math.sqrt
 

@@ -1,5 +1,7 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.response.ReferenceGaps
+
 /**
  * A log in which readings and truths are missing here and there, row by row: what can be kept of it.
  *

@@ -1,5 +1,8 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.evidence.Spikes
+import stillwater.sensor.SensorSpec
+
 /** Logs that nothing can be told from, however they are looked at. */
 internal object TooLittle {
     private const val FEWEST_ROWS = 60
@@ -44,5 +47,40 @@ internal object TooLittle {
         isFlat(series.x) && isFlat(series.y) ->
             "the boat never moves, so that no pass comes back to the same water"
         else -> null
+    }
+
+    /**
+     * The result for a log that cannot show anything, because of [why], but that the rows [off] are far off, and what
+     * [warnings] say.
+     */
+    fun answer(
+        series: MeasuredSeries,
+        why: String,
+        off: List<Int> = emptyList(),
+        warnings: List<String> = emptyList(),
+    ): DiagnosisResult {
+        val nothing = ModelAssessment(
+            emptyList(),
+            0.0,
+            Double.NaN,
+            Double.NaN,
+            series.values.copyOf(),
+            0.0,
+            0.0,
+            0.0,
+            DoubleArray(series.size),
+        )
+        return DiagnosisResult(
+            Verdict.InsufficientData(why),
+            emptyList(),
+            nothing,
+            null,
+            SensorSpec("base", emptyList()),
+            null,
+            null,
+            emptyList(),
+            off,
+            listOfNotNull("${Spikes.words(off.size)} the readings beside.".takeIf { off.isNotEmpty() }) + warnings,
+        )
     }
 }

@@ -1,6 +1,15 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import stillwater.diagnose.evidence.LooseReadings
+import stillwater.diagnose.noise.CorrelatedNoise
+import stillwater.diagnose.reference.CalibrationPoint
+import stillwater.diagnose.response.Fitting
+import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Scales
+import stillwater.diagnose.response.Steps
+import stillwater.diagnose.response.Term
+import stillwater.diagnose.response.UnknownTruth
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.test.Test

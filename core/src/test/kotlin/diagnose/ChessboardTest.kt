@@ -1,6 +1,10 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import stillwater.diagnose.blind.BeyondWaves
+import stillwater.diagnose.blind.BlindSearch
+import stillwater.diagnose.blind.BlindTrial
+import stillwater.diagnose.response.Term
 import java.util.Random
 import kotlin.math.floor
 import kotlin.test.Test

@@ -1,6 +1,12 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import stillwater.diagnose.evidence.JumpPlaces
+import stillwater.diagnose.response.Fitting
+import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Scales
+import stillwater.diagnose.response.Steps
+import stillwater.diagnose.response.UnknownTruth
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
@@ -67,7 +73,7 @@ class GapsTest {
         val scales = Scales(series, UnknownTruth.of(series))
         val model = ResponseModel(series, emptyList(), Steps.EVEN, scales)
         val numbers = doubleArrayOf(10.0, 1.0, 0.0, truth[0])
-        val noise = CorrelatedNoise.white(scales, BooleanArray(n) { true })
+        val noise = scales.white(BooleanArray(n) { true })
         val fit = Fitting.at(model, numbers, BooleanArray(numbers.size), noise)
 
         /** The place of a jump by 1 at [row] of what is left. */

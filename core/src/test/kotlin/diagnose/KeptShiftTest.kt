@@ -1,5 +1,10 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.evidence.SmallShifts
+import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Scales
+import stillwater.diagnose.response.Steps
+import stillwater.diagnose.response.Term
 import kotlin.math.abs
 import kotlin.test.Test
 import kotlin.test.assertEquals

@@ -1,6 +1,8 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import stillwater.diagnose.algebra.Cholesky
+import stillwater.diagnose.algebra.Combination
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage

@@ -1,5 +1,12 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.algebra.Spline
+import stillwater.diagnose.evidence.LooseReadings
+import stillwater.diagnose.response.Fitting
+import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Scales
+import stillwater.diagnose.response.Steps
+import stillwater.diagnose.response.UnknownTruth
 import kotlin.math.abs
 import kotlin.math.sin
 import kotlin.math.sqrt
@@ -65,7 +72,7 @@ class MissingRowsTest {
         }
         val free = BooleanArray(numbers.size)
         val used = BooleanArray(n) { true }
-        val fit = Fitting.at(model, numbers, free, CorrelatedNoise.white(scales, used))
+        val fit = Fitting.at(model, numbers, free, scales.white(used))
         assertTrue(abs(fit.residuals[700] - 0.036) < 1e-6)
         assertTrue(LooseReadings(fit).pValue > 0.01, "${LooseReadings(fit).pValue}")
     }

@@ -1,6 +1,8 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import stillwater.diagnose.reference.ChangingWater
+import stillwater.diagnose.response.ReferenceNoise
 import kotlin.math.abs
 import kotlin.math.cos
 import kotlin.math.exp

@@ -1,5 +1,13 @@
 package stillwater.diagnose
 
+import stillwater.diagnose.blind.BlindColumns
+import stillwater.diagnose.blind.BlindFit
+import stillwater.diagnose.blind.BlindNoise
+import stillwater.diagnose.noise.CorrelatedNoise
+import stillwater.diagnose.response.Scales
+import stillwater.diagnose.response.Steps
+import stillwater.diagnose.track.SmoothTrack
+import stillwater.diagnose.water.WaterModes
 import kotlin.math.sin
 
 /** A way of [rows] rows, one a second, that crosses itself, and a few waves of water along it. */

@@ -1,6 +1,7 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import stillwater.diagnose.response.UnknownTruth
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.exp

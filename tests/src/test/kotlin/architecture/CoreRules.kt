@@ -20,6 +20,19 @@ private val arrows: Map<String, Set<String>> =
         "mission" to setOf("model", "sensor", "field", "wire", "control", "estimate", "plan"),
     )
 
+/** The same of the packages within diagnose, which all know what it is asked and answers with. */
+private val diagnoseArrows: Map<String, Set<String>> =
+    mapOf(
+        "algebra" to emptySet(),
+        "noise" to setOf("algebra"),
+        "response" to setOf("noise"),
+        "track" to setOf("response"),
+        "water" to setOf("track"),
+        "evidence" to setOf("response"),
+        "reference" to setOf("evidence", "track"),
+        "blind" to setOf("evidence", "water"),
+    )
+
 private val allowedImports =
     listOf("kotlin.", "kotlinx.serialization.", "org.hipparchus.") +
         // What the platform has and Kotlin's own library lacks; no state, no outside world.
@@ -44,16 +57,19 @@ private val forbiddenCode: List<Pair<Regex, String>> =
 
 private val importLine = Regex("""(?m)^import ([\w.`]+)(?:\.\*)?""")
 private val ownName = Regex("""\bstillwater\.(\w+)""")
+private val diagnoseName = Regex("""\bstillwater\.diagnose\.([a-z]\w*)\.""")
 
 /** All that a package of core may use of core, itself included; null where the rules do not know it. */
-internal fun reachable(corePackage: String): Set<String>? {
-    val direct = arrows[corePackage] ?: return null
-    return direct.fold(setOf(corePackage)) { all, next -> all + reachable(next).orEmpty() }
+internal fun reachable(corePackage: String): Set<String>? = reachable(corePackage, arrows)
+
+private fun reachable(start: String, arrows: Map<String, Set<String>>): Set<String>? {
+    val direct = arrows[start] ?: return null
+    return direct.fold(setOf(start)) { all, next -> all + reachable(next, arrows).orEmpty() }
 }
 
 /** What in a source of core is against core's rules. */
 internal fun coreViolations(source: KotlinSource): List<Violation> =
-    importsFromOutside(source) + wrongArrows(source) + forbidden(source)
+    importsFromOutside(source) + wrongArrows(source) + wrongWithinDiagnose(source) + forbidden(source)
 
 private fun importsFromOutside(source: KotlinSource): List<Violation> =
     importLine
@@ -72,6 +88,19 @@ private fun wrongArrows(source: KotlinSource): List<Violation> {
         reachable(from)
             ?: return listOf(Violation(source.path, 1, "core has no package $from in the rules of CoreRules.kt"))
     return ownName
+        .findAll(source.code)
+        .filter { it.groupValues[1] !in allowed }
+        .map { Violation(source.path, source.lineOf(it.range.first), "$from may not use ${it.groupValues[1]}") }
+        .toList()
+}
+
+private fun wrongWithinDiagnose(source: KotlinSource): List<Violation> {
+    val from = source.directory.removePrefix("diagnose/")
+    if (from == source.directory) return emptyList()
+    val allowed =
+        reachable(from, diagnoseArrows)
+            ?: return listOf(Violation(source.path, 1, "diagnose has no package $from in the rules of CoreRules.kt"))
+    return diagnoseName
         .findAll(source.code)
         .filter { it.groupValues[1] !in allowed }
         .map { Violation(source.path, source.lineOf(it.range.first), "$from may not use ${it.groupValues[1]}") }

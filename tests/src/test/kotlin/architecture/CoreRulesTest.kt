@@ -27,6 +27,17 @@ class CoreRulesTest {
     }
 
     @Test
+    fun aForbiddenArrowWithinDiagnoseIsFound() {
+        val blind = "import stillwater.diagnose.blind.BlindFit"
+        assertEquals(listOf("evidence may not use blind"), whats("diagnose/evidence", blind))
+        assertEquals(listOf("reference may not use blind"), whats("diagnose/reference", blind))
+        assertEquals(1, whats("diagnose/helpers", "val x = 1").size, "a package the rules do not know")
+        val below = "import stillwater.diagnose.algebra.dot"
+        assertTrue(whats("diagnose/blind", below, blind, "import stillwater.diagnose.Cause").isEmpty())
+        assertTrue(whats("diagnose", blind).isEmpty())
+    }
+
+    @Test
     fun arrowsReachThroughWhatTheyPointTo() {
         assertEquals(setOf("model"), reachable("model"))
         assertEquals(setOf("plan", "field", "model"), reachable("plan"))

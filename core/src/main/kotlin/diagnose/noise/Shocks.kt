@@ -1,0 +1,17 @@
+package stillwater.diagnose.noise
+
+/**
+ * What is not known of a sensor's state: shocks before rows, of which less and less stays.
+ *
+ * @property variance of the shock before each row, over the noise's, length n. @property keep the part that stays from
+ * the row before to each row, length n.
+ */
+internal class Shocks(val variance: DoubleArray, val keep: DoubleArray) {
+    /** Whether row [i] is shaken by so much that it may be far off without being wrong. */
+    fun isShaken(i: Int): Boolean = variance[i] > SHAKEN
+
+    private companion object {
+        /** Shocks above this variance, in that of the noise, make a row doubtful. */
+        const val SHAKEN = 0.25
+    }
+}

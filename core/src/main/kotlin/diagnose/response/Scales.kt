@@ -1,0 +1,79 @@
+package stillwater.diagnose.response
+
+import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.median
+import stillwater.diagnose.noise.CorrelatedNoise
+import stillwater.diagnose.noise.Shocks
+import kotlin.math.abs
+import kotlin.math.ln
+
+/**
+ * Quantities of a log that several models share.
+ *
+ * @property unknown what its reference leaves open; null where there is none. @property shocks what that does to the
+ * reading; null for none.
+ */
+internal class Scales(
+    val series: MeasuredSeries,
+    val unknown: UnknownTruth? = null,
+    val shocks: Shocks? = null,
+) {
+    private val n = series.size
+
+    /** Whether row [i] may be far off for what is not known of the truth before it. */
+    fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true
+
+    /** White noise where [rows] are in use, and what is not known of the sensor's state. */
+    fun white(rows: BooleanArray) = CorrelatedNoise(series.times, 0.0, 1.0, rows, shocks)
+
+    /** Speed that counts as ordinary, m/s. */
+    val ordinarySpeed: Double = maxOf(median(series.speed), SLOWEST)
+
+    /** Log of speed over the ordinary, as the lag takes it. */
+    val logSpeed = DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
+
+    /** Temperature that counts as ordinary, °C. */
+    val ordinaryTemperature: Double = series.temperature?.let(::median) ?: Double.NaN
+
+    /** Temperature over the ordinary, °C; 0 where there is none. */
+    val warmth = DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
+
+    /** What each condition is centred on. */
+    val middles: Map<String, Double>
+
+    /** Each condition less its middle. */
+    val centred: Map<String, DoubleArray>
+
+    init {
+        val bridged = series.conditions.keys.associateWith { checkNotNull(series.filled(it)) }
+        middles = bridged.mapValues { (_, column) -> median(column) }
+        centred = bridged.mapValues { (name, column) -> DoubleArray(n) { column[it] - middles.getValue(name) } }
+    }
+
+    /** The same without most of its own noise and rounding, which a reading does not show. */
+    val quiet: Map<String, DoubleArray> by lazy {
+        val isGap = unknown?.isGap ?: BooleanArray(n)
+        centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
+    }
+
+    /** Finest step between different values, sensor units; 0 where there is none. */
+    val resolution: Double = resolution(series.shown(series.values))
+
+    /** From the lowest to the highest reading, sensor units. */
+    val range: Double = series.shown(series.values).let { (it.maxOrNull() ?: 0.0) - (it.minOrNull() ?: 0.0) }
+
+    companion object {
+        private const val SLOWEST = 0.01
+
+        /** The largest step of which all differences of [values] are multiples, or 0. */
+        fun resolution(values: DoubleArray): Double {
+            val distinct = values.toSet().sorted()
+            if (distinct.size < 3) return 0.0
+            val steps = DoubleArray(distinct.size - 1) { distinct[it + 1] - distinct[it] }
+            val smallest = steps.filter { it > 1e-12 * (abs(distinct.last()) + abs(distinct.first())) }.minOrNull()
+                ?: return 0.0
+            val fits = steps.count { abs(it / smallest - Math.rint(it / smallest)) < 0.02 }
+            return if (fits >= 0.99 * steps.size) smallest else 0.0
+        }
+    }
+}
