@@ -19,6 +19,7 @@ import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.Structure
 import stillwater.diagnose.evidence.Trial
+import stillwater.diagnose.evidence.UnevenNoise
 import stillwater.diagnose.isFlat
 import stillwater.diagnose.response.ExtendedSensor
 import stillwater.diagnose.response.ModelFit
@@ -86,6 +87,9 @@ internal class Weighing(
     val hasPlace: Boolean get() = terms.any { it.cause == Cause.POSITION_OFFSET }
 
     private val still by lazy { StillReadings(last) }
+
+    /** In words, what the noise goes with; null where it is even. */
+    private val uneven by lazy { UnevenNoise(last).words(settings.level / tried) }
     private val faults by lazy { ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level) }
 
     /**
@@ -177,6 +181,7 @@ internal class Weighing(
         if (named && most.adjusted < settings.structureLevel) {
             add("Structure is left beside what was named: the residuals depend on ${most.description}.")
         }
+        uneven?.takeIf { named }?.let { add("Beside what was named $it.") }
         if (scales.unknown?.isSharp == true) {
             add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
         } else if (before > 0) {
@@ -241,7 +246,7 @@ internal class Weighing(
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
-            all.isEmpty() -> passing()?.let(Verdict::Unexplained) ?: Verdict.Consistent
+            all.isEmpty() -> (passing() ?: uneven)?.let(Verdict::Unexplained) ?: Verdict.Consistent
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
         }

@@ -1,0 +1,96 @@
+package stillwater.diagnose.evidence
+
+import stillwater.diagnose.algebra.dot
+import stillwater.diagnose.algebra.squares
+import stillwater.diagnose.median
+import stillwater.diagnose.response.ModelFit
+import java.util.Locale
+import kotlin.math.abs
+import kotlin.math.sqrt
+
+/**
+ * Noise that is larger at some values, or grows as time goes on, in what a model leaves of a log with a reference.
+ *
+ * Asked by the rank correlation (Spearman's) of how far whitened residuals are off 0 with the value and with the time:
+ * single wild readings and heavy tails weigh no more than others. Where the truth moves fast, what is not known of it
+ * between the rows makes residuals larger, so that the fastest rows do not count.
+ */
+internal class UnevenNoise(private val fit: ModelFit) {
+    private val series = fit.model.series
+    private val rows = calmRows()
+    private val sizes = DoubleArray(rows.size) { abs(fit.whitened[rows[it]]) }
+
+    /**
+     * In words, what the noise goes with for certain at this [level], of both quantities together; null where it is as large
+     * everywhere or not much larger anywhere, and of readings in steps as large as their noise.
+     */
+    fun words(level: Double): String? {
+        val isCoarse = fit.model.scales.resolution > sqrt(fit.variance)
+        if (rows.size < FEWEST || isCoarse) return null
+        val late = Quantity("time", fit.model.series.times, "late in the log", "early")
+        val high = Quantity("value", fit.predicted, "where it is high", "where it is low")
+        val most = listOf(late, high).minBy { it.chance }
+        if (!(most.chance * QUANTITIES < level) || most.times < CLEARLY) return null
+        val times = "%.1f".format(Locale.ROOT, most.times)
+        return "the noise goes with the ${most.name}: readings scatter $times times as much ${most.where}"
+    }
+
+    /** What the noise may go with, and how much. */
+    private inner class Quantity(val name: String, column: DoubleArray, high: String, low: String) {
+        private val own = DoubleArray(rows.size) { column[rows[it]] }
+        private val order = own.indices.sortedBy { own[it] }
+        private val ratio = scatter(order.takeLast(rows.size / 3)) / scatter(order.take(rows.size / 3))
+
+        /** How many times as large the noise is in the third of the rows with the highest values as in the lowest, or the other way. */
+        val times = maxOf(ratio, 1 / ratio)
+        val where = if (ratio > 1) "$high as $low" else "$low as $high"
+
+        /** How likely so much of a rank correlation is if there is none. */
+        val chance: Double by lazy {
+            val a = ranks(own)
+            val b = ranks(sizes)
+            val correlation = dot(a, b) / sqrt(squares(a) * squares(b))
+            Evidence.pValue(correlation * correlation * (rows.size - 1), 1)
+        }
+
+        private fun scatter(some: List<Int>) = median(DoubleArray(some.size) { sizes[some[it]] })
+    }
+
+    /** Rows in use but for the quarters in which the truth, and what the sensor shows of it, move fastest. */
+    private fun calmRows(): List<Int> {
+        val truth = checkNotNull(series.reference)
+        fun isCalm(column: DoubleArray): BooleanArray {
+            val rates = DoubleArray(column.size) { abs(series.rise(column, it, it)) }
+            val most = rates.sortedArray()[rates.size * 3 / 4]
+            return BooleanArray(column.size) { rates[it] <= most }
+        }
+        val calm = isCalm(truth)
+        val calmShown = isCalm(fit.predicted)
+        val used = fit.noise.used
+        return used.indices.filter { used[it] && calm[it] && calmShown[it] && !fit.model.scales.isInDoubt(it) }
+    }
+
+    /** Ranks of [column], equal numbers sharing theirs, less their mean. */
+    private fun ranks(column: DoubleArray): DoubleArray {
+        val order = column.indices.sortedBy { column[it] }
+        val ranks = DoubleArray(column.size)
+        var from = 0
+        while (from < order.size) {
+            var to = from
+            while (to < order.size && column[order[to]] == column[order[from]]) to++
+            for (k in from until to) ranks[order[k]] = (from + to - 1) / 2.0 - (order.size - 1) / 2.0
+            from = to
+        }
+        return ranks
+    }
+
+    private companion object {
+        const val FEWEST = 60
+
+        /** Value and time. */
+        const val QUANTITIES = 2
+
+        /** Times as much, from which it is told. */
+        const val CLEARLY = 1.5
+    }
+}
