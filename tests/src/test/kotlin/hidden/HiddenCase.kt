@@ -134,10 +134,10 @@ internal class HiddenCase(
         )
     }
 
-    private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant) = if (isDelay) {
-        HiddenSensor(world, step, gain, offset, mapOf(HiddenEffect.DEAD_TIME to delay), stepShares, isAhead)
-    } else {
-        HiddenSensor(world, tau, gain, offset, effects, stepShares, isAhead)
+    private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant): HiddenSensor {
+        val own = if (isDelay) mapOf(HiddenEffect.DEAD_TIME to delay) else effects
+        val lag = if (isDelay) step else tau
+        return HiddenSensor(world, lag, gain, offset, own, stepShares, isAhead, conditions?.start ?: 0.0)
     }
 
     private fun draw(): Map<HiddenEffect, Pair<Double, Double>> {

@@ -7,7 +7,8 @@ import kotlin.random.Random
 
 /**
  * What the field does to a log besides any effect: rows that are missing, one by one and in gaps; a receiver whose fixes
- * come less often than readings and stand still between; errors of fixes that wander; noise with tails.
+ * come less often than readings and stand still between; errors of fixes that wander; noise with tails; a probe that
+ * was let down from the air when the log began.
  *
  * Each of them is drawn by dice of their own, so that all else of a case is what it is without them.
  */
@@ -19,6 +20,11 @@ internal class HiddenConditions(seed: Long, private val rows: Int, private val p
     private val wandering = if (random.nextBoolean()) 0.2 + 0.6 * random.nextDouble() else 0.0
     private val wanderTime = between(30.0, 120.0)
     private val freedom = if (random.nextBoolean()) 4 + random.nextInt(3) else null
+
+    /** How far from the first water the sensor is when the log begins, in spreads of the water; by dice of its own. */
+    val start: Double = Random(seed * 7919 + AIR).let { dice ->
+        if (dice.nextBoolean()) (2 + 6 * dice.nextDouble()) * if (dice.nextBoolean()) 1 else -1 else 0.0
+    }
 
     private fun between(from: Double, to: Double) = exp(ln(from) + random.nextDouble() * ln(to / from))
 
@@ -56,11 +62,15 @@ internal class HiddenConditions(seed: Long, private val rows: Int, private val p
         "fixes held for $held rows".takeIf { held > 1 },
         "fixes wander by %.2f m".format(wandering).takeIf { wandering > 0 },
         freedom?.let { "tails of $it degrees of freedom" },
+        "begun %.1f spreads away".format(start).takeIf { start != 0.0 },
     ).joinToString().ifEmpty { "none" }
 
     private companion object {
         /** The dice for conditions. */
         const val DICE = 5
+
+        /** The dice for where the sensor begins. */
+        const val AIR = 6
 
         /** So many rows at either end have no gap. */
         const val AT_ENDS = 40

@@ -65,7 +65,8 @@ internal class HiddenWorld(
  * The readings without noise of a sensor with hidden effects: the midpoint rule in fine time, 20 steps to a row.
  *
  * @property timeConstant s. @property effects each with its strength, in the unit that [strength] says.
- * @param isAhead whether a probe that is off the fixes is ahead of them; else it is behind.
+ * @param isAhead whether a probe that is off the fixes is ahead of them; else it is behind. @param start how far from the
+ *   first water all of it begins, in spreads of the water.
  */
 internal class HiddenSensor(
     private val world: HiddenWorld,
@@ -75,6 +76,7 @@ internal class HiddenSensor(
     private val effects: Map<HiddenEffect, Double>,
     private val stepShares: List<Double>,
     isAhead: Boolean,
+    private val start: Double = 0.0,
 ) {
     private val behind = if (isAhead) -strength(HiddenEffect.POSITION) else strength(HiddenEffect.POSITION)
 
@@ -93,14 +95,15 @@ internal class HiddenSensor(
         val second = strength(HiddenEffect.SECOND_ORDER)
         val resonance = strength(HiddenEffect.RESONANCE)
         val slow = 6 * timeConstant
-        var s = truth[0]
-        var s2 = truth[0]
-        var lastBoth = truth[0]
-        var slowState = truth[0]
+        val first = truth[0] + start * spread
+        var s = first
+        var s2 = first
+        var lastBoth = first
+        var slowState = first
         var velocity = 0.0
         var ringing = 0.0
-        var follower = truth[0]
-        var play = truth[0]
+        var follower = first
+        var play = first
         val delay = strength(HiddenEffect.DEAD_TIME) / h
         val out = DoubleArray(world.rows)
         for (i in 0 until world.size - 1) {
