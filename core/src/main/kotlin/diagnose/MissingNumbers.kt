@@ -1,6 +1,6 @@
 package stillwater.diagnose
 
-import stillwater.diagnose.response.ReferenceGaps
+import stillwater.diagnose.algebra.Lagrange
 
 /**
  * A log in which readings and truths are missing here and there, row by row: what can be kept of it.
@@ -45,7 +45,7 @@ internal class MissingNumbers(private val times: DoubleArray, values: DoubleArra
         val lowest = beside.minOf { reference[it] }
         val highest = beside.maxOf { reference[it] }
         val beyond = BEYOND * (highest - lowest)
-        return ReferenceGaps.through(times, reference, beside, times[row]).coerceIn(lowest - beyond, highest + beyond)
+        return Lagrange.through(times, reference, beside, times[row]).coerceIn(lowest - beyond, highest + beyond)
     }
 
     private companion object {

@@ -6,7 +6,6 @@ import stillwater.model.Plan
 import stillwater.model.Position
 import kotlin.math.abs
 import kotlin.math.exp
-import kotlin.math.sqrt
 import kotlin.random.Random
 
 /**

@@ -34,6 +34,21 @@ class DiagnosisTest {
         assertEquals(6.0, result.baseline.parameters.first().value, 0.12)
     }
 
+    /** Such a log is weighed twice. */
+    @Test
+    fun progressGrowsWhereTheReferenceIsNoisy() {
+        val random = Random(8)
+        val still = DoubleArray(n)
+        val noisy = DoubleArray(n) { truth[it] + 0.1 * (random.nextDouble() - 0.5) }
+        val told = ArrayList<Double>()
+        val even = DoubleArray(n) { it.toDouble() }
+        val log = MeasuredSeries(even, still, still, log(SensorStage.Lag(6.0)).values, noisy)
+        Diagnosis(log, progress = told::add).run()
+        assertEquals(told.sorted(), told)
+        assertEquals(1.0, told.last())
+        assertTrue(told.count { it < 0.5 } > 5 && told.count { it > 0.5 } > 5, "$told")
+    }
+
     /** A path whose time constant is more than an eighth of the log: its ratio is that of the seconds beside it. */
     @Test
     fun aPathSlowerThanALogShowsIsSaidToBe() {

@@ -34,7 +34,8 @@ class CoreRulesTest {
         assertEquals(1, whats("diagnose/helpers", "val x = 1").size, "a package the rules do not know")
         val below = "import stillwater.diagnose.algebra.dot"
         assertTrue(whats("diagnose/blind", below, blind, "import stillwater.diagnose.Cause").isEmpty())
-        assertTrue(whats("diagnose", blind).isEmpty())
+        assertEquals(listOf("diagnose may not use blind"), whats("diagnose", blind))
+        assertTrue(whats("diagnose", below).isEmpty())
     }
 
     @Test

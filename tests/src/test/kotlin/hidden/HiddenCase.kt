@@ -134,10 +134,14 @@ internal class HiddenCase(
         )
     }
 
-    private fun sensor(effects: Map<HiddenEffect, Double>, tau: Double = timeConstant): HiddenSensor {
+    /** What is detectable is asked of one that begins in the first water: how it settles otherwise has a number of its own. */
+    private fun sensor(
+        effects: Map<HiddenEffect, Double>,
+        tau: Double = timeConstant,
+        start: Double = 0.0,
+    ): HiddenSensor {
         val own = if (isDelay) mapOf(HiddenEffect.DEAD_TIME to delay) else effects
-        val lag = if (isDelay) step else tau
-        return HiddenSensor(world, lag, gain, offset, own, stepShares, isAhead, conditions?.start ?: 0.0)
+        return HiddenSensor(world, if (isDelay) step else tau, gain, offset, own, stepShares, isAhead, start)
     }
 
     private fun draw(): Map<HiddenEffect, Pair<Double, Double>> {
@@ -200,7 +204,7 @@ internal class HiddenCase(
     /** Writes the log into [file]. */
     fun write(file: Path) {
         val effects = if (isTwin) emptyMap() else truth.effects
-        val clean = sensor(effects).readings()
+        val clean = sensor(effects, start = conditions?.start ?: 0.0).readings()
         val values = noise.added(clean, random) { random.normal() * (conditions?.tail() ?: 1.0) }
         val outlying = effects[HiddenEffect.OUTLIERS]
         if (outlying != null) {

@@ -6,11 +6,11 @@ import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
-import stillwater.diagnose.TooLittle
 import stillwater.diagnose.all
 import stillwater.diagnose.evidence.CoarseRounding
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.StillReadings
+import stillwater.diagnose.evidence.TooLittle
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.track.Passes
 import java.util.Locale

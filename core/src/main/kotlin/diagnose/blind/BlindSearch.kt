@@ -67,7 +67,7 @@ internal class BlindSearch private constructor(
     fun noise(share: Double, steps: Double) = noiseOver(share, steps * series.period)
 
     private fun noiseOver(share: Double, time: Double) =
-        CorrelatedNoise(series.times, share, time, used.copyOf(), shocks)
+        CorrelatedNoise(series.times, share, time, used, shocks)
 
     /** [state] with gaps after which the sensor may show anything, for as long as its lag takes. */
     private fun shaken(state: BlindState): BlindState {

@@ -15,8 +15,12 @@ import kotlin.math.expm1
 import kotlin.math.sin
 import kotlin.math.sqrt
 
-/** Looks for any dependence of residuals that no cause of the list need explain. */
-internal class Structure(private val fit: ModelFit) {
+/**
+ * Looks for any dependence of residuals that no cause of the list need explain.
+ *
+ * @param isPart whether only the rows that [fit] uses say what is ordinary.
+ */
+internal class Structure(private val fit: ModelFit, private val isPart: Boolean = false) {
     private val series = fit.model.series
     private val scales = fit.model.scales
     private val n = series.size
@@ -25,12 +29,8 @@ internal class Structure(private val fit: ModelFit) {
     private val prediction = fit.predicted
     private val rate = DoubleArray(n) { series.rise(prediction, it, it) }
 
-    /** All looks, the most striking first. */
-    fun dependences(): List<Dependence> {
-        val tests = groups().map { (name, columns) -> test(name, columns) } + periodic() + settling()
-        val adjusted = Evidence.holm(tests.map { it.pValue })
-        return tests.mapIndexed { i, test -> test.copy(adjusted = adjusted[i]) }.sortedBy { it.pValue }
-    }
+    /** All looks, each by itself. */
+    private fun looks() = groups().map { (name, columns) -> test(name, columns) } + periodic() + settling()
 
     private fun test(name: String, columns: List<DoubleArray>): Dependence {
         val whitened = columns.map { column -> DoubleArray(n).also { fit.noise.whiten(column, it) } }
@@ -174,8 +174,9 @@ internal class Structure(private val fit: ModelFit) {
     }
 
     private fun standard(column: DoubleArray): DoubleArray {
-        val mean = column.average()
-        val spread = sqrt(column.sumOf { (it - mean) * (it - mean) } / column.size)
+        val ordinary = if (isPart) column.filterIndexed { i, _ -> fit.noise.used[i] }.toDoubleArray() else column
+        val mean = ordinary.average()
+        val spread = sqrt(ordinary.sumOf { (it - mean) * (it - mean) } / ordinary.size)
         return DoubleArray(column.size) { if (spread > 0) ((column[it] - mean) / spread).coerceIn(-4.0, 4.0) else 0.0 }
     }
 
@@ -190,6 +191,20 @@ internal class Structure(private val fit: ModelFit) {
     private fun times(a: DoubleArray, b: DoubleArray) = DoubleArray(n) { a[it] * b[it] }
 
     companion object {
+        /**
+         * All looks at what [fit] leaves, the most striking first. Where the sensor began far away, also at what it leaves once
+         * it has settled, with correlation times up to [longest] s: of the two the surer, at twice its p-value.
+         */
+        fun dependences(fit: ModelFit, longest: Double): List<Dependence> {
+            val settled = SettledStart.of(fit, longest)?.let { Structure(it, isPart = true).looks() }
+            val tests = Structure(fit).looks().mapIndexed { i, look ->
+                val surer = settled?.get(i)?.takeIf { it.pValue < look.pValue } ?: look
+                if (settled == null) look else surer.copy(pValue = minOf(1.0, 2 * surer.pValue))
+            }
+            val adjusted = Evidence.holm(tests.map { it.pValue })
+            return tests.mapIndexed { i, test -> test.copy(adjusted = adjusted[i]) }.sortedBy { it.pValue }
+        }
+
         /** The description of what wanders slowly with time. */
         const val SLOW = "time (a slow wandering)"
 

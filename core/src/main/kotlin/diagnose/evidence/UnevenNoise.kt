@@ -4,6 +4,7 @@ import stillwater.diagnose.algebra.dot
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.median
 import stillwater.diagnose.response.ModelFit
+import stillwater.diagnose.response.RangeEnd
 import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.sqrt
@@ -27,10 +28,10 @@ internal class UnevenNoise(private val fit: ModelFit) {
     fun words(level: Double): String? {
         val isCoarse = fit.model.scales.resolution > sqrt(fit.variance)
         if (rows.size < FEWEST || isCoarse) return null
-        val late = Quantity("time", fit.model.series.times, "late in the log", "early")
         val high = Quantity("value", fit.predicted, "where it is high", "where it is low")
-        val most = listOf(late, high).minBy { it.chance }
-        if (!(most.chance * QUANTITIES < level) || most.times < CLEARLY) return null
+        val late = Quantity("time", series.times, "late in the log", "early")
+        val told = listOf(high, late).filter { it.chance * QUANTITIES < level && it.isMuch }
+        val most = told.maxByOrNull { it.ratio } ?: return null
         val times = "%.1f".format(Locale.ROOT, most.times)
         return "the noise goes with the ${most.name}: readings scatter $times times as much ${most.where}"
     }
@@ -39,19 +40,21 @@ internal class UnevenNoise(private val fit: ModelFit) {
     private inner class Quantity(val name: String, column: DoubleArray, high: String, low: String) {
         private val own = DoubleArray(rows.size) { column[rows[it]] }
         private val order = own.indices.sortedBy { own[it] }
-        private val ratio = scatter(order.takeLast(rows.size / 3)) / scatter(order.take(rows.size / 3))
+        private val larger = scatter(order.takeLast(rows.size / 3)) / scatter(order.take(rows.size / 3))
 
         /** How many times as large the noise is in the third of the rows with the highest values as in the lowest, or the other way. */
-        val times = maxOf(ratio, 1 / ratio)
-        val where = if (ratio > 1) "$high as $low" else "$low as $high"
+        val times = maxOf(larger, 1 / larger)
+        val isMuch = times >= CLEARLY && times.isFinite()
+        val where = if (larger > 1) "$high as $low" else "$low as $high"
 
-        /** How likely so much of a rank correlation is if there is none. */
-        val chance: Double by lazy {
-            val a = ranks(own)
-            val b = ranks(sizes)
-            val correlation = dot(a, b) / sqrt(squares(a) * squares(b))
-            Evidence.pValue(correlation * correlation * (rows.size - 1), 1)
+        /** What the square of the rank correlation is beyond chance, as χ² of one degree of freedom. */
+        val ratio: Double = ranks(own).let { own ->
+            val ranks = ranks(sizes)
+            dot(own, ranks).let { it * it } / (squares(own) * squares(ranks)) * (rows.size - 1)
         }
+
+        /** How likely so much of it is if there is none. */
+        val chance: Double get() = Evidence.pValue(ratio, 1)
 
         private fun scatter(some: List<Int>) = median(DoubleArray(some.size) { sizes[some[it]] })
     }
@@ -66,8 +69,12 @@ internal class UnevenNoise(private val fit: ModelFit) {
         }
         val calm = isCalm(truth)
         val calmShown = isCalm(fit.predicted)
+        // At an end of the range readings are as even as that is.
+        val isAtEnd = RangeEnd.beyond(fit.model, fit.numbers)
         val used = fit.noise.used
-        return used.indices.filter { used[it] && calm[it] && calmShown[it] && !fit.model.scales.isInDoubt(it) }
+        return used.indices.filter {
+            used[it] && calm[it] && calmShown[it] && isAtEnd?.get(it) != true && !fit.model.scales.isInDoubt(it)
+        }
     }
 
     /** Ranks of [column], equal numbers sharing theirs, less their mean. */

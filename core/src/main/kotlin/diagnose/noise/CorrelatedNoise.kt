@@ -14,16 +14,19 @@ import kotlin.math.sqrt
  *
  * Source: Jones 1981, Fitting a continuous time autoregression to discrete data, in Applied Time Series Analysis II.
  *
- * @property times of the rows, s. @property share φ, dimensionless, within 0..1. @property time τ, s, above 0. @property used whether a row counts.
+ * @property times of the rows, s, kept. @property share φ, dimensionless, within 0..1. @property time τ, s, above 0. @param used whether a row counts.
  * @property shocks add what is not known of the sensor's state after a gap: a second process, filtered with the first.
  */
 internal class CorrelatedNoise(
     val times: DoubleArray,
     val share: Double,
     val time: Double,
-    val used: BooleanArray,
+    used: BooleanArray,
     val shocks: Shocks? = null,
 ) {
+    /** Whether a row counts; a copy, so that the noise stays what it is. */
+    val used: BooleanArray = used.copyOf()
+
     private val keep = DoubleArray(times.size)
     private val gain = DoubleArray(times.size)
     private val scale = DoubleArray(times.size)

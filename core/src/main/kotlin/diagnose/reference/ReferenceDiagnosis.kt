@@ -5,10 +5,10 @@ import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
-import stillwater.diagnose.TooLittle
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.evidence.BeyondDoubt
 import stillwater.diagnose.evidence.Spikes
+import stillwater.diagnose.evidence.TooLittle
 import stillwater.diagnose.evidence.Trial
 import stillwater.diagnose.evidence.allOrEach
 import stillwater.diagnose.evidence.without
@@ -45,6 +45,9 @@ internal class ReferenceDiagnosis(
     private val models = BaseModels(series, settings, unknown, used)
     private var trials = 0
 
+    /** The share of all that another weighing was. */
+    private var done = 0.0
+
     /** The answer. */
     fun answer(): DiagnosisResult {
         // Of readings that never change any lag that is long enough is as likely as any end of a range.
@@ -54,7 +57,7 @@ internal class ReferenceDiagnosis(
         }
         val quieter = quieter(checkNotNull(series.reference))
         if (quieter == null) return weighed().result()
-        return likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, progress)).result()
+        return likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0) { progress(HALF * it) }).result()
     }
 
     /**
@@ -63,6 +66,7 @@ internal class ReferenceDiagnosis(
      */
     private fun likelier(quiet: ReferenceDiagnosis): Weighing {
         val quieter = quiet.weighed()
+        done = HALF
         val noisier = weighed()
         val isLikelier = noisier.explained > quieter.explained + HELD && noisier.chosen.size <= quieter.chosen.size
         return if (isLikelier) noisier else quieter
@@ -226,32 +230,25 @@ internal class ReferenceDiagnosis(
         return Fitting.fit(other, fit.numbers, fit.free, used, longest, guess = guess)
     }
 
-    private fun weighing(steps: Steps?): Weighing {
+    /** The weighing with [steps], or as the log says; the wild readings are those [known], or looked for. */
+    private fun weighing(steps: Steps?, known: List<Int>? = null): Weighing {
         series.readRows().copyInto(used)
         val settled = models.settled(steps)
-        val sure = BeyondDoubt(settled)
-        // Rounding moves readings by up to half a step: what is within a step need not be wild.
-        val spikes = lone(settled).filter {
-            val isDoubtful = models.shaken.isInDoubt(it) || settled.model.scales.isInDoubt(it)
-            abs(settled.residuals[it]) > settled.model.scales.resolution && Spikes.isSingle(settled.residuals, it) &&
-                (!isDoubtful || it in sure)
-        }
+        val spikes = known ?: wild(settled)
         spikes.forEach { used[it] = false }
         return weighing(if (spikes.isEmpty()) settled else models.of(steps, settled), spikes, 0.0)
     }
 
-    /** The rows of [fit] that stick out of those beside them. */
-    private fun lone(fit: ModelFit): List<Int> {
+    /** The rows of [fit] that stick out of those beside them by more than rounding, or what is in doubt, may do. */
+    private fun wild(fit: ModelFit): List<Int> {
         val rows = used.indices.filter { used[it] }
-        return Spikes.of(DoubleArray(rows.size) { fit.whitened[rows[it]] }).map { rows[it] }
-    }
-
-    /** The weighing with [steps] where [spikes] are known. */
-    private fun weighing(steps: Steps, spikes: List<Int>): Weighing {
-        series.readRows().copyInto(used)
-        val settled = models.settled(steps)
-        spikes.forEach { used[it] = false }
-        return weighing(if (spikes.isEmpty()) settled else models.of(steps, settled), spikes, 0.0)
+        val sure = BeyondDoubt(fit)
+        val scales = fit.model.scales
+        return Spikes.of(DoubleArray(rows.size) { fit.whitened[rows[it]] }).map { rows[it] }.filter {
+            // Rounding moves readings by up to half a step: what is within a step need not be wild.
+            abs(fit.residuals[it]) > scales.resolution && Spikes.isSingle(fit.residuals, it) &&
+                (!(models.shaken.isInDoubt(it) || scales.isInDoubt(it)) || it in sure)
+        }
     }
 
     /** The weighing of all causes on top of [base], where [spikes] are left out of and the reference was [late] s late. */
@@ -272,11 +269,12 @@ internal class ReferenceDiagnosis(
     @Synchronized
     private fun tell(terms: Int) {
         trials++
-        progress(trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))
+        progress(done + (1 - done) * trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))
     }
 
     private companion object {
         const val HELD = BaseModels.HELD
+        const val HALF = 0.5
 
         /** The same of one delay in five hundred that there might be, of which few sensors have any. */
         const val COINCIDENCE = 18.0

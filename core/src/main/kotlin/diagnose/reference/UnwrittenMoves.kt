@@ -4,9 +4,9 @@ import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.Estimate
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ModelAssessment
-import stillwater.diagnose.TooLittle
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.algebra.squares
+import stillwater.diagnose.evidence.TooLittle
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.three
 import stillwater.estimate.ReferenceLearner

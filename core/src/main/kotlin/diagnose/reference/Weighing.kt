@@ -65,8 +65,11 @@ internal class Weighing(
     private val truth = requireNotNull(series.reference) { "weighing needs a reference" }
     private val water = ChangingWater(series, truth)
 
-    /** All that is tried; outliers, changes that last, a change of the water and a late reference included. */
-    private val tried = terms.size + 4
+    /**
+     * All that is tried; outliers, changes that last, a change of the water, a late reference, readings that stand still and
+     * noise that is not even included.
+     */
+    private val tried = terms.size + 6
 
     /** What was chosen, one after the other. */
     val chosen: List<Trial> = forward.chosen()
@@ -109,7 +112,7 @@ internal class Weighing(
         val loose = LooseReadings(last)
         val outliers = loose.pValue * tried < settings.level
         val changing = water.pValue * tried < settings.level
-        val left = Structure(last).dependences()
+        val left = Structure.dependences(last, search.longest)
         val rounded = chosen.none { it.term.cause == Cause.QUANTISATION } && isRounded
         val certain = listOfNotNull(
             Cause.QUANTISATION.takeIf { rounded },

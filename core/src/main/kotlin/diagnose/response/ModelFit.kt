@@ -5,7 +5,6 @@ import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.noise.CorrelatedNoise
 import kotlin.math.abs
 import kotlin.math.exp
-import kotlin.math.ln
 
 /**
  * A model with the numbers that fit a log best under correlated noise.
@@ -40,9 +39,6 @@ internal class ModelFit(
             DoubleArray(values.size).also { model.predict(numbers, it) }
         }
     }
-
-    /** Parameter [i] on the scale it is fitted on. */
-    fun scaled(i: Int): Double = if (model.parameters[i].logarithmic) ln(numbers[i]) else numbers[i]
 }
 
 /** Finds the numbers under which a log is likeliest: Levenberg-Marquardt on whitened residuals, the noise in turn. */

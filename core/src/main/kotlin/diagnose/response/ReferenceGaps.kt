@@ -1,5 +1,6 @@
 package stillwater.diagnose.response
 
+import stillwater.diagnose.algebra.Lagrange
 import stillwater.diagnose.algebra.squares
 import kotlin.math.abs
 import kotlin.math.sqrt
@@ -49,23 +50,9 @@ internal object ReferenceGaps {
             from[1] = i - apart
             from[2] = i + apart
             from[3] = i + 2 * apart
-            errors[i] = abs(truth[i] - through(times, truth, from, times[i]))
+            errors[i] = abs(truth[i] - Lagrange.through(times, truth, from, times[i]))
         }
         return errors
-    }
-
-    /** The polynomial through rows [rows] of [truth] at [time], s. */
-    fun through(times: DoubleArray, truth: DoubleArray, rows: IntArray, time: Double): Double {
-        var sum = 0.0
-        for (k in rows) sum += truth[k] * weight(times, rows, k, time)
-        return sum
-    }
-
-    /** Lagrange's weight of row [k] among [from] at [time]. */
-    private fun weight(times: DoubleArray, from: IntArray, k: Int, time: Double): Double {
-        var product = 1.0
-        for (j in from) if (j != k) product *= (time - times[j]) / (times[k] - times[j])
-        return product
     }
 
     /** Seven times smaller an error in a gap half as long: what a cubic's is for smooth water. */

@@ -1,5 +1,6 @@
 package stillwater.diagnose.evidence
 
+import stillwater.diagnose.Cause
 import stillwater.diagnose.Diagnosis
 import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.MeasuredSeries
@@ -65,6 +66,20 @@ class UnevenNoiseTest {
         val result = diagnosed({ 1e-4 * times[it] }) { 1 + 2 * truth[it] / 10 }
         assertIs<Verdict.Named>(result.verdict, "seed $SEED")
         assertTrue(result.warnings.any { "Beside what was named the noise goes with the value" in it }, "seed $SEED")
+    }
+
+    /** Readings that stand still at an end, behind the noise, scatter less there than anywhere. */
+    @Test
+    fun anEndOfTheRangeMakesNoiseNoneTheLessEven() {
+        val random = Random(SEED)
+        var shown = truth[0]
+        val values = DoubleArray(n) { i ->
+            if (i > 0) shown = truth[i] + (shown - truth[i]) * exp(-(times[i] - times[i - 1]) / 8)
+            minOf(shown + 0.02 * random.nextGaussian(), 7.0)
+        }
+        val result = Diagnosis(MeasuredSeries(times, DoubleArray(n), DoubleArray(n), values, truth)).run()
+        assertEquals(listOf(Cause.SATURATION), assertIs<Verdict.Named>(result.verdict, "seed $SEED").causes)
+        assertTrue(result.warnings.none { "the noise goes with" in it }, "${result.warnings}, seed $SEED")
     }
 
     private companion object {

@@ -1,6 +1,10 @@
-package stillwater.diagnose
+package stillwater.diagnose.evidence
 
-import stillwater.diagnose.evidence.Spikes
+import stillwater.diagnose.DiagnosisResult
+import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.ModelAssessment
+import stillwater.diagnose.Verdict
+import stillwater.diagnose.isFlat
 import stillwater.sensor.SensorSpec
 
 /** Logs that nothing can be told from, however they are looked at. */
