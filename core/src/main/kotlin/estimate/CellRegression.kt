@@ -100,7 +100,7 @@ internal class CellRegression(private val grid: Grid, private val covariances: F
         return misfit.isFinite()
     }
 
-    /** After [solve]: what [leftOut] and [others] need. */
+    /** After [solve]: what [precisions] and what is left out of each reading need. */
     fun invert() {
         for (i in 0 until size) {
             val row = i * stride

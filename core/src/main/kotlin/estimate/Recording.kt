@@ -4,8 +4,8 @@ package stillwater.estimate
  * The first readings of a [ReadingTape] as a sensor model is fitted to them: so many of them, with borders heeded or
  * not, gone through a part at a time.
  *
- * @property tape where they are kept; it may grow meanwhile.
- * @property parts is told what is done, in steps of a filter.
+ * @param tape where they are kept; it may grow meanwhile.
+ * @param parts is told what is done, in steps of a filter.
  */
 internal class Recording(private val tape: ReadingTape, private val parts: Parts, heedsBorders: Boolean) {
     /** What readings near borders count for, as after the last reading that was gone through. */

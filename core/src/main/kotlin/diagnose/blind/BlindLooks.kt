@@ -2,7 +2,7 @@ package stillwater.diagnose.blind
 
 import stillwater.diagnose.all
 import stillwater.diagnose.evidence.Standard
-import java.util.Locale
+import stillwater.diagnose.three
 import kotlin.math.PI
 import kotlin.math.cos
 import kotlin.math.exp
@@ -103,7 +103,7 @@ internal class BlindLooks(
         val searched = 2 * ln(PERIODS.toDouble())
         val all = (0 until PERIODS).map { k ->
             val period = shortest * (LONGEST * tau / shortest).pow(k / (PERIODS - 1.0))
-            val said = "%.3g".format(Locale.ROOT, period)
+            val said = three(period)
             BlindLook(
                 "what was there before (the response rings with a period of $said s)",
                 rung(period),

@@ -3,7 +3,7 @@ package stillwater.diagnose.blind
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.all
 import stillwater.diagnose.median
-import java.util.Locale
+import stillwater.diagnose.three
 import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.cos
@@ -65,7 +65,7 @@ internal class BlindPeriods(private val state: BlindState, private val tries: Bl
         val frequency = lowest + (best - 1) * step + closer.indices.maxBy { closer[it] } * step / CLOSER
         val near = maxOf(0, best - BESIDE)..minOf(count - 1, best + BESIDE)
         return BlindLook(
-            "time, with a period of ${"%.3g".format(Locale.ROOT, 1 / frequency)} s",
+            "time, with a period of ${three(1 / frequency)} s",
             listOf(wave(frequency, ::cos), wave(frequency, ::sin)),
             2 * ln(count.toDouble()),
             { z -> beside(normed(z, near), best - near.first) / squares(z) },

@@ -14,12 +14,23 @@ import kotlin.math.sqrt
  *
  * Asked by the rank correlation (Spearman's) of how far whitened residuals are off 0 with the value and with the time:
  * single wild readings and heavy tails weigh no more than others. Where the truth moves fast, what is not known of it
- * between the rows makes residuals larger, so that the fastest rows do not count.
+ * between the rows makes residuals larger: the fastest rows do not count, and of all others what goes with how fast it
+ * moves is taken off both.
  */
 internal class UnevenNoise(private val fit: ModelFit) {
     private val series = fit.model.series
+    private val rates = listOf(checkNotNull(series.reference), fit.predicted).map { column ->
+        DoubleArray(column.size) { abs(series.rise(column, it, it)) }
+    }
     private val rows = calmRows()
     private val sizes = DoubleArray(rows.size) { abs(fit.whitened[rows[it]]) }
+
+    /** A constant, and what goes with how fast the truth moves and with how fast what is shown of it does, straight or curved. */
+    private val moving by lazy {
+        val ranks = rates.map { rate -> ranks(DoubleArray(rows.size) { rate[rows[it]] }) }
+        val curved = ranks.map { rank -> DoubleArray(rank.size) { rank[it] * rank[it] } }
+        Evidence.orthonormal(listOf(DoubleArray(rows.size) { 1.0 }) + ranks + curved)
+    }
 
     /**
      * In words, what the noise goes with for certain at this [level], of both quantities together; null where it is as large
@@ -47,10 +58,9 @@ internal class UnevenNoise(private val fit: ModelFit) {
         val isMuch = times >= CLEARLY && times.isFinite()
         val where = if (larger > 1) "$high as $low" else "$low as $high"
 
-        /** What the square of the rank correlation is beyond chance, as χ² of one degree of freedom. */
-        val ratio: Double = ranks(own).let { own ->
-            val ranks = ranks(sizes)
-            dot(own, ranks).let { it * it } / (squares(own) * squares(ranks)) * (rows.size - 1)
+        /** The rows times the square of the rank correlation: χ² of one degree of freedom if there is none. */
+        val ratio: Double = Evidence.without(listOf(ranks(own), ranks(sizes)), moving).let { (own, sizes) ->
+            dot(own, sizes).let { it * it } / (squares(own) * squares(sizes)) * (rows.size - moving.size)
         }
 
         /** How likely so much of it is if there is none. */
@@ -61,19 +71,13 @@ internal class UnevenNoise(private val fit: ModelFit) {
 
     /** Rows in use but for the quarters in which the truth, and what the sensor shows of it, move fastest. */
     private fun calmRows(): List<Int> {
-        val truth = checkNotNull(series.reference)
-        fun isCalm(column: DoubleArray): BooleanArray {
-            val rates = DoubleArray(column.size) { abs(series.rise(column, it, it)) }
-            val most = rates.sortedArray()[rates.size * 3 / 4]
-            return BooleanArray(column.size) { rates[it] <= most }
-        }
-        val calm = isCalm(truth)
-        val calmShown = isCalm(fit.predicted)
+        val most = rates.map { it.sortedArray()[it.size * 3 / 4] }
         // At an end of the range readings are as even as that is.
         val isAtEnd = RangeEnd.beyond(fit.model, fit.numbers)
         val used = fit.noise.used
         return used.indices.filter {
-            used[it] && calm[it] && calmShown[it] && isAtEnd?.get(it) != true && !fit.model.scales.isInDoubt(it)
+            val isCalm = rates.indices.all { k -> rates[k][it] <= most[k] }
+            used[it] && isCalm && isAtEnd?.get(it) != true && !fit.model.scales.isInDoubt(it)
         }
     }
 

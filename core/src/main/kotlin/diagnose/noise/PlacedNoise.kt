@@ -10,7 +10,8 @@ import kotlin.math.sqrt
  *
  * Whitening is the Kalman filter of four states, of which c is what wanders of the noise, e the error of the place on
  * either axis, and s what the lag has kept of what these did: s ← a s + (1 − a) (gradient · e), a = exp(−Δt/τ). Its gains
- * do not depend on the data, so that a column costs O(n). Rows not in use are passed over. See core/docs/Diagnosis.md, (11e).
+ * do not depend on the data, so that a column costs O(n). Rows not in use are passed over. Shocks to the sensor's state are
+ * shocks to s, and fade as that does, with the lag of [places]. See core/docs/Diagnosis.md, (11e).
  */
 internal class PlacedNoise(noise: CorrelatedNoise, places: PlaceErrors) {
     private val used = noise.used

@@ -17,7 +17,7 @@ import kotlin.math.abs
 /**
  * Models without a cause of a log with a reference: a first-order lag with gain and offset, or the given sensor.
  *
- * @property used rows that are fitted; which they are may change. @param unknown what the reference leaves open.
+ * @param used rows that are fitted; which they are may change. @param unknown what the reference leaves open.
  */
 internal class BaseModels(
     private val series: MeasuredSeries,

@@ -30,9 +30,9 @@ import stillwater.diagnose.response.SpikeSize
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.response.isTiming
+import stillwater.diagnose.three
 import stillwater.model.Conditions
 import stillwater.model.Interval
-import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.sqrt
 
@@ -186,7 +186,7 @@ internal class Weighing(
         }
         uneven?.takeIf { named }?.let { add("Beside what was named $it.") }
         if (scales.unknown?.isSharp == true) {
-            add("A delay of less than ${"%.3g".format(Locale.ROOT, series.period)} s cannot show: ${SmallShifts.SHARP}")
+            add("A delay of less than ${three(series.period)} s cannot show: ${SmallShifts.SHARP}")
         } else if (before > 0) {
             if (before == 1.0) add(SmallShifts.UNTIL_NEXT)
         } else if (base.model.steps == Steps.HELD && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
@@ -240,7 +240,7 @@ internal class Weighing(
                 "the truth often moves within a row or two, and how it went in between might explain what is left",
             )
             isTiming && series.isSparse && ReferenceGaps.reach(base) > MOST_UNKNOWN -> Verdict.InsufficientData(
-                "the reference is known every ${"%.3g".format(Locale.ROOT, series.period)} s only, and how the truth " +
+                "the reference is known every ${three(series.period)} s only, and how the truth " +
                     "went in between might explain what is left",
             )
             // A clock that is behind is no lag of a reference, and leaves something that is put right as one.

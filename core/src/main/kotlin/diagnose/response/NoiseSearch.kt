@@ -11,7 +11,7 @@ import kotlin.math.ln
  * Of a correlation time the likelihoods of several shares are found in one pass: each filter waits for its own row
  * before, and the others go on meanwhile.
  *
- * @param residuals as long as the log; not modified. @param used whether a row counts. @param longest longest
+ * @param scales of the log, and what is not known of the sensor's state. @param residuals as long as the log; not modified. @param used whether a row counts. @param longest longest
  * correlation time, s.
  */
 internal class NoiseSearch(

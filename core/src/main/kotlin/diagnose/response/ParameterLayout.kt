@@ -3,41 +3,6 @@ package stillwater.diagnose.response
 import stillwater.diagnose.Cause
 import stillwater.diagnose.MeasuredSeries
 
-/** The numbers of the base that are wrong where this is the cause: indices into a model's numbers. */
-internal val Cause.baseNumbers: List<Int>
-    get() = when (this) {
-        Cause.TIME_CONSTANT -> listOf(ResponseModel.TIME_CONSTANT)
-        Cause.GAIN_OFFSET -> listOf(ResponseModel.GAIN, ResponseModel.OFFSET)
-        else -> emptyList()
-    }
-
-/**
- * The number of a given sensor that is known for one speed, temperature, time or other condition only once this cause
- * is at work: an index into a model's numbers; null for none. Which condition the sensor was calibrated at is not said.
- */
-internal val Cause.conditionalNumber: Int?
-    get() = when (this) {
-        Cause.FLOW_DEPENDENT_RESPONSE, Cause.TEMPERATURE_DEPENDENT_RESPONSE -> ResponseModel.TIME_CONSTANT
-        Cause.CROSS_SENSITIVITY, Cause.DRIFT -> ResponseModel.OFFSET
-        else -> null
-    }
-
-/** Whether this shows in how the reading follows the truth from row to row. */
-internal val Cause.isTiming: Boolean
-    get() = when (this) {
-        Cause.ASYMMETRIC_RESPONSE,
-        Cause.SECOND_ORDER_RESPONSE,
-        Cause.TWO_PATH_RESPONSE,
-        Cause.DEAD_TIME,
-        Cause.SLEW_LIMIT,
-        Cause.FLOW_DEPENDENT_RESPONSE,
-        Cause.TEMPERATURE_DEPENDENT_RESPONSE,
-        Cause.HYSTERESIS,
-        Cause.POSITION_OFFSET,
-        -> true
-        else -> false
-    }
-
 /** Which number of a model stands where. */
 internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales: Scales) {
     /** Index of the first parameter of each term, by its key. */
@@ -48,9 +13,6 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
 
     /** All parameters in order. */
     val parameters: List<Parameter>
-
-    /** The track as times of ways. */
-    val way: WayTimes by lazy { WayTimes(series) }
 
     init {
         val list = ArrayList<Parameter>()
@@ -119,40 +81,5 @@ internal class ParameterLayout(series: MeasuredSeries, terms: List<Term>, scales
 
         /** The second of two lags, in rows: one that shows may be a fiftieth of a row where the noise is small. */
         const val SHORTEST = 2e-4
-    }
-}
-
-/** When the boat was a way further or less far along its track. */
-internal class WayTimes(private val series: MeasuredSeries) {
-    private val smooth: DoubleArray = smoothed()
-
-    /** The way as the sum of smoothed speeds: jitter of fixes would make it too long. */
-    private fun smoothed(): DoubleArray {
-        val way = DoubleArray(series.size)
-        for (i in 1 until series.size) {
-            val dt = series.times[i] - series.times[i - 1]
-            way[i] = way[i - 1] + maxOf((series.speed[i] + series.speed[i - 1]) / 2 * dt, 1e-9)
-        }
-        return way
-    }
-
-    /** The times at which the way was [distance] m further than at each row, asked for row after row. */
-    fun at(distance: Double): Walk = Walk(distance)
-
-    /** Goes along the track [distance] m ahead of the rows. */
-    inner class Walk(private val distance: Double) {
-        private var after = 0
-
-        /** The time that belongs to row [i], no earlier than the last one asked for, s; the last time beyond the end. */
-        fun timeAt(i: Int): Double {
-            val times = series.times
-            val wanted = smooth[i] + distance
-            while (after < smooth.size && smooth[after] < wanted) after++
-            if (after == smooth.size) return times.last()
-            if (smooth[after] == wanted) return times[after]
-            if (after == 0) return times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], 0.01)
-            val share = (wanted - smooth[after - 1]) / (smooth[after] - smooth[after - 1])
-            return times[after - 1] + share * (times[after] - times[after - 1])
-        }
     }
 }

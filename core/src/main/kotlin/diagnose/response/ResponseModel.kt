@@ -228,7 +228,7 @@ internal class ResponseModel(
 
     /** Has [see] told for each row after which row and at what time the sensor has what it shows there. */
     private inline fun late(deadTime: Double, distance: Double, see: (Int, Int, Double) -> Unit) {
-        val walk = if (distance != 0.0) layout.way.at(-distance) else null
+        val walk = if (distance != 0.0) scales.way.at(-distance) else null
         var from = 0
         for (i in 0 until n) {
             val time = (walk?.timeAt(i) ?: series.times[i]) - deadTime

@@ -56,6 +56,9 @@ internal class Scales(
         centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
     }
 
+    /** The track as times of ways. */
+    val way: WayTimes by lazy { WayTimes(series) }
+
     /** Finest step between different values, sensor units; 0 where there is none. */
     val resolution: Double = resolution(series.shown(series.values))
 

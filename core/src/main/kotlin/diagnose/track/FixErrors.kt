@@ -11,7 +11,7 @@ import kotlin.math.exp
  * How much parabolas through seven fixes miss over what those through five do is more for such an error than for one that
  * is new with each fix, and still more where the boat turns: what would be more than was found cannot be.
  *
- * @property reach fixes on either side. @property scatter standard deviation of a fix about them on either axis, m. @param
+ * @param reach fixes on either side. @property scatter standard deviation of a fix about them on either axis, m. @param
  *   ratio that about seven fixes over that about five. @param period from fix to fix, s.
  */
 internal class FixErrors(private val reach: Int, val scatter: Double, ratio: Double, private val period: Double) {
