@@ -6,6 +6,7 @@ import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Estimate
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.ProgressParts
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.three
 import stillwater.model.Interval

@@ -36,8 +36,7 @@ internal object LocalSpread {
         // Correlated noise makes two of a single wild reading.
         val alone = rows.filterNot { it - 1 in rows && it - 2 !in rows && it + 1 !in rows }
         return columns(fit).filter(::isVaried).any { column ->
-            val sorted = column.sortedArray()
-            val all = DoubleArray(column.size) { rank(sorted, column[it]) }
+            val all = Ranks.of(column)
             val away = DoubleArray(column.size) { 2 * abs(all[it] - 0.5) }
             isOff(alone, all) || isOff(alone, away)
         }
@@ -55,20 +54,6 @@ internal object LocalSpread {
         val lowest = column.min()
         val highest = column.max()
         return highest - lowest > ROUNDING * maxOf(abs(lowest), abs(highest))
-    }
-
-    /** The share of [sorted] below [value], of equal ones half. */
-    private fun rank(sorted: DoubleArray, value: Double): Double {
-        fun below(limit: (Double) -> Boolean): Int {
-            var low = 0
-            var high = sorted.size
-            while (low < high) {
-                val middle = (low + high) / 2
-                if (limit(sorted[middle])) low = middle + 1 else high = middle
-            }
-            return low
-        }
-        return (below { it < value } + below { it <= value }) / 2.0 / sorted.size
     }
 
     private fun columns(fit: ModelFit): List<DoubleArray> {

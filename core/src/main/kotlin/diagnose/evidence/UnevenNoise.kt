@@ -27,7 +27,7 @@ internal class UnevenNoise(private val fit: ModelFit) {
 
     /** A constant, and what goes with how fast the truth moves and with how fast what is shown of it does, straight or curved. */
     private val moving by lazy {
-        val ranks = rates.map { rate -> ranks(DoubleArray(rows.size) { rate[rows[it]] }) }
+        val ranks = rates.map { rate -> Ranks.of(DoubleArray(rows.size) { rate[rows[it]] }) }
         val curved = ranks.map { rank -> DoubleArray(rank.size) { rank[it] * rank[it] } }
         Evidence.orthonormal(listOf(DoubleArray(rows.size) { 1.0 }) + ranks + curved)
     }
@@ -59,7 +59,7 @@ internal class UnevenNoise(private val fit: ModelFit) {
         val where = if (larger > 1) "$high as $low" else "$low as $high"
 
         /** The rows times the square of the rank correlation: χ² of one degree of freedom if there is none. */
-        val ratio: Double = Evidence.without(listOf(ranks(own), ranks(sizes)), moving).let { (own, sizes) ->
+        val ratio: Double = Evidence.without(listOf(Ranks.of(own), Ranks.of(sizes)), moving).let { (own, sizes) ->
             dot(own, sizes).let { it * it } / (squares(own) * squares(sizes)) * (rows.size - moving.size)
         }
 
@@ -79,20 +79,6 @@ internal class UnevenNoise(private val fit: ModelFit) {
             val isCalm = rates.indices.all { k -> rates[k][it] <= most[k] }
             used[it] && isCalm && isAtEnd?.get(it) != true && !fit.model.scales.isInDoubt(it)
         }
-    }
-
-    /** Ranks of [column], equal numbers sharing theirs, less their mean. */
-    private fun ranks(column: DoubleArray): DoubleArray {
-        val order = column.indices.sortedBy { column[it] }
-        val ranks = DoubleArray(column.size)
-        var from = 0
-        while (from < order.size) {
-            var to = from
-            while (to < order.size && column[order[to]] == column[order[from]]) to++
-            for (k in from until to) ranks[order[k]] = (from + to - 1) / 2.0 - (order.size - 1) / 2.0
-            from = to
-        }
-        return ranks
     }
 
     private companion object {

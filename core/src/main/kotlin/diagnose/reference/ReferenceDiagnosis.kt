@@ -5,6 +5,7 @@ import stillwater.diagnose.DiagnosisResult
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.ProgressParts
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.evidence.BeyondDoubt
 import stillwater.diagnose.evidence.Spikes
@@ -37,16 +38,15 @@ internal class ReferenceDiagnosis(
     private val settings: DiagnosisSettings,
     private val loops: Loops,
     private val before: Double,
-    private val progress: (Double) -> Unit,
+    progress: (Double) -> Unit,
 ) {
     private val unknown = UnknownTruth.of(series)
     private val used = series.readRows()
     private val longest = CauseSearch.longest(series, settings)
     private val models = BaseModels(series, settings, unknown, used)
+    private val parts = ProgressParts(progress)
+    private val told by lazy { parts.next(1.0) }
     private var trials = 0
-
-    /** The share of all that another weighing was. */
-    private var done = 0.0
 
     /** The answer. */
     fun answer(): DiagnosisResult {
@@ -57,7 +57,7 @@ internal class ReferenceDiagnosis(
         }
         val quieter = quieter(checkNotNull(series.reference))
         if (quieter == null) return weighed().result()
-        return likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0) { progress(HALF * it) }).result()
+        return likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, parts.next(HALF))).result()
     }
 
     /**
@@ -66,7 +66,6 @@ internal class ReferenceDiagnosis(
      */
     private fun likelier(quiet: ReferenceDiagnosis): Weighing {
         val quieter = quiet.weighed()
-        done = HALF
         val noisier = weighed()
         val isLikelier = noisier.explained > quieter.explained + HELD && noisier.chosen.size <= quieter.chosen.size
         return if (isLikelier) noisier else quieter
@@ -95,8 +94,8 @@ internal class ReferenceDiagnosis(
 
     /** Twice the log-likelihood of the base for [quiet], this log with another reference. */
     private fun explained(quiet: MeasuredSeries): Double {
-        val model = ResponseModel(quiet, models.rough.model.terms, Steps.EVEN, Scales(quiet, unknown))
         val rough = models.rough
+        val model = ResponseModel(quiet, rough.model.terms, Steps.EVEN, Scales(quiet, unknown))
         return Fitting.fit(model, rough.numbers, rough.free, used, longest, guess = rough.noise).score
     }
 
@@ -269,11 +268,13 @@ internal class ReferenceDiagnosis(
     @Synchronized
     private fun tell(terms: Int) {
         trials++
-        progress(done + (1 - done) * trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))
+        told(trials / (trials + maxOf(terms.toDouble() - trials, terms / 2.0)))
     }
 
     private companion object {
         const val HELD = BaseModels.HELD
+
+        /** Of all, that one of two weighings is. */
         const val HALF = 0.5
 
         /** The same of one delay in five hundred that there might be, of which few sensors have any. */

@@ -1,4 +1,4 @@
-package stillwater.diagnose.blind
+package stillwater.diagnose
 
 /** Progress of what is done in parts, of which it is not known how many there will be. */
 internal class ProgressParts(private val progress: (Double) -> Unit) {

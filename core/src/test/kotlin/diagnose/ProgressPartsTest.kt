@@ -1,4 +1,4 @@
-package stillwater.diagnose.blind
+package stillwater.diagnose
 
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
