@@ -15,6 +15,7 @@ import stillwater.diagnose.evidence.Manoeuvres
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.SuddenChanges
+import stillwater.diagnose.evidence.UnevenNoise
 import stillwater.diagnose.response.ExtendedSensor
 import stillwater.diagnose.response.Parameter
 import stillwater.diagnose.response.ResponseModel
@@ -53,7 +54,10 @@ internal class BlindAnswer(
         val left = order.map { i ->
             Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, end.adjustedLooks[i])
         }
-        val isLoose = outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
+        val uneven = UnevenNoise(asFit(last), isInferred = true).words(UNEVEN * settings.level)
+        // Where the noise is larger for a while far readings are gathered, and are no single ones.
+        val isLoose = uneven == null &&
+            outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
         // What shifts readings by next to nothing, however surely, stays in the model.
         val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let(::isNothing) != true }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
@@ -77,7 +81,8 @@ internal class BlindAnswer(
         val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
             (chosen.isEmpty() && (end.look(strongest).ofBoat || left.first().adjusted < certain))
         // One number for many readings hides all else; what hides in noise shows where nothing was found.
-        val unlisted = still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
+        val unlisted =
+            still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) ?: uneven else null
         val verdict = verdict(all, left.first(), strongest, end, isOthers, chosen, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
@@ -105,6 +110,7 @@ internal class BlindAnswer(
             BlindWarnings(series, settings, search, last, lag, outliers, given)
                 .of(left.first(), isNamed, rounding.takeIf { isCoarse }) +
                 listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
+                listOfNotNull(uneven?.takeIf { isNamed }?.let { "Beside what was named $it." }) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
             mayHaveChanged = isLikelyChange,
@@ -374,6 +380,9 @@ internal class BlindAnswer(
         /** Causes that halves of a log do not contradict: what happens once, and steps that all readings are on. */
         val NOT_HALVED = BlindDiagnosis.SLOW + Cause.QUANTISATION
         const val MOST_STEPS = 3
+
+        /** Of the level at which noise is uneven: what the water's waves lack may make some of it. */
+        const val UNEVEN = 1e-4
 
         const val MOST_REACH = 50.0
         const val MOST_FACTOR = 1e9

@@ -21,11 +21,10 @@ internal class BlindWarnings(
     private val outliers: BlindOutliers,
     private val given: GivenLag?,
 ) {
-    /** Whether the last model is of a lag of either kind, or both, and of nothing else. */
-    private val isAlone = last.model.terms.all { it.cause == Cause.DEAD_TIME }
-
     /** In words; [left] is the strongest of what is left, [isNamed] whether something was named, [rounding] what is coarse. */
     fun of(left: Dependence, isNamed: Boolean, rounding: CoarseRounding?): List<String> = buildList {
+        // Whether the answer is of a lag of one kind, or of either, and of nothing else.
+        val isAlone = last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
         if (given?.isPartial == true) {
             val what = if (given.state == null) {
                 "was not used: without a reference a lag is fitted in its place"

@@ -14,6 +14,7 @@ import stillwater.diagnose.evidence.FitReport
 import stillwater.diagnose.evidence.HeldOut
 import stillwater.diagnose.evidence.LooseReadings
 import stillwater.diagnose.evidence.Manoeuvres
+import stillwater.diagnose.evidence.QuickMoves
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.evidence.StillReadings
@@ -236,7 +237,7 @@ internal class Weighing(
         val isAtEnd by lazy { still.atEnd < settings.level / tried }
         val isTiming = structured || sets.flatten().any { it.isTiming || (it == Cause.SATURATION && !isAtEnd) }
         return when {
-            isTiming && base.model.scales.unknown?.isMostly == true -> Verdict.InsufficientData(
+            isTiming && isMostlyUnknown(structured, all.size) -> Verdict.InsufficientData(
                 "the truth often moves within a row or two, and how it went in between might explain what is left",
             )
             isTiming && series.isSparse && ReferenceGaps.reach(base) > MOST_UNKNOWN -> Verdict.InsufficientData(
@@ -253,6 +254,16 @@ internal class Weighing(
             all.any { it.size > 1 } -> Verdict.Ambiguous(all)
             else -> Verdict.Named(all.map { it.single() })
         }
+    }
+
+    /**
+     * Whether the truth moves within a row so often that how the reading follows it is not known. It is known all the same
+     * where readings after such moves are foretold, by a model that leaves nothing [structured] beside what was chosen, and
+     * where one cause, of the [found] ones, leaves nothing: how the truth went in between would.
+     */
+    private fun isMostlyUnknown(structured: Boolean, found: Int): Boolean {
+        if (scales.unknown?.isMostly != true || (!structured && found == 1)) return false
+        return (structured && chosen.isNotEmpty()) || !QuickMoves.areForetold(last, search.longest)
     }
 
     /** Whether [left], which is there, is as strong as the weakest of what was chosen, or a part of it and surer. */

@@ -51,6 +51,13 @@ class UnevenNoiseTest {
         assertContains(verdict.what, "as much early as late in the log")
     }
 
+    @Test
+    fun noiseThatIsLargerForAWhileIsUnexplained() {
+        val result = diagnosed { if (it in 600..800) 4.0 else 1.0 }
+        val verdict = assertIs<Verdict.Unexplained>(result.verdict, "seed $SEED")
+        assertContains(verdict.what, "the noise comes and goes: readings scatter")
+    }
+
     /** Student's t of three degrees of freedom has wilder readings than any probe. */
     @Test
     fun evenNoiseIsConsistentHoweverHeavyItsTails() {
