@@ -54,10 +54,7 @@ internal class BlindAnswer(
         val left = order.map { i ->
             Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, end.adjustedLooks[i])
         }
-        val uneven = UnevenNoise(asFit(last), isInferred = true).words(UNEVEN * settings.level)
-        // Where the noise is larger for a while far readings are gathered, and are no single ones.
-        val isLoose = uneven == null &&
-            outliers.pValue * (first.causes.size + 1) < BlindDiagnosis.STRICTER * settings.level
+        val isLoose = areLoose(first.causes.size + 1)
         // What shifts readings by next to nothing, however surely, stays in the model.
         val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let(::isNothing) != true }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
@@ -117,6 +114,13 @@ internal class BlindAnswer(
             lag = lag.channel(""),
         )
     }
+
+    /** In words, where the noise is larger; null where it is even. */
+    private val uneven by lazy { UnevenNoise(asFit(last), isInferred = true).words(UNEVEN * settings.level) }
+
+    /** Whether single readings are wild, among [tried] causes; where the noise is larger for a while far ones are none. */
+    private fun areLoose(tried: Int) =
+        outliers.pValue * tried < BlindDiagnosis.STRICTER * settings.level && uneven == null
 
     /** Places of [looks], the surest first: fits without stretches say whether something is left, not what it goes with most. */
     private fun order(looks: List<BlindTrial>, adjusted: List<Double>): List<Int> = looks.indices.sortedWith(
