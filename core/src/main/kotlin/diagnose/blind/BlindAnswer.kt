@@ -78,8 +78,7 @@ internal class BlindAnswer(
         val isOthers = end.looksAsIs[strongest].ratio > LEFT * lag.seen ||
             (chosen.isEmpty() && (end.look(strongest).ofBoat || left.first().adjusted < certain))
         // One number for many readings hides all else; what hides in noise shows where nothing was found.
-        val unlisted =
-            still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) ?: uneven else null
+        val unlisted = still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
         val verdict = verdict(all, left.first(), strongest, end, isOthers, chosen, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
@@ -179,7 +178,7 @@ internal class BlindAnswer(
                 "what passes over the same water show would take a lag of ${three(base.timeConstant)} s, which " +
                     "such a log cannot tell from water that changes, or from positions that are wrong",
             )
-            sets.isEmpty() -> Verdict.Consistent
+            sets.isEmpty() -> uneven?.let(Verdict::Unexplained) ?: Verdict.Consistent
             sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
             else -> Verdict.Named(sets.map { it.single() })
         }

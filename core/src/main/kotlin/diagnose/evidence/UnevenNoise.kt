@@ -5,7 +5,6 @@ import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.median
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.RangeEnd
-import stillwater.diagnose.three
 import java.util.Locale
 import kotlin.math.abs
 import kotlin.math.sqrt
@@ -56,13 +55,11 @@ internal class UnevenNoise(private val fit: ModelFit, private val isInferred: Bo
         val told = listOf(high, late).filter { it.chance * ASKED < level && it.isMuch }
         val most = told.maxByOrNull { it.ratio }
         if (most != null) {
-            val times = written(most.times)
+            val times = "%.1f".format(Locale.ROOT, most.times)
             return "the noise goes with the ${most.name}: readings scatter $times times as much ${most.where}"
         }
         return Stretch().takeIf { it.chance * ASKED < level && it.times >= MUCH }?.words()
     }
-
-    private fun written(times: Double) = "%.1f".format(Locale.ROOT, times)
 
     private fun scatter(sizes: DoubleArray, some: List<Int>) = median(DoubleArray(some.size) { sizes[some[it]] })
 
@@ -120,10 +117,10 @@ internal class UnevenNoise(private val fit: ModelFit, private val isInferred: Bo
 
         fun words(): String {
             val part = factors.indexOf(times)
-            val from = three(series.times[rows[starts[part]]])
-            val to = three(series.times[rows[starts[part + 1] - 1]])
-            val more = written(times)
-            return "the noise comes and goes: readings scatter $more times as much from $from to $to s as usual"
+            val from = series.times[rows[starts[part]]]
+            val to = series.times[rows[starts[part + 1] - 1]]
+            return "the noise comes and goes: readings scatter %.1f times as much from %.0f to %.0f s as usual"
+                .format(Locale.ROOT, times, from, to)
         }
     }
 
