@@ -1,9 +1,11 @@
 package stillwater.diagnosis
 
 import stillwater.diagnose.Cause
+import stillwater.model.Conditions
 import stillwater.report.SignificantDigits
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import stillwater.sensor.TimeConstant
 
 /**
  * What a cause comes to in the sensor that was found, in the quantities that a user would measure: both time constants of an
@@ -26,13 +28,15 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
             "fast ${seconds(it.fast)}, slow ${seconds(it.slow)}"
         }
         Cause.FLOW_DEPENDENT_RESPONSE -> when (stage) {
-            is SensorStage.FlowLag -> at(stage.timeConstant, stage.referenceSpeed, "m/s")
-            is SensorStage.Combined -> at(stage.timeConstant, stage.referenceSpeed, "m/s")
+            is SensorStage.FlowLag -> ofFlow(stage.timeConstant, stage.referenceSpeed, stage.exponent)
+            is SensorStage.Combined -> ofFlow(stage.timeConstant, stage.referenceSpeed, stage.exponent)
             else -> null
         }
         Cause.TEMPERATURE_DEPENDENT_RESPONSE -> when (stage) {
-            is SensorStage.TemperatureLag -> at(stage.timeConstant, stage.referenceTemperature, "°C")
-            is SensorStage.Combined -> at(stage.timeConstant, stage.referenceTemperature, "°C")
+            is SensorStage.TemperatureLag ->
+                ofTemperature(stage.timeConstant, stage.referenceTemperature, stage.relativeChange)
+            is SensorStage.Combined ->
+                ofTemperature(stage.timeConstant, stage.referenceTemperature, stage.relativeChange)
             else -> null
         }
         Cause.OFFSET_STEPS -> (stage as? SensorStage.Jumps)?.let { jumps ->
@@ -41,6 +45,19 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
         Cause.CROSS_SENSITIVITY -> (stage as? SensorStage.Cross)?.let { "of ${it.condition}" }
         Cause.QUANTISATION -> (stage as? SensorStage.Quantum)?.let { "steps of ${three.format(it.step)}$unitAfter" }
         else -> null
+    }
+
+    /** Which way it goes is what the signs of exponents and relative changes do not say by themselves. */
+    private fun ofFlow(timeConstant: Double, speed: Double, exponent: Double): String {
+        val twice = TimeConstant.ofFlow(timeConstant, speed, exponent)
+            .under(Conditions(mapOf(Conditions.SPEED to 2 * speed)))
+        return at(timeConstant, speed, "m/s") + ", ${seconds(twice)} at twice that"
+    }
+
+    private fun ofTemperature(timeConstant: Double, temperature: Double, relativeChange: Double): String {
+        val warmer = TimeConstant.ofTemperature(timeConstant, temperature, relativeChange)
+            .under(Conditions(mapOf(Conditions.TEMPERATURE to temperature + 1)))
+        return at(timeConstant, temperature, "°C") + ", ${seconds(warmer)} at one degree more"
     }
 
     private fun at(timeConstant: Double, condition: Double, unit: String) =

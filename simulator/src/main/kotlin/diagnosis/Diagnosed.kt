@@ -157,16 +157,23 @@ class Diagnosed(
     /** The number of [estimate] with its interval and unit. */
     fun number(estimate: Estimate): String {
         if (abs(estimate.value) >= NO_END) return "none"
-        val three = SignificantDigits(3)
+        val digits = digits(estimate)
         val reach = estimate.interval?.let {
             when {
-                it.upper == Estimate.OPEN -> " [above ${three.format(it.lower)}]"
+                it.upper == Estimate.OPEN -> " [above ${digits.format(it.lower)}]"
                 it.lower > 0 && it.upper / it.lower > HARDLY -> " [hardly known]"
-                else -> " [${three.format(it.lower)}, ${three.format(it.upper)}]"
+                else -> " [${digits.format(it.lower)}, ${digits.format(it.upper)}]"
             }
         }.orEmpty()
         val unit = if (estimate.unit.isEmpty()) "" else " ${inUnit(estimate.unit)}"
-        return "${three.format(estimate.value)}$reach$unit"
+        return "${digits.format(estimate.value)}$reach$unit"
+    }
+
+    /** Three digits, or as many more as tell the ends of its interval apart: an end of a range is known to a few thousandths. */
+    private fun digits(estimate: Estimate): SignificantDigits {
+        val all = (3..MOST_DIGITS).map(::SignificantDigits)
+        val reach = estimate.interval ?: return all.first()
+        return all.firstOrNull { it.format(reach.lower) != it.format(reach.upper) } ?: all.first()
     }
 
     /** [words] of a unit, with the readings' own in it where it is known. */
@@ -228,6 +235,9 @@ class Diagnosed(
 
         /** The upper end of an interval over the lower one from which numbers say nothing. */
         const val HARDLY = 1e6
+
+        /** Significant digits of a number whose interval is narrow. */
+        const val MOST_DIGITS = 6
 
         /** The kinds of a lag. */
         val LAG = setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)

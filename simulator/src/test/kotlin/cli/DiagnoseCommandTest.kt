@@ -122,7 +122,7 @@ class DiagnoseCommandTest {
         val out = directory.resolve("high")
         val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--unit", "mg/L", "--out", "$out")
         assertContains(result.stdout, "verdict: consistent")
-        assertContains(result.stdout, "calibration against the reference: gain 1.12 [")
+        assertContains(result.stdout, "calibration against the reference: gain 1.12")
         assertContains(result.stdout, "mg/L too high (12.0 %)")
         assertContains(Files.readString(out.resolve("report.html")), "Calibration against the reference: gain 1.12 [")
     }

@@ -18,13 +18,16 @@ class CauseInWordsTest {
             words(Cause.ASYMMETRIC_RESPONSE, SensorStage.Asymmetric(16.0, 22.1)),
         )
         assertEquals("fast 5.01 s, slow 58.7 s", words(Cause.TWO_PATH_RESPONSE, SensorStage.TwoPath(5.01, 58.7, 0.15)))
-        assertEquals("8.00 s at 1.40 m/s", words(Cause.FLOW_DEPENDENT_RESPONSE, SensorStage.FlowLag(8.0, 1.4, 0.5)))
         assertEquals(
-            "8.00 s at 14.2 °C",
+            "8.00 s at 1.40 m/s, 5.66 s at twice that",
+            words(Cause.FLOW_DEPENDENT_RESPONSE, SensorStage.FlowLag(8.0, 1.4, 0.5)),
+        )
+        assertEquals(
+            "8.00 s at 14.2 °C, 8.16 s at one degree more",
             words(Cause.TEMPERATURE_DEPENDENT_RESPONSE, SensorStage.TemperatureLag(8.0, 14.2, -0.02)),
         )
         val both = SensorStage.Combined(8.0, referenceSpeed = 1.4, exponent = 0.5, referenceTemperature = 14.2)
-        assertEquals("8.00 s at 1.40 m/s", words(Cause.FLOW_DEPENDENT_RESPONSE, both))
+        assertEquals("8.00 s at 1.40 m/s, 5.66 s at twice that", words(Cause.FLOW_DEPENDENT_RESPONSE, both))
         assertEquals(
             "at 804 s and 1200 s",
             words(Cause.OFFSET_STEPS, SensorStage.Lag(3.0), SensorStage.Jumps(listOf(803.5, 1200.0), listOf(0.1, 0.0))),
