@@ -1,6 +1,8 @@
 package stillwater.diagnose
 
 import org.junit.jupiter.api.Tag
+import kotlin.math.abs
+import kotlin.math.ceil
 import kotlin.math.exp
 import kotlin.test.Test
 import kotlin.test.assertEquals
@@ -21,10 +23,10 @@ class QuickMovesTest {
         for (step in 0 until ROWS * FINE) {
             val time = (step + 1) / FINE.toDouble()
             if (time > change) {
-                while (kotlin.math.abs(next - sample) < 1) next = 10 * random.nextDouble()
+                while (abs(next - sample) < 1) next = 10 * random.nextDouble()
                 sample = next
                 change += STAY - 2 + random.nextInt(5)
-                change = kotlin.math.ceil(change) - moment(random)
+                change = ceil(change) - moment(random)
             }
             val lag = if (sample > state) 2.5 else falling
             state += (1 - exp(-1 / (FINE * lag))) * (sample - state)

@@ -122,9 +122,10 @@ class DiagnoseCommandTest {
         val out = directory.resolve("high")
         val result = diagnose("$file", "--value", "probe", "--reference", "sample", "--unit", "mg/L", "--out", "$out")
         assertContains(result.stdout, "verdict: consistent")
-        assertContains(result.stdout, "calibration against the reference: gain 1.12")
+        val gain = "alibration against the reference: gain 1.1202 [1.1199, 1.1205]"
+        assertContains(result.stdout, "c$gain")
         assertContains(result.stdout, "mg/L too high (12.0 %)")
-        assertContains(Files.readString(out.resolve("report.html")), "Calibration against the reference: gain 1.12")
+        assertContains(Files.readString(out.resolve("report.html")), "C$gain")
     }
 
     @Test

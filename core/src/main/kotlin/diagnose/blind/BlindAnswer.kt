@@ -42,6 +42,9 @@ internal class BlindAnswer(
     private val rounding = CoarseRounding(series, search.used, search.scales.resolution)
     private val isCoarse = rounding.isCoarse(rmse(last.residuals))
 
+    /** In words, where the noise is larger; null where it is even. */
+    private val uneven by lazy { UnevenNoise(asFit(last), isInferred = true).words(UNEVEN * settings.level) }
+
     /** The result. */
     fun of(
         first: BlindRound,
@@ -106,16 +109,13 @@ internal class BlindAnswer(
             BlindWarnings(series, settings, search, last, lag, outliers, given)
                 .of(left.first(), isNamed, rounding.takeIf { isCoarse }) +
                 listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
-                listOfNotNull(uneven?.takeIf { isNamed }?.let { "Beside what was named $it." }) +
+                listOfNotNull(if (isNamed) uneven?.let { "Beside what was named $it." } else null) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
                 bounds.distinct(),
             mayHaveChanged = isLikelyChange,
             lag = lag.channel(""),
         )
     }
-
-    /** In words, where the noise is larger; null where it is even. */
-    private val uneven by lazy { UnevenNoise(asFit(last), isInferred = true).words(UNEVEN * settings.level) }
 
     /** Whether single readings are wild, among [tried] causes; where the noise is larger for a while far ones are none. */
     private fun areLoose(tried: Int) =

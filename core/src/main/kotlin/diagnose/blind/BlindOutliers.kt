@@ -36,7 +36,7 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     /** Readings less what a parabola through the rows beside them says, in robust deviations of those about them. */
     private val off = series.values.let { values ->
         val hasSides = REACH until values.size - REACH
-        evened(DoubleArray(values.size) { if (it in hasSides) values[it] - Neighbours.foretold(values, it) else 0.0 })
+        evened(DoubleArray(values.size) { if (it in hasSides) Neighbours.off(values, it) else 0.0 })
     }
 
     /** The rows that stick out: single ones, off their neighbours on both sides by more than rounding makes. */

@@ -23,8 +23,6 @@ internal class BlindWarnings(
 ) {
     /** In words; [left] is the strongest of what is left, [isNamed] whether something was named, [rounding] what is coarse. */
     fun of(left: Dependence, isNamed: Boolean, rounding: CoarseRounding?): List<String> = buildList {
-        // Whether the answer is of a lag of one kind, or of either, and of nothing else.
-        val isAlone = last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
         if (given?.isPartial == true) {
             val what = if (given.state == null) {
                 "was not used: without a reference a lag is fitted in its place"
@@ -45,6 +43,8 @@ internal class BlindWarnings(
                 "held-out blocks are those of a forecast from other passes and the rows before.",
         )
         if (lag.isSeen) {
+            // Whether the answer is of a lag of one kind, or of either, and of nothing else.
+            val isAlone = last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
             val by = if (isAlone) "by " else ""
             val tau = three(lag.timeConstant.timeConstant)
             add(

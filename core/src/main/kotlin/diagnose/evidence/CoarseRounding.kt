@@ -22,7 +22,7 @@ internal class CoarseRounding(series: MeasuredSeries, used: BooleanArray, val st
         val rows = (Neighbours.REACH until values.size - Neighbours.REACH).filter { i ->
             (i - Neighbours.REACH..i + Neighbours.REACH).all { used[it] }
         }
-        val scatter = rows.sumOf { i -> (values[i] - Neighbours.foretold(values, i)).let { it * it } } /
+        val scatter = rows.sumOf { i -> Neighbours.off(values, i).let { it * it } } /
             (maxOf(rows.size, 1) * Neighbours.errorVariance)
         share = when {
             step <= 0 || rows.isEmpty() -> 0.0

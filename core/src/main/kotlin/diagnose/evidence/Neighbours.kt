@@ -28,15 +28,18 @@ internal object Neighbours {
     val errorVariance: Double = 1 + 2 * squares(WEIGHTS)
 
     /** What a parabola through the three rows on either side says of row [i] of [values]. */
-    fun foretold(values: DoubleArray, i: Int): Double {
+    private fun foretold(values: DoubleArray, i: Int): Double {
         var sum = 0.0
         for (k in 1..REACH) sum += WEIGHTS[k - 1] * (values[i - k] + values[i + k])
         return sum
     }
 
+    /** How far row [i] of [values] is off what a parabola through the three rows on either side says. */
+    fun off(values: DoubleArray, i: Int): Double = values[i] - foretold(values, i)
+
     /** How far the first [rows] of [shape] are off what those beside them say. */
     private fun about(rows: Int, shape: (Int) -> Double): DoubleArray {
         val values = DoubleArray(rows + 2 * REACH) { shape(it - REACH) }
-        return DoubleArray(rows) { values[it + REACH] - foretold(values, it + REACH) }
+        return DoubleArray(rows) { off(values, it + REACH) }
     }
 }

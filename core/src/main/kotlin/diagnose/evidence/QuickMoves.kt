@@ -28,8 +28,8 @@ internal object QuickMoves {
         val left = DoubleArray(shocks.variance.size) { if (unknown.isGap[it]) shocks.variance[it] else 0.0 }
         val calm = Scales(scales.series, unknown, if (left.any { it > 0 }) Shocks(left, shocks.keep) else null)
         val search = NoiseSearch(calm, fit.residuals, used, longest)
-        val noise = search.near(fit.noise)
-        return search.scores(noise.time, doubleArrayOf(noise.share))[0] > fit.score + SURE
+        search.near(fit.noise)
+        return search.score > fit.score + SURE
     }
 
     /** Twice a log-likelihood ratio that is certain. */

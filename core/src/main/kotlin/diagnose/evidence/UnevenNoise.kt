@@ -28,10 +28,8 @@ internal class UnevenNoise(private val fit: ModelFit, private val isInferred: Bo
     private val rows = calmRows()
     private val sizes = listOfNotNull(
         DoubleArray(rows.size) { abs(fit.whitened[rows[it]]) },
-        if (isInferred) DoubleArray(rows.size) { abs(offNeighbours(rows[it])) } else null,
+        if (isInferred) DoubleArray(rows.size) { abs(Neighbours.off(series.values, rows[it])) } else null,
     )
-
-    private fun offNeighbours(row: Int) = series.values[row] - Neighbours.foretold(series.values, row)
 
     /** A constant, and what goes with how fast the truth moves and with how fast what is shown of it does, straight or curved. */
     private val moving by lazy {

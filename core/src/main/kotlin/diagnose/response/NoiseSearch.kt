@@ -24,7 +24,10 @@ internal class NoiseSearch(
     private val shocks = scales.shocks
     private var share = 0.0
     private var time = series.period
-    private var score = Double.NEGATIVE_INFINITY
+
+    /** Twice the log-likelihood, less a constant, of the noise that [near] found. */
+    var score: Double = Double.NEGATIVE_INFINITY
+        private set
 
     /** The likeliest noise, looked for everywhere, or near [guess] alone. */
     fun near(guess: CorrelatedNoise?): CorrelatedNoise {

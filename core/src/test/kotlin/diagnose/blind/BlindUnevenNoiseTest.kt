@@ -5,6 +5,7 @@ import stillwater.diagnose.CrossingTrack
 import stillwater.diagnose.Diagnosis
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.Verdict
+import kotlin.math.exp
 import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -31,7 +32,7 @@ class BlindUnevenNoiseTest {
     @Test
     @Tag("long")
     fun noiseThatGoesWithTheValueIsUnexplained() {
-        val verdict = verdict { _, value -> kotlin.math.exp(value) }
+        val verdict = verdict { _, value -> exp(value) }
         assertContains(assertIs<Verdict.Unexplained>(verdict, "seed $SEED").what, "the noise goes with the value")
     }
 
