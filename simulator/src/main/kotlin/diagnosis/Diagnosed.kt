@@ -156,7 +156,6 @@ class Diagnosed(
 
     /** The number of [estimate] with its interval and unit. */
     fun number(estimate: Estimate): String {
-        if (abs(estimate.value) >= NO_END) return "none"
         val digits = digits(estimate)
         val reach = estimate.interval?.let {
             when {
@@ -229,9 +228,6 @@ class Diagnosed(
     private companion object {
         /** What numbers are in whose unit nobody said. */
         const val SENSOR_UNITS = "sensor units"
-
-        /** The end of a range that was not found stands beyond this. */
-        const val NO_END = 1e11
 
         /** The upper end of an interval over the lower one from which numbers say nothing. */
         const val HARDLY = 1e6

@@ -24,6 +24,7 @@ import stillwater.diagnose.three
 import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sqrt
 
@@ -224,7 +225,8 @@ internal class BlindAnswer(
 
     private fun estimates(model: ResponseModel, numbers: DoubleArray, errors: DoubleArray, terms: List<Term>) =
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
-            .map { i ->
+            // An end of the range that the sensor does not have is no number.
+            .filter { abs(numbers[it]) < ResponseModel.NO_END }.map { i ->
                 FitReport.slowest(model, numbers, i, bounds) ?: estimate(model.parameters[i], numbers[i], errors[i])
             }
 

@@ -152,7 +152,7 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
 
     private companion object {
         /** Designs that may be asked for again. */
-        const val KEPT = 16
+        const val KEPT = 32
 
         /** Numbers in the bends that are kept: thirty-two megabytes. */
         const val MOST_BENDS = 4_000_000L

@@ -5,8 +5,8 @@ package stillwater.diagnose.blind
  *
  * @property name in words. @property columns of readings that it would add, each as long as the log. @property follow
  *   how they change where what the model shows changes by so much; null where they are not made of it. @property searched
- *   what looking around for it has gained by chance. @property floor what its ratio is divided by at least, where
- *   these whitened residuals are left. @property ofWater whether [columns] are what else the sensor might show of the
+ *   what looking around for it has gained by chance. @property floor what its ratio is divided by at least, where a model
+ *   leaves these whitened residuals. @property ofWater whether [columns] are what else the sensor might show of the
  *   water. @property isLoose whether a sum of [columns] may show the water smoother than it is, which suits any log.
  *   @property ofBoat whether [columns] are the boat's: the water knows nothing of them. @property ofTime whether they go
  *   with time alone, as noise does that wanders otherwise than its model. @property doubt how many times too small its
@@ -16,7 +16,7 @@ internal class BlindLook(
     val name: String,
     val columns: List<DoubleArray>,
     val searched: Double = 0.0,
-    val floor: (DoubleArray) -> Double = { 1.0 },
+    val floor: (BlindState, DoubleArray) -> Double = { _, _ -> 1.0 },
     val ofWater: Boolean = false,
     val isLoose: Boolean = false,
     val ofBoat: Boolean = false,

@@ -63,14 +63,19 @@ internal class BlindPeriods(private val state: BlindState, private val tries: Bl
     private fun look(best: Int): BlindLook {
         val closer = powers(tries.residual, lowest + (best - 1) * step, step / CLOSER, 2 * CLOSER + 1)
         val frequency = lowest + (best - 1) * step + closer.indices.maxBy { closer[it] } * step / CLOSER
-        val near = maxOf(0, best - BESIDE)..minOf(count - 1, best + BESIDE)
         return BlindLook(
             "time, with a period of ${three(1 / frequency)} s",
             listOf(wave(frequency, ::cos), wave(frequency, ::sin)),
             2 * ln(count.toDouble()),
-            { z -> beside(normed(z, near), best - near.first) / squares(z) },
+            { of, z -> (if (of === state) this else BlindPeriods(of, tries)).colour(z, best) },
             ofTime = true,
         )
+    }
+
+    /** How much more of [z] goes with the frequencies beside the [k]-th than white noise has, of what the water leaves there. */
+    private fun colour(z: DoubleArray, k: Int): Double {
+        val near = maxOf(0, k - BESIDE)..minOf(count - 1, k + BESIDE)
+        return beside(normed(z, near), k - near.first) / squares(z)
     }
 
     private fun wave(frequency: Double, shape: (Double) -> Double) =

@@ -89,7 +89,7 @@ internal fun BlindSearch.restarted(state: BlindState): BlindState {
  */
 internal fun BlindSearch.likelier(state: BlindState, quiet: BlindState): BlindState {
     val isFar = isFar(state, quiet)
-    val other = climbed(if (isFar) again(quiet, state.fit.design.noise) else requieted(quiet))
+    val other = climbed(if (isFar) again(quiet, state.fit.design.noise) else requieted(quiet), state.score)
     return if (!(other.score > state.score)) {
         state
     } else if (isFar) {

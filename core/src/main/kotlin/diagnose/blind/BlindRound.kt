@@ -134,7 +134,7 @@ internal class BlindRound(
     /** [trial], an offset of place, or the same on an arm that turns hide, if that explains more. */
     private fun far(trial: BlindTrial): BlindTrial {
         val arm = arms.likeliest(state) ?: return trial
-        val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, arm.state)) } + arm.anew
+        val best = likewise(arm.state).max() + arm.anew
         val found = tries.settled(trial, arm.state, best, searched(trial) + arm.searched)
         val gain = arm.state.score - state.score - arm.anew
         return if (found.likelier > trial.likelier && gain > BeyondWaves.GAIN * found.inflation) found else trial
@@ -183,7 +183,7 @@ internal class BlindRound(
         val gain = after.score - before.score - 2 * (tries.searched(2) - tries.searched(1))
         if (gain < LIKELY) return trial
         val base = if (search.isStill(after)) still else state
-        val next = tries.settled(more, after, maxOf(base.score, likewise(base, after)), searched(more))
+        val next = tries.settled(more, after, likewise(after, listOf(base)).single(), searched(more))
         if (next.pValue >= settings.level) return trial
         return grown(if (base === state) next else next.among(base.score - state.score))
     }
@@ -214,7 +214,7 @@ internal class BlindRound(
         val isArm = arm.score > onWay.score + anew
         val found = if (isArm) arm else onWay
         // The same noise may suit the model without it as well.
-        val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, found)) }
+        val best = likewise(found).max()
         return tries.settled(trial, found, if (isArm) best + anew else best, searched)
     }
 
@@ -234,8 +234,7 @@ internal class BlindRound(
         val first = tries.settled(trial, found, still.score, searched)
         if (first.pValue > settings.level) return first.instead(-maxOf(state.score - still.score, 0.0))
         // The same noise may suit the models without it as well.
-        val best = maxOf(still.score, likewise(still, found))
-        val rest = if (still === state) best else maxOf(state.score, likewise(state, found))
+        val (rest, best) = likewise(found)
         val trying = tries.settled(trial, found, best, searched)
         return when {
             found.score > rest -> trying.among(best - rest)
@@ -259,22 +258,16 @@ internal class BlindRound(
     private fun isFar(term: Term) = isBlurred || term.cause == Cause.TWO_PATH_RESPONSE
 
     /**
-     * The score of [other] with the noise of [found], or from where [found] is with all of it but what is new there.
+     * The scores of all of [without], by default of [state] and [still], models without what is new in [found], or what is
+     * more: with the noise of [found], or from where [found] is with all of it but what is new there.
      */
-    private fun likewise(other: BlindState, found: BlindState): Double {
+    private fun likewise(found: BlindState, without: List<BlindState> = listOf(state, still)): List<Double> {
         val noise = found.fit.design.noise
-        val model = other.model
-        val own = search.improved(
-            search.settled(model.terms, other.numbers, noise, other.variances, before = other),
-        )
-        val there = search.settled(
-            model.terms,
-            model.carried(found.model, found.numbers),
-            noise,
-            found.variances,
-            before = found,
-        )
-        return maxOf(own.score, search.climbed(there).score)
+        val model = without.first().model
+        val numbers = model.carried(found.model, found.numbers)
+        val there = search.climbed(search.settled(model.terms, numbers, noise, found.variances, before = found)).score
+        val own = without.distinct().associateWith { search.improved(search.again(it, noise)).score }
+        return without.map { maxOf(it.score, own.getValue(it), there) }
     }
 
     /** What no cause explains, with the water and the noise of [state]. */
@@ -339,10 +332,10 @@ internal class BlindRound(
         if (isBlurred && isMissing(begun.look, first)) return first.atMost(0.0)
         if (first.pValue > settings.level) return first
         // The same noise may suit the model without it as well.
-        val best = listOf(state, still).distinct().maxOf { maxOf(it.score, likewise(it, refitted.state)) }
+        val (onState, onStill) = likewise(refitted.state)
+        val best = maxOf(onState, onStill)
         val settled = tries.settled(begun.look, refitted, best)
-        if (still === state || !search.isStill(refitted.state)) return settled
-        return settled.onLess(best - maxOf(still.score, likewise(still, refitted.state)))
+        return if (still === state || !search.isStill(refitted.state)) settled else settled.onLess(best - onStill)
     }
 
     /** Whether waves that the water is not given may look like [look] as much as [trial] says. */

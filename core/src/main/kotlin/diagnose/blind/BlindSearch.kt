@@ -225,15 +225,18 @@ internal class BlindSearch private constructor(
         return settled(state.model.terms, numbers, noise, state.variances, before = state)
     }
 
-    /** [state] with the numbers that fit better and the water for them, in turn, as long as that makes it likelier. */
-    fun climbed(state: BlindState): BlindState {
+    /**
+     * [state] with the numbers that fit better and the water for them, in turn, as long as that makes it likelier, and
+     * steps that gain no more than the last one may lead to [least].
+     */
+    fun climbed(state: BlindState, least: Double = Double.NEGATIVE_INFINITY): BlindState {
         var best = state
-        repeat(MOST_CLIMBS) {
+        for (left in MOST_CLIMBS - 1 downTo 0) {
             if (best.isAtEnd) return best
             val next = improved(best)
             val gain = next.score - best.score
             if (gain > 0) best = next else best.isAtEnd = true
-            if (!(gain > ENOUGH)) return best
+            if (!(gain > ENOUGH) || best.score + left * gain < least) return best
         }
         return best
     }

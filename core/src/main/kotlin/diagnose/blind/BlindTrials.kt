@@ -268,7 +268,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
             left,
             found.sum(heights),
             look.searched,
-            look.floor(after),
+            look.floor(state, after),
             after,
         ).lessSure(look.doubt)
     }
@@ -295,7 +295,7 @@ internal class BlindTrials(private val search: BlindSearch, private val state: B
     fun settled(look: BlindLook, found: RefittedLook, score: Double): BlindTrial {
         val z = found.state.whitened
         val extra = Evidence.orthonormal(found.columns, found.basis)
-        val inflation = maxOf(BlindEvidence.inflation(extra, z), look.floor(z))
+        val inflation = maxOf(BlindEvidence.inflation(extra, z), look.floor(found.state, z))
         val ratio = maxOf((found.state.score - found.chance - score) / inflation - look.searched, 0.0)
         val unlike = Evidence.without(found.state.fit.unlike(found.change), found.basis)
         val without = DoubleArray(n) { z[it] + unlike[it] }

@@ -3,7 +3,6 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Cause
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.MeasuredSeries
-import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
@@ -43,15 +42,13 @@ internal class BaseModels(
             if (scales(last, last.model.steps).shocks == null) return last
             last = of(steps, last)
         }
-        return last
+        return last.withOwnFade(used, longest)
     }
 
     /** What models share where the readings have lag and noise like those of [fit]. */
     fun scales(fit: ModelFit?, steps: Steps): Scales {
         if (fit == null) return Scales(series, unknown)
-        val tau = maxOf(fit.numbers[ResponseModel.TIME_CONSTANT], series.period / 50)
-        val spread = Spikes.spread(series.shown(fit.whitened))
-        return Scales(series, shaken, shaken.shocks(tau, fit.numbers[ResponseModel.GAIN], spread, steps.isHeld))
+        return Scales(series, shaken, fit.shocks(shaken, steps.isHeld))
     }
 
     /**

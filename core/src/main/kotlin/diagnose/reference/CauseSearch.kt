@@ -98,6 +98,7 @@ internal class CauseSearch(
         val open = term.cause.conditionalNumber?.takeIf { best.free[it] && !base.free[it] } ?: return 0.0
         val free = base.free.copyOf().also { it[open] = true }
         val without = Fitting.fit(base.model, base.numbers, free, used, longest, guess = base.noise)
+            .withOwnFade(used, longest)
         return Evidence.pValue((best.score - without.score) / inflation(without, best), 1)
     }
 
@@ -109,10 +110,10 @@ internal class CauseSearch(
 
     /** [fit] with its last term as [term], which has a first state of its own, where that is for certain likelier. */
     private fun begun(base: ModelFit, fit: ModelFit, term: Term): ModelFit {
-        val model = ResponseModel(series, fit.model.terms.dropLast(1) + term, fit.model.steps, scales)
+        val model = ResponseModel(series, fit.model.terms.dropLast(1) + term, fit.model.steps, fit.model.scales)
         val free = freed(model, base, term)
         val start = model.carried(fit.model, fit.numbers)
-        val found = likeliest(model, listOf(start), free, noises(fit))
+        val found = likeliest(model, listOf(start), free, noises(fit), fit)
         return if (found.score > fit.score + OWN_START && !isOffset(found, term)) found else fit
     }
 
@@ -141,12 +142,12 @@ internal class CauseSearch(
     /** [base] with [term], fitted from several starts. */
     private fun fitted(base: ModelFit, term: Term): ModelFit {
         val kept = base.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, kept + term, base.model.steps, scales)
+        val model = ResponseModel(series, kept + term, base.model.steps, base.model.scales)
         val free = freed(model, base, term)
         val starts = starts(base, model, term)
         // What a strong effect leaves of the base looks like noise that wanders. Under that only what goes from row to row
         // counts, of which in a condition most may be its own noise: the number comes out small, and what it misses wanders.
-        return inOrder(likeliest(model, starts, free, noises(base)))
+        return inOrder(likeliest(model, starts, free, noises(base), base).withOwnFade(used, longest))
     }
 
     /** The likeliest fit of [model] from [starts], under each of [noises] and under what suits it from there. */
@@ -155,9 +156,13 @@ internal class CauseSearch(
         starts: List<DoubleArray>,
         free: BooleanArray,
         noises: List<CorrelatedNoise>,
+        base: ModelFit,
     ): ModelFit = noises.flatMap { noise ->
-        val rough = starts.map { Fitting.fit(model, it, free, used, longest, noise = noise) }.maxBy(::plainest)
-        listOf(rough, Fitting.fit(model, rough.numbers, free, used, longest, guess = noise))
+        val rough = starts.map { start ->
+            val own = model.fadingAs(start, base)
+            Fitting.fit(own, start, free, used, longest, noise = own.noise(noise, used))
+        }.maxBy(::plainest)
+        listOf(rough, Fitting.fit(rough.model, rough.numbers, free, used, longest, guess = rough.noise))
     }.maxBy(::plainest)
 
     /** Twice the log-likelihood of [fit] less what each end of a range is to explain for certain. */
@@ -182,7 +187,7 @@ internal class CauseSearch(
         val rows = BooleanArray(used.size) { i ->
             used[i] && series.values[i] > start[slot] && series.values[i] < start[slot + 1]
         }
-        val white = scales.white(rows)
+        val white = base.model.scales.white(rows)
         val inner = Fitting.fit(base.model, base.numbers, base.free, rows, longest, noise = white)
         val numbers = model.carried(base.model, inner.numbers)
         return start.copyInto(numbers, slot, slot, slot + model.width(term))
@@ -219,7 +224,7 @@ internal class CauseSearch(
 
     /** Under which fits begin, and places of jumps are looked for. */
     private fun noises(base: ModelFit) =
-        listOf(base.noise, scales.white(used)).distinctBy { it.share }
+        listOf(base.noise, base.model.scales.white(used)).distinctBy { it.share }
 
     /** [base] with the best jump, and with the best two, by [noise]. */
     private fun jumps(base: ModelFit, noise: CorrelatedNoise): List<ModelFit> {
@@ -291,7 +296,7 @@ internal class CauseSearch(
      */
     fun without(fit: ModelFit, term: Term, base: ModelFit): ModelFit {
         val rest = fit.model.terms.filter { it.key != term.key }
-        val model = ResponseModel(series, rest, fit.model.steps, scales)
+        val model = ResponseModel(series, rest, fit.model.steps, fit.model.scales)
         val start = DoubleArray(model.parameters.size)
         val free = BooleanArray(model.parameters.size)
         val open = rest.filter { base.model.slotOrNull(it) == null }
@@ -308,7 +313,7 @@ internal class CauseSearch(
                 free[to + k] = fit.free[from + k]
             }
         }
-        return Fitting.fit(model, start, free, used, longest, guess = fit.noise)
+        return Fitting.fit(model, start, free, used, longest, guess = fit.noise).withOwnFade(used, longest)
     }
 
     companion object {

@@ -125,8 +125,9 @@ internal class ExtendedSensor(
             }
         }
         value(Cause.SATURATION)?.let { lower ->
-            val upper = value(Cause.SATURATION, 1) ?: 1e12
-            if (lower < upper) add(SensorStage.Range(lower.takeIf { it > -1e11 }, upper.takeIf { it < 1e11 }))
+            val upper = value(Cause.SATURATION, 1) ?: Double.POSITIVE_INFINITY
+            val none = ResponseModel.NO_END
+            if (lower < upper) add(SensorStage.Range(lower.takeIf { it > -none }, upper.takeIf { it < none }))
         }
         range?.let(::add)
         val resolution = model.scales.resolution

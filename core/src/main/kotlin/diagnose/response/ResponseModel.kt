@@ -238,6 +238,12 @@ internal class ResponseModel(
         }
     }
 
+    /** The lag before each row with numbers [p], s, as speed and temperature change it; new. */
+    fun lags(p: DoubleArray): DoubleArray {
+        timeConstants(p)
+        return taus.copyOf()
+    }
+
     private fun timeConstants(p: DoubleArray) {
         val exponent = if (Cause.FLOW_DEPENDENT_RESPONSE in causes) p[slot(Cause.FLOW_DEPENDENT_RESPONSE)] else 0.0
         val change = if (Cause.TEMPERATURE_DEPENDENT_RESPONSE in causes) {
@@ -371,7 +377,7 @@ internal class ResponseModel(
         )
 
         /** An end of the range beyond this is none, sensor units. */
-        const val NO_END = 1e11
+        const val NO_END = 1e9
         private const val HARMONICS = 4
 
         /** Of what two fades differ by, below which the limit of equal ones is as exact. */

@@ -45,25 +45,47 @@ internal class UnknownTruth private constructor(
     fun isInDoubt(i: Int): Boolean = (maxOf(i - 1, 0)..minOf(i + 1, doubts.size - 1)).any { doubts[it] > 0 }
 
     /**
-     * Shocks to the reading of a sensor with a lag of [timeConstant] s and [gain] under noise of [spread], sensor
-     * units; those of gaps and of missing rows alone if the truth [isHeld] over each step, but that sharp steps may come a
-     * little beside a row. Null where nothing is in doubt.
+     * Shocks to the reading of a sensor with a lag of [timeConstants] s before each row and [gain] under noise of [spread],
+     * sensor units; those of gaps and of missing rows alone if the truth [isHeld] over each step, but that sharp steps may come a
+     * little beside a row. What it saw in a gap goes on to reach it for a [delay], s, and from a [second] lag, s, before the
+     * first. Null where nothing is in doubt.
      */
-    fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? {
+    fun shocks(
+        timeConstants: DoubleArray,
+        gain: Double,
+        spread: Double,
+        isHeld: Boolean,
+        delay: Double,
+        second: Double,
+    ): Shocks? {
         val keep = DoubleArray(times.size) { i ->
-            if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstant)
+            if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstants[i])
         }
         val beside = if (isSharp) BESIDE_ROW else 0.0
+        var gap = -1
         val variance = DoubleArray(times.size) { i ->
+            if (isGap[i]) gap = i
             val doubt = if (isGap[i]) {
                 doubts[i]
             } else {
-                (1 - keep[i]) * maxOf(guesses[i], if (isHeld) beside * doubts[i] else doubts[i])
+                val after = if (gap < 0) 0.0 else doubts[gap] * reaching(times[i] - times[gap], delay, second)
+                (1 - keep[i]) * maxOf(guesses[i], if (isHeld) beside * doubts[i] else doubts[i], after)
             }
             val shock = gain * doubt / spread
             if (abs(shock) > LEAST) shock * shock else 0.0
         }
         return if (variance.any { it > 0 }) Shocks(variance, keep) else null
+    }
+
+    /** The same of a sensor with one lag of [timeConstant] s and no delay. */
+    fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? =
+        shocks(DoubleArray(times.size) { timeConstant }, gain, spread, isHeld, 0.0, 0.0)
+
+    /** Share of what a sensor saw in a gap that reaches its lag so long [after] it, s. */
+    private fun reaching(after: Double, delay: Double, second: Double): Double = when {
+        after <= delay -> 1.0
+        second > 0 -> exp(-(after - delay) / second)
+        else -> 0.0
     }
 
     /**

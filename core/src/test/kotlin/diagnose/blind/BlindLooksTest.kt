@@ -99,11 +99,8 @@ class BlindLooksTest {
         }
     }
 
-    /** Of a slow period the water takes nearly all, and what it leaves is no longer one frequency. */
-    @Test
-    fun aPeriodThatTheWaterTakesMostOfIsFound() {
-        val rows = 960
-        val random = Random(7)
+    /** A walk of [rows] rows, a second apart, 0.8 m each, which turns back where it comes 90 m off, and [values] on it. */
+    private fun walked(random: Random, rows: Int, values: (Int) -> Double): BlindSearch {
         val east = DoubleArray(rows)
         val north = DoubleArray(rows)
         var heading = 0.0
@@ -115,14 +112,26 @@ class BlindLooksTest {
             north[i] = north[i - 1] + 0.8 * sin(heading)
         }
         val seconds = DoubleArray(rows) { it.toDouble() }
+        return BlindSearch(MeasuredSeries(seconds, east, north, DoubleArray(rows, values), null))
+    }
+
+    /** The model in still water of which each ring has [variance] over the noise's, which is white. */
+    private fun BlindSearch.inWaterOf(variance: Double): BlindState {
+        val white = BlindNoise(noise(0.0, 1.0), DoubleArray(used.size) { 1.0 })
+        val heights = DoubleArray(modes.bands) { if (it in modes.moving) 1e-8 else variance }
+        return settled(emptyList(), doubleArrayOf(0.02, 1.0, 0.0, 0.0), white, heights, rounds = 0)
+    }
+
+    /** Of a slow period the water takes nearly all, and what it leaves is no longer one frequency. */
+    @Test
+    fun aPeriodThatTheWaterTakesMostOfIsFound() {
+        val rows = 960
+        val random = Random(7)
         for (period in listOf(31.0, 37.0, 43.0)) {
             val wave = DoubleArray(rows) { cos(2 * PI * it / period) }
-            val values = DoubleArray(rows) { NOISE * random.nextDouble(-1.7, 1.7) + SLOW * wave[it] }
-            val search = BlindSearch(MeasuredSeries(seconds, east, north, values, null))
-            val white = BlindNoise(CorrelatedNoise(seconds, 0.0, 1.0, search.used), DoubleArray(rows) { 1.0 })
+            val search = walked(random, rows) { NOISE * random.nextDouble(-1.7, 1.7) + SLOW * wave[it] }
             // Water that may be anything.
-            val heights = DoubleArray(search.modes.bands) { if (it in search.modes.moving) 1e-8 else 1e6 }
-            val state = search.settled(emptyList(), doubleArrayOf(0.02, 1.0, 0.0, 0.0), white, heights, rounds = 0)
+            val state = search.inWaterOf(1e6)
             val seen = state.fit.whitened(wave)
             val taken = squares(state.fit.imitated(seen)) / squares(seen)
             val looks = BlindLooks(state, BlindTrials(search, state), canShowShape = true)
@@ -132,6 +141,23 @@ class BlindLooksTest {
             assertEquals(period, said, period * period / (2 * rows), found)
             assertTrue(looks.trials.last().pValue < 1e-6, "$found ${looks.trials.last().pValue}")
         }
+    }
+
+    /** Water that is bound more tightly leaves more of white noise at slow periods, which is no colour of the noise. */
+    @Test
+    fun whatTheWaterLeavesOfPeriodsIsAskedOfTheModelThatLeavesThem() {
+        val rows = 960
+
+        /** The same walk each time, with a period of [size]. */
+        fun walked(size: Double) = Random(7).let { random ->
+            walked(random, rows) { NOISE * random.nextDouble(-1.7, 1.7) + size * cos(2 * PI * it / 37) }
+        }
+        val state = walked(SLOW).inWaterOf(1e6)
+        val look = BlindPeriods(state, BlindTrials(walked(SLOW), state)).look()
+        assertContains(look.name, "period of 3")
+        // Water that has next to nothing of what is noise alone.
+        val other = walked(0.0).inWaterOf(0.01)
+        assertEquals(1.0, look.floor(other, other.whitened), 0.5, look.name)
     }
 
     /** As where a clock was set after the first rows: frequencies of months would be millions. */
