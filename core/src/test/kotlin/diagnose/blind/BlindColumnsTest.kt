@@ -85,6 +85,6 @@ class BlindColumnsTest {
 
     private companion object {
         const val SEED = 20261122
-        const val MANY = 20
+        const val MANY = 40
     }
 }
