@@ -191,7 +191,8 @@ internal class ReferenceDiagnosis(
     private fun ahead(first: Weighing, gone: List<Trial>, rows: BooleanArray): Double {
         val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
-        val fit = first.last.without(gone, tau, models.scales(first.base, Steps.HELD), Steps.HELD, rows, longest)
+        // What gaps leave fades alike in both: a base that lacks a cause has more noise, and smaller shocks for it.
+        val fit = first.last.without(gone, tau, models.scales(first.last, Steps.HELD), Steps.HELD, rows, longest)
         return fit.score - kept - first.explained + if (gone.isEmpty()) -HELD else SHIFT
     }
 
