@@ -32,7 +32,12 @@ class RigidArmTest {
         return water(east(time) + ahead * dx / way, north(time) + ahead * dy / way)
     }
 
-    private fun diagnosed(ahead: Double, hasReference: Boolean, isHeld: Boolean = false): DiagnosisResult {
+    private fun diagnosed(
+        ahead: Double,
+        hasReference: Boolean,
+        isHeld: Boolean = false,
+        noise: Double = if (hasReference) HIDING else NOISE,
+    ): DiagnosisResult {
         val random = Random(SEED)
         var state = truth(0.0, ahead)
         val values = DoubleArray(rows) { row ->
@@ -40,7 +45,7 @@ class RigidArmTest {
                 val time = if (isHeld) row.toDouble() else row - 1 + (k + 0.5) / STEPS
                 state += (1 - exp(-1 / (STEPS * LAG))) * (truth(time, ahead) - state)
             }
-            state + (if (hasReference) HIDING else NOISE) * random.nextGaussian()
+            state + noise * random.nextGaussian()
         }
         val times = DoubleArray(rows) { it.toDouble() }
         val x = DoubleArray(rows) { east(times[it]) }
@@ -63,6 +68,16 @@ class RigidArmTest {
 
     @Test
     fun norIsItBesideAReference() = assertFound(ahead = 0.45, hasReference = true)
+
+    /** Of the water at the end of an arm that swings out, as here always, a reference along the way says nothing. */
+    @Test
+    fun oneOnALongArmIsFoundBesideAReferenceWhereNoiseHidesNothing() {
+        val found = diagnosed(ahead = 1.5, hasReference = true, noise = NOISE)
+        assertEquals(Verdict.Named(listOf(Cause.POSITION_OFFSET)), found.verdict, "seed $SEED")
+        val numbers = checkNotNull(found.extended).parameters.associate { it.name to it.value }
+        assertEquals(-1.5, numbers.getValue("behind_m"), 0.05 * 1.5, "$numbers, seed $SEED")
+        assertEquals(LAG, numbers.getValue("time_constant_s"), 0.03 * LAG, "$numbers, seed $SEED")
+    }
 
     @Test
     fun aHeldTruthIsNoProbeAhead() {

@@ -25,6 +25,7 @@ internal class BaseModels(
     private val used: BooleanArray,
 ) {
     private val longest = CauseSearch.longest(series, settings)
+    private val calm = Scales(series, unknown)
 
     /** The base model as it looks with nothing known of gaps, sharp fronts and single wild readings. */
     val rough: ModelFit by lazy { of(null, null) }
@@ -47,8 +48,8 @@ internal class BaseModels(
 
     /** What models share where the readings have lag and noise like those of [fit]. */
     fun scales(fit: ModelFit?, steps: Steps): Scales {
-        if (fit == null) return Scales(series, unknown)
-        return Scales(series, shaken, fit.shocks(shaken, steps.isHeld))
+        if (fit == null) return calm
+        return calm.shaken(shaken, fit.shocks(shaken, steps.isHeld))
     }
 
     /**

@@ -105,7 +105,7 @@ internal class GivenSensor(spec: SensorSpec, private val scales: Scales) {
         val lower = stage.lower?.let(::shown)
         val upper = stage.upper?.let(::shown)
         val (low, high) = if (gainLeft() < 0) upper to lower else lower to upper
-        put(Cause.SATURATION, low ?: -1e12, high ?: 1e12)
+        put(Cause.SATURATION, low ?: -ResponseModel.FAR_END, high ?: ResponseModel.FAR_END)
     }
 
     private fun combined(stage: SensorStage.Combined) {

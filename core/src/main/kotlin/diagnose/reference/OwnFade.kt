@@ -7,7 +7,6 @@ import stillwater.diagnose.noise.Shocks
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
-import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.response.UnknownTruth
 
@@ -41,18 +40,19 @@ private fun ResponseModel.shocks(
         isHeld,
         maxOf(time(Cause.DEAD_TIME), 0.0),
         time(Cause.SECOND_ORDER_RESPONSE),
+        time(Cause.POSITION_OFFSET).takeIf { it != 0.0 }?.let { scales.swing?.doubts(it) },
     )
 }
 
 /**
- * This model where what gaps leave of the sensor's state fades as [numbers] say, under noise as [base] leaves; this one
- * where there are no gaps.
+ * This model where what gaps leave of the sensor's state fades as [numbers] say, and a probe that is off the boat swings out in
+ * turns, under noise as [base] leaves; this one where there is neither.
  */
 internal fun ResponseModel.fadingAs(numbers: DoubleArray, base: ModelFit): ResponseModel {
-    val unknown = scales.unknown
-    if (unknown == null || unknown.isGap.none { it }) return this
+    val unknown = scales.unknown ?: return this
+    if (unknown.isGap.none { it } && slotOrNull(Term(Cause.POSITION_OFFSET)) == null) return this
     val shocks = shocks(numbers, base.spread, unknown, steps.isHeld)
-    return ResponseModel(series, terms, steps, Scales(series, unknown, shocks))
+    return ResponseModel(series, terms, steps, scales.shaken(unknown, shocks))
 }
 
 /** Noise like [noise] of readings of this model. */
@@ -65,7 +65,7 @@ internal fun ResponseModel.noise(noise: CorrelatedNoise, rows: BooleanArray): Co
 
 /**
  * This fit where what gaps leave of the sensor's state, often hundreds of deviations of the noise, fades as its own numbers
- * say: fitted to [rows] with noise that wanders within [longest] s, in turn with the fade, as long as that makes it likelier.
+ * say, and turns take an arm as long as they say off the way: fitted to [rows] with noise that wanders within [longest] s, in turn with the fade, as long as that makes it likelier.
  */
 internal fun ModelFit.withOwnFade(rows: BooleanArray, longest: Double): ModelFit {
     var best = this

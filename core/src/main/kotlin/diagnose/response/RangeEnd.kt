@@ -8,7 +8,6 @@ import kotlin.math.sqrt
 internal object RangeEnd {
     private const val PART = 0.15
     private const val DEVIATIONS = 3.0
-    private const val FAR = 1e12
 
     /** Shares of the readings that are beyond where the range may end. */
     private val BEYOND = listOf(0.003, 0.01, 0.03)
@@ -19,7 +18,7 @@ internal object RangeEnd {
         val slot = model.slot(term)
         return BEYOND.flatMap { share ->
             val out = (share * (sorted.size - 1)).toInt()
-            listOf(-FAR to sorted[sorted.size - 1 - out], sorted[out] to FAR).map { (lower, upper) ->
+            listOf(-ResponseModel.FAR_END to sorted[sorted.size - 1 - out], sorted[out] to ResponseModel.FAR_END).map { (lower, upper) ->
                 start.copyOf().also {
                     it[slot] = lower
                     it[slot + 1] = upper

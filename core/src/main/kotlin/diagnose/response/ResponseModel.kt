@@ -378,6 +378,9 @@ internal class ResponseModel(
 
         /** An end of the range beyond this is none, sensor units. */
         const val NO_END = 1e9
+
+        /** Where an end of the range is put that is none, sensor units. */
+        const val FAR_END = 1e12
         private const val HARMONICS = 4
 
         /** Of what two fades differ by, below which the limit of equal ones is as exact. */

@@ -13,12 +13,19 @@ import kotlin.math.ln
  * @property unknown what its reference leaves open; null where there is none. @property shocks what that does to the
  * reading; null for none.
  */
-internal class Scales(
+internal class Scales private constructor(
     val series: MeasuredSeries,
-    val unknown: UnknownTruth? = null,
-    val shocks: Shocks? = null,
+    val unknown: UnknownTruth?,
+    val shocks: Shocks?,
+    like: Scales?,
 ) {
     private val n = series.size
+
+    constructor(series: MeasuredSeries, unknown: UnknownTruth? = null, shocks: Shocks? = null) :
+        this(series, unknown, shocks, null)
+
+    /** The same log where what is [unknown] in the same gaps gives the reading these [shocks]. */
+    fun shaken(unknown: UnknownTruth?, shocks: Shocks?) = Scales(series, unknown, shocks, this)
 
     /** Whether row [i] may be far off for what is not known of the truth before it. */
     fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true
@@ -27,16 +34,19 @@ internal class Scales(
     fun white(rows: BooleanArray) = CorrelatedNoise(series.times, 0.0, 1.0, rows, shocks)
 
     /** Speed that counts as ordinary, m/s. */
-    val ordinarySpeed: Double = maxOf(median(series.speed), SLOWEST)
+    val ordinarySpeed: Double = like?.ordinarySpeed ?: maxOf(median(series.speed), SLOWEST)
 
     /** Log of speed over the ordinary, as the lag takes it. */
-    val logSpeed = DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
+    val logSpeed: DoubleArray =
+        like?.logSpeed ?: DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
 
     /** Temperature that counts as ordinary, °C. */
-    val ordinaryTemperature: Double = series.temperature?.let(::median) ?: Double.NaN
+    val ordinaryTemperature: Double =
+        like?.ordinaryTemperature ?: series.temperature?.let(::median) ?: Double.NaN
 
     /** Temperature over the ordinary, °C; 0 where there is none. */
-    val warmth = DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
+    val warmth: DoubleArray =
+        like?.warmth ?: DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
 
     /** What each condition is centred on. */
     val middles: Map<String, Double>
@@ -45,25 +55,30 @@ internal class Scales(
     val centred: Map<String, DoubleArray>
 
     init {
-        val bridged = series.conditions.keys.associateWith { checkNotNull(series.filled(it)) }
-        middles = bridged.mapValues { (_, column) -> median(column) }
-        centred = bridged.mapValues { (name, column) -> DoubleArray(n) { column[it] - middles.getValue(name) } }
+        val bridged by lazy { series.conditions.keys.associateWith { checkNotNull(series.filled(it)) } }
+        middles = like?.middles ?: bridged.mapValues { (_, column) -> median(column) }
+        centred = like?.centred
+            ?: bridged.mapValues { (name, column) -> DoubleArray(n) { column[it] - middles.getValue(name) } }
     }
 
     /** The same without most of its own noise and rounding, which a reading does not show. */
     val quiet: Map<String, DoubleArray> by lazy {
         val isGap = unknown?.isGap ?: BooleanArray(n)
-        centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
+        like?.quiet ?: centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
     }
 
     /** The track as times of ways. */
-    val way: WayTimes by lazy { WayTimes(series) }
+    val way: WayTimes by lazy { like?.way ?: WayTimes(series) }
+
+    /** Where a probe on a rigid arm may be off the track; null without a reference. */
+    val swing: ArmSwing? by lazy { like?.swing ?: series.reference?.let { ArmSwing(series, way, it) } }
 
     /** Finest step between different values, sensor units; 0 where there is none. */
-    val resolution: Double = resolution(series.shown(series.values))
+    val resolution: Double = like?.resolution ?: resolution(series.shown(series.values))
 
     /** From the lowest to the highest reading, sensor units. */
-    val range: Double = series.shown(series.values).let { (it.maxOrNull() ?: 0.0) - (it.minOrNull() ?: 0.0) }
+    val range: Double =
+        like?.range ?: series.shown(series.values).let { (it.maxOrNull() ?: 0.0) - (it.minOrNull() ?: 0.0) }
 
     companion object {
         private const val SLOWEST = 0.01

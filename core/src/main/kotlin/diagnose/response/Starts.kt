@@ -81,7 +81,7 @@ internal class Starts(
             val sorted = series.shown(series.values).sortedArray()
             val low = sorted[(0.01 * sorted.size).toInt()]
             val high = sorted[(0.99 * (sorted.size - 1)).toInt()]
-            listOf(with(low, 1e12), with(-1e12, high), with(low, high))
+            listOf(with(low, ResponseModel.FAR_END), with(-ResponseModel.FAR_END, high), with(low, high))
         }
         Cause.POSITION_OFFSET -> listOf(1.0, -1.0).map { with(it * scales.ordinarySpeed * series.period) } +
             with(tau * scales.ordinarySpeed / 2)

@@ -48,7 +48,8 @@ internal class UnknownTruth private constructor(
      * Shocks to the reading of a sensor with a lag of [timeConstants] s before each row and [gain] under noise of [spread],
      * sensor units; those of gaps and of missing rows alone if the truth [isHeld] over each step, but that sharp steps may come a
      * little beside a row. What it saw in a gap goes on to reach it for a [delay], s, and from a [second] lag, s, before the
-     * first. Null where nothing is in doubt.
+     * first. Of the truth where the sensor is off the way [swing] is in doubt besides, by row; null for nothing. Null where
+     * nothing is in doubt.
      */
     fun shocks(
         timeConstants: DoubleArray,
@@ -57,6 +58,7 @@ internal class UnknownTruth private constructor(
         isHeld: Boolean,
         delay: Double,
         second: Double,
+        swing: DoubleArray?,
     ): Shocks? {
         val keep = DoubleArray(times.size) { i ->
             if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstants[i])
@@ -69,7 +71,8 @@ internal class UnknownTruth private constructor(
                 doubts[i]
             } else {
                 val after = if (gap < 0) 0.0 else doubts[gap] * reaching(times[i] - times[gap], delay, second)
-                (1 - keep[i]) * maxOf(guesses[i], if (isHeld) beside * doubts[i] else doubts[i], after)
+                val between = maxOf(guesses[i], if (isHeld) beside * doubts[i] else doubts[i])
+                (1 - keep[i]) * maxOf(between, after, swing?.get(i) ?: 0.0)
             }
             val shock = gain * doubt / spread
             if (abs(shock) > LEAST) shock * shock else 0.0
@@ -79,7 +82,7 @@ internal class UnknownTruth private constructor(
 
     /** The same of a sensor with one lag of [timeConstant] s and no delay. */
     fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? =
-        shocks(DoubleArray(times.size) { timeConstant }, gain, spread, isHeld, 0.0, 0.0)
+        shocks(DoubleArray(times.size) { timeConstant }, gain, spread, isHeld, 0.0, 0.0, null)
 
     /** Share of what a sensor saw in a gap that reaches its lag so long [after] it, s. */
     private fun reaching(after: Double, delay: Double, second: Double): Double = when {
@@ -188,7 +191,8 @@ internal class UnknownTruth private constructor(
             return most
         }
 
-        private fun deviation(truth: DoubleArray): Double {
+        /** Standard deviation of [truth]. */
+        fun deviation(truth: DoubleArray): Double {
             val mean = truth.average()
             return sqrt(truth.sumOf { (it - mean) * (it - mean) } / truth.size)
         }
