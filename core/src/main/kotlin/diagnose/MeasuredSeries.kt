@@ -231,6 +231,23 @@ public class MeasuredSeries private constructor(
         )
     }
 
+    /** The rows of this log from [from] up to, and without, [until]. */
+    internal fun part(from: Int, until: Int): MeasuredSeries {
+        fun of(column: DoubleArray) = column.copyOfRange(from, until)
+        return MeasuredSeries(
+            of(times),
+            of(x),
+            of(y),
+            of(values),
+            reference?.let(::of),
+            conditions.mapValues { (_, column) -> of(column) },
+            isSparse,
+            isRead?.copyOfRange(from, until),
+            wild.filterKeys { it in from until until }.mapKeys { (row, _) -> row - from },
+            isGuessed?.copyOfRange(from, until),
+        )
+    }
+
     /** The rows of this log at which [column] has a number, with that as reading; no reference, no conditions. */
     internal fun withValues(column: DoubleArray): MeasuredSeries {
         val rows = column.indices.filter { column[it].isFinite() }

@@ -33,6 +33,7 @@ internal object DiagnosisJson {
     private fun of(diagnosed: Diagnosed) = buildJsonObject {
         val result = diagnosed.result
         put("verdict", result.verdict.label)
+        put("answer", diagnosed.answer)
         putJsonArray("causes") { diagnosed.causes.forEach { add(it) } }
         putJsonArray("candidates") { result.candidates.forEach { candidate(it) } }
         put("baseline", model(result.baseline, result.baseSensor))

@@ -10,18 +10,15 @@ import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.ModelAssessment
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.CoarseRounding
-import stillwater.diagnose.evidence.FitReport
 import stillwater.diagnose.evidence.Manoeuvres
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.SuddenChanges
 import stillwater.diagnose.evidence.UnevenNoise
 import stillwater.diagnose.response.ExtendedSensor
-import stillwater.diagnose.response.Parameter
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.three
-import stillwater.model.Interval
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import kotlin.math.abs
@@ -39,7 +36,7 @@ internal class BlindAnswer(
     private val outliers: BlindOutliers,
     private val given: GivenLag?,
 ) {
-    private val bounds = ArrayList<String>()
+    private val estimates = BlindEstimates(series.period)
     private val rounding = CoarseRounding(series, search.used, search.scales.resolution)
     private val isCoarse = rounding.isCoarse(rmse(last.residuals))
 
@@ -60,7 +57,11 @@ internal class BlindAnswer(
         }
         val isLoose = areLoose(first.causes.size + 1)
         // What shifts readings by next to nothing, however surely, stays in the model.
-        val told = sets.filterIndexed { i, _ -> chosen[i].trial.term?.let(::isNothing) != true }
+        val unknown = chosen.mapNotNull { it.trial.term }.filter { UnknownSize.isOf(it, last, assessed(last).errors) }
+        val told = sets.filterIndexed { i, _ ->
+            val term = chosen[i].trial.term
+            term == null || (term !in unknown && !isNothing(term))
+        }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
         // An unknown water may be as flat as the readings, so that the likelihood alone does not tell of an end.
         val still = StillReadings(asFit(last))
@@ -87,13 +88,19 @@ internal class BlindAnswer(
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
-        val sensor = ExtendedSensor(asFit(named), outliers.size()?.takeIf { isLoose }, isRounded, range = range)
+        val sensor = ExtendedSensor(
+            asFit(named),
+            outliers.size()?.takeIf { isLoose },
+            isRounded,
+            leftOut = unknown.mapTo(HashSet()) { it.cause },
+            range = range,
+        )
         val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
         val tried = candidates(first).map { candidate ->
             if (candidate.cause == Cause.SATURATION && range != null) ended(candidate, range, still) else candidate
         }
         // Of what was only tried nobody need know that it ended at a bound.
-        bounds.clear()
+        estimates.bounds.clear()
         val lagging = assessment(base)
         val baseline = given?.state?.let { assessment(it) } ?: lagging
         val after = if (named === base) lagging else assessment(named)
@@ -108,11 +115,11 @@ internal class BlindAnswer(
             left,
             outliers.rows,
             BlindWarnings(series, settings, search, last, lag, outliers, given)
-                .of(left.first(), isNamed, rounding.takeIf { isCoarse }) +
-                listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
+                .of(left.first(), verdict, rounding.takeIf { isCoarse }) +
+                listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) + unknown.map(UnknownSize::words) +
                 listOfNotNull(if (isNamed) uneven?.let { "Beside what was named $it." } else null) +
                 sensor.losses.takeIf { isNamed }.orEmpty() +
-                bounds.distinct(),
+                estimates.bounds.distinct(),
             mayHaveChanged = isLikelyChange,
             lag = lag.channel(""),
         )
@@ -179,10 +186,23 @@ internal class BlindAnswer(
                 "what passes over the same water show would take a lag of ${three(base.timeConstant)} s, which " +
                     "such a log cannot tell from water that changes, or from positions that are wrong",
             )
+            all.isEmpty() && otherLag(end) != null ->
+                Verdict.Unexplained(checkNotNull(otherLag(end)), listOfNotNull(openLag(isOpen)))
             sets.isEmpty() -> uneven?.let(Verdict::Unexplained) ?: Verdict.Consistent
             sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
             else -> Verdict.Named(sets.map { it.single() })
         }
+    }
+
+    private val halves by lazy { LagOfHalves(series, settings, search.loops).words() }
+
+    /**
+     * In words, that the lag changed while the log was written, as its halves by themselves say it; null where they do not,
+     * or where at the [end] nothing points to it.
+     */
+    private fun otherLag(end: BlindRound): String? {
+        val isLikely = end.looksAsIs.any { it.name == BlindLooks.LAG_CHANGES && it.gain > LAG_CHANGES }
+        return if (isLikely) halves else null
     }
 
     /** What is to be said of the lag: that it is not the given one, or that it is of one kind or the other. */
@@ -199,7 +219,10 @@ internal class BlindAnswer(
     /** The longest time constant that the log allows, s: the upper end of the interval that the answer shows. */
     private fun longest(): Double =
         base.timeConstant *
-            exp(minOf(BlindErrors.REACH * assessed(base).errors[ResponseModel.TIME_CONSTANT], MOST_REACH))
+            exp(
+                (BlindErrors.REACH * assessed(base).errors[ResponseModel.TIME_CONSTANT])
+                    .coerceAtMost(BlindEstimates.MOST_REACH),
+            )
 
     /** That a lag is no longer than [most], s, in words; nothing where that is as long as the log allows. */
     private fun atMost(most: Double) =
@@ -223,40 +246,6 @@ internal class BlindAnswer(
 
     private fun asFit(state: BlindState) = state.asFit(search.free(state.model))
 
-    private fun estimates(model: ResponseModel, numbers: DoubleArray, errors: DoubleArray, terms: List<Term>) =
-        (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
-            // An end of the range that the sensor does not have is no number.
-            .filter { abs(numbers[it]) < ResponseModel.NO_END }.map { i ->
-                FitReport.slowest(model, numbers, i, bounds) ?: estimate(model.parameters[i], numbers[i], errors[i])
-            }
-
-    private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
-        val reach = BlindErrors.REACH * error
-        if (!reach.isFinite()) return Estimate(parameter.name, parameter.unit, value, null)
-        val isLowest = value <= parameter.lower * (1 + AT_END) && parameter.logarithmic
-        val isHighest = value >= parameter.upper * (1 - AT_END) && parameter.logarithmic
-        var lower =
-            if (parameter.logarithmic) value * exp(-minOf(reach, MOST_REACH)) else parameter.possible(value - reach)
-        var upper = if (parameter.logarithmic) value * exp(minOf(reach, MOST_REACH)) else value + reach
-        if (isLowest) {
-            // On the scale of the number itself; what is far below half a row nobody sees.
-            val unseen = if (parameter.unit == "s") series.period / 2 else 0.0
-            upper = maxOf(value * (1 + minOf(reach, MOST_FACTOR)), unseen)
-            bounds += "${words(parameter)} is at the low end of what was searched: it may be anything below " +
-                "${three(upper)} ${parameter.unit}."
-            lower = 0.0
-        }
-        if (isHighest) {
-            bounds += "${words(parameter)} is at the high end of what was searched: it may be anything above " +
-                "${three(lower)} ${parameter.unit}."
-            upper = Estimate.OPEN
-        }
-        return Estimate(parameter.name, parameter.unit, value, Interval(lower, upper))
-    }
-
-    private fun words(parameter: Parameter) =
-        "The ${parameter.name.removeSuffix("_s").removeSuffix("_m").replace('_', ' ')}"
-
     private fun rmse(residuals: DoubleArray): Double {
         val rows = residuals.indices.filter { search.used[it] }
         return sqrt(rows.sumOf { residuals[it] * residuals[it] } / maxOf(rows.size, 1))
@@ -267,7 +256,7 @@ internal class BlindAnswer(
         val noise = state.fit.design.noise.noise
         val heldOut = heldOut(state)
         return ModelAssessment(
-            estimates(state.model, state.numbers, assessed(state).errors, state.model.terms),
+            estimates.of(state.model, state.numbers, assessed(state).errors, state.model.terms),
             rmse(state.residuals),
             heldOut.rmse,
             heldOut.logLikelihood,
@@ -295,14 +284,14 @@ internal class BlindAnswer(
             // What was chosen may be right only beside others, and with steps that are held otherwise.
             val kept = last.model.terms.firstOrNull { it.key == term.key }
             val numbers = if (kept != null) {
-                estimates(last.model, last.numbers, assessed(last).errors, listOf(kept))
+                estimates.of(last.model, last.numbers, assessed(last).errors, listOf(kept))
             } else {
                 val fit = trial.state?.fit ?: state.fit
                 val z = trial.state?.whitened ?: fit.residual(point.residuals)
                 // Of what was only tried stretches are not asked.
                 val errors = BlindErrors.of(search, fit, model, point.numbers, z)
                 for (k in errors.indices) errors[k] *= BlindErrors.WIDER
-                estimates(model, point.numbers, errors, listOf(model.terms.last()))
+                estimates.of(model, point.numbers, errors, listOf(model.terms.last()))
             }
             Candidate(
                 term.cause,
@@ -353,6 +342,9 @@ internal class BlindAnswer(
 
     private companion object {
         const val LEFT = 0.25
+
+        /** Twice a gain in log-likelihood of a lag that changes in time from which halves are asked: chance gave 11 at most. */
+        const val LAG_CHANGES = 30.0
         const val NO_LAG = "passes over the same water do not agree for certain that there is a lag"
 
         /** Of the log's duration: a lag that is longer would be seen to end in few of its parts. */
@@ -388,9 +380,5 @@ internal class BlindAnswer(
 
         /** Of the level at which noise is uneven: what the water's waves lack may make some of it. */
         const val UNEVEN = 1e-4
-
-        const val MOST_REACH = 50.0
-        const val MOST_FACTOR = 1e9
-        const val AT_END = 1e-6
     }
 }

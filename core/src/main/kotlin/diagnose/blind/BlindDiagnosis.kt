@@ -49,7 +49,7 @@ internal class BlindDiagnosis(
         val why = TooLittle.why(series)
         if (why != null) return TooLittle.answer(series, why)
         val base = search.best()
-        val wave = base.modes.shortest
+        val wave = base.shortestNeeded
         val share = Passes.share(search.track.x, search.track.y, wave)
         if (share < LEAST_PASSES) {
             return TooLittle.answer(
@@ -91,6 +91,15 @@ internal class BlindDiagnosis(
         if (TooLittle.why(series) != null) return ChannelLag(name, Double.NaN, Double.NaN)
         val (base, _) = prepared(search.best())
         return lag(base, search.still(base)).channel(name).also { progress(1.0) }
+    }
+
+    /** The time constant of a lag alone; null where passes do not show it. */
+    fun timeConstant(): FoundLag? {
+        if (TooLittle.why(series) != null) return null
+        val begun = search.best()
+        if (Passes.share(search.track.x, search.track.y, begun.shortestNeeded) < LEAST_PASSES) return null
+        val (base, _) = prepared(begun)
+        return lag(base, search.still(base)).takeIf { it.isSeen }?.let { foundLag(search, it.timeConstant) }
     }
 
     /** What readings show by themselves, whether or not the boat comes back, in words; [base] is the model of a lag alone. */

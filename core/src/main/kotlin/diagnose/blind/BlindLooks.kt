@@ -56,7 +56,7 @@ internal class BlindLooks(
 
     /** The look at [what], of which [of] makes a column that has more at some times than at others. */
     private fun changing(what: String, of: (DoubleArray, DoubleArray) -> DoubleArray) =
-        shown("$what, more at some times than at others", BlindLook.DOUBT_OF_CHANGE) { value, rate ->
+        shown(what + AT_TIMES, BlindLook.DOUBT_OF_CHANGE) { value, rate ->
             listOf(of(value, rate))
         }
 
@@ -67,7 +67,7 @@ internal class BlindLooks(
                 listOf(product(value, value))
             },
         )
-        add(changing("the rate of change") { _, rate -> followed(product(rate, age)) })
+        add(changing(RATE) { _, rate -> followed(product(rate, age)) })
         add(
             shown("the rate of change, more at some values than at others") { value, rate ->
                 listOf(followed(product(rate, value)))
@@ -171,14 +171,20 @@ internal class BlindLooks(
 
     private fun standard(column: DoubleArray) = Standard(column).of(column)
 
-    private companion object {
+    companion object {
+        private const val RATE = "the rate of change"
+        private const val AT_TIMES = ", more at some times than at others"
+
+        /** The name of the look at a lag that changes in time. */
+        const val LAG_CHANGES = RATE + AT_TIMES
+
         /** Periods that a response may ring with; the shortest in rows, the longest in time constants. */
-        const val PERIODS = 14
-        const val SHORTEST = 4.0
-        const val LONGEST = 20.0
+        private const val PERIODS = 14
+        private const val SHORTEST = 4.0
+        private const val LONGEST = 20.0
 
         /** Damping over the critical one: a ring has faded to a third after a turn and a half. */
-        const val DAMPING = 0.12
-        val SHARES = doubleArrayOf(0.1, 0.5, 2.0, 5.0).toList()
+        private const val DAMPING = 0.12
+        private val SHARES = doubleArrayOf(0.1, 0.5, 2.0, 5.0).toList()
     }
 }

@@ -90,6 +90,11 @@ internal class BlindState(
         return squares(found) / found.size
     }
 
+    /** Length of the shortest wave that the water needs, m: shorter ones hold less than a tenth of the noise each. */
+    val shortestNeeded: Double
+        get() = modes.lengths.indices.filter { modes.lengths[it].isFinite() && power(it) > NEEDED * variance }
+            .minOfOrNull { modes.lengths[it] } ?: modes.shortest
+
     /** The model as a fit, of which the numbers [free] were fitted. */
     fun asFit(free: BooleanArray) =
         ModelFit(model, numbers, free, fit.design.noise.noise, residuals, whitened, score)
@@ -133,6 +138,9 @@ internal class BlindState(
 
         /** Mean square of the finest waves over the noise's, above which there must be finer ones. */
         const val MOST_FINEST = 10.0
+
+        /** Mean square of waves over the noise's that the water is not without. */
+        const val NEEDED = 0.1
     }
 }
 

@@ -4,6 +4,7 @@ import stillwater.diagnose.Cause
 import stillwater.diagnose.Dependence
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.CoarseRounding
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
@@ -21,8 +22,9 @@ internal class BlindWarnings(
     private val outliers: BlindOutliers,
     private val given: GivenLag?,
 ) {
-    /** In words; [left] is the strongest of what is left, [isNamed] whether something was named, [rounding] what is coarse. */
-    fun of(left: Dependence, isNamed: Boolean, rounding: CoarseRounding?): List<String> = buildList {
+    /** In words, beside [verdict]; [left] is the strongest of what is left, [rounding] what is coarse. */
+    fun of(left: Dependence, verdict: Verdict, rounding: CoarseRounding?): List<String> = buildList {
+        val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         if (given?.isPartial == true) {
             val what = if (given.state == null) {
                 "was not used: without a reference a lag is fitted in its place"
@@ -44,11 +46,12 @@ internal class BlindWarnings(
         )
         if (lag.isSeen) {
             // Whether the answer is of a lag of one kind, or of either, and of nothing else.
-            val isAlone = last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
+            val isAlone = verdict !is Verdict.Named &&
+                last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
             val by = if (isAlone) "by " else ""
             val tau = three(lag.timeConstant.timeConstant)
             add(
-                (if (isAlone) "The readings lag the water " else "Without what was found the lag would be ") +
+                (if (isAlone) "The readings lag the water " else "A lag alone would be ") +
                     "$by$tau s as a first-order lag, or $by${three(lag.delay)} s as a dead time" +
                     when {
                         lag.isDeadTime -> ", which explains more."

@@ -4,6 +4,7 @@ import stillwater.diagnose.Dependence
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.algebra.dot
 import stillwater.diagnose.algebra.squares
+import stillwater.diagnose.isFlat
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
 import stillwater.model.Conditions
@@ -89,10 +90,14 @@ internal class Structure(private val fit: ModelFit, private val isPart: Boolean 
             val north = DoubleArray(n) { sin(heading[it]) }
             val twice = DoubleArray(n) { cos(2 * heading[it]) }
             val twiceToo = DoubleArray(n) { sin(2 * heading[it]) }
-            add("the heading" to listOf(east, north, twice, twiceToo))
-            add("the value, more on some headings than on others" to listOf(times(value, east), times(value, north)))
+            // Along a line, as up and down a profile, there are two.
+            val isLine = isFlat(series.y)
+            val more = if (isLine) "more on the way there than back" else "more on some headings than on others"
+            val way = if (isLine) "the way it goes, there or back" else "the heading"
+            add(way to listOf(east, north, twice, twiceToo))
+            add("the value, $more" to listOf(times(value, east), times(value, north)))
             add(
-                "the rate of change, more on some headings than on others" to
+                "the rate of change, $more" to
                     listOf(followed(times(slope, east)), followed(times(slope, north))),
             )
         }

@@ -202,6 +202,37 @@ internal class CorrelatedNoise(
         }
     }
 
+    /**
+     * What says of each row that its reading alone is off, in the unit of [whitened]: Wᵀz over the length of We, where e is
+     * 1 in that row; 0 of rows not in use. Noise that wanders has two innovations of a wild reading, there and back.
+     */
+    fun impulses(whitened: DoubleArray): DoubleArray {
+        val out = DoubleArray(whitened.size).also { turned(whitened, it) }
+        // The square sum of the innovations from row i on of states (s, t) is a s² + 2 b s t + c t² before it.
+        var a = 0.0
+        var b = 0.0
+        var c = 0.0
+        for (i in out.indices.reversed()) {
+            val fade = shocks?.keep?.get(i) ?: 0.0
+            if (used[i]) {
+                val g = gain[i]
+                val h = if (shocks == null) 0.0 else second[i]
+                val square = scale[i] * scale[i]
+                val later = a * g * g + 2 * b * g * h + c * h * h
+                out[i] /= sqrt(square + later)
+                val first = a * g + b * h
+                val other = b * g + c * h
+                a += square + later - 2 * first
+                b += square + later - first - other
+                c += square + later - 2 * other
+            }
+            a *= keep[i] * keep[i]
+            b *= keep[i] * fade
+            c *= fade * fade
+        }
+        return out
+    }
+
     /** Whether [other], of the same log, whitens in the same way. */
     fun isSame(other: CorrelatedNoise): Boolean =
         share == other.share && time == other.time && shocks === other.shocks && used.contentEquals(other.used)

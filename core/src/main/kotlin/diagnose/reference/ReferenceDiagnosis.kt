@@ -244,7 +244,9 @@ internal class ReferenceDiagnosis(
         val rows = used.indices.filter { used[it] }
         val sure = BeyondDoubt(fit)
         val scales = fit.model.scales
-        return Spikes.of(DoubleArray(rows.size) { fit.whitened[rows[it]] }).map { rows[it] }.filter {
+        fun off(column: DoubleArray) = Spikes.of(DoubleArray(rows.size) { column[rows[it]] }).map { rows[it] }
+        // Under noise that wanders a wild reading shows twice, there and back.
+        return (off(fit.whitened) union off(fit.noise.impulses(fit.whitened))).sorted().filter {
             // Rounding moves readings by up to half a step: what is within a step need not be wild.
             abs(fit.residuals[it]) > scales.resolution && Spikes.isSingle(fit.residuals, it) &&
                 (!(models.shaken.isInDoubt(it) || scales.isInDoubt(it)) || it in sure)

@@ -16,7 +16,6 @@ import stillwater.diagnose.evidence.LooseReadings
 import stillwater.diagnose.evidence.Manoeuvres
 import stillwater.diagnose.evidence.QuickMoves
 import stillwater.diagnose.evidence.SmallShifts
-import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.Structure
 import stillwater.diagnose.evidence.Trial
@@ -28,7 +27,6 @@ import stillwater.diagnose.response.ReferenceGaps
 import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.SpikeSize
-import stillwater.diagnose.response.Steps
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.response.isTiming
 import stillwater.diagnose.three
@@ -90,6 +88,8 @@ internal class Weighing(
     /** Whether the log's speeds differ enough to tell an offset of place. */
     val hasPlace: Boolean get() = terms.any { it.cause == Cause.POSITION_OFFSET }
 
+    private val warnings = ReferenceWarnings(base, last, settings, late, before)
+
     private val still by lazy { StillReadings(last) }
 
     /** In words, what the noise goes with; null where it is even. */
@@ -147,7 +147,8 @@ internal class Weighing(
             },
             left,
             (spikes + series.wild.keys).sorted(),
-            warnings(left.first(), named) + shifts.words(small.map { it.first }) +
+            warnings.of(left.first(), verdict, uneven, faults.caution(explained), spikes.size) +
+                shifts.words(small.map { it.first }) +
                 listOfNotNull(EQUAL.takeIf { equal.isNotEmpty() }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
                 listOfNotNull(BESIDE.takeIf { named && unnamed.isNotEmpty() }) +
@@ -181,28 +182,6 @@ internal class Weighing(
         emptyList()
     }
 
-    private fun warnings(most: Dependence, named: Boolean): List<String> = buildList {
-        if (named && most.adjusted < settings.structureLevel) {
-            add("Structure is left beside what was named: the residuals depend on ${most.description}.")
-        }
-        uneven?.takeIf { named }?.let { add("Beside what was named $it.") }
-        if (scales.unknown?.isSharp == true) {
-            add("A delay of less than ${three(series.period)} s cannot show: ${SmallShifts.SHARP}")
-        } else if (before > 0) {
-            if (before == 1.0) add(SmallShifts.UNTIL_NEXT)
-        } else if (base.model.steps == Steps.HELD && base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2) {
-            add(
-                "The truth looks held over each step, as a simulation holds it; a sensor in water would have a time " +
-                    "constant half a step shorter.",
-            )
-        }
-        scales.unknown?.words()?.let(::add)
-        if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
-        faults.caution(explained)?.let(::add)
-        val off = spikes.size + series.wild.size
-        if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
-    }
-
     private fun terms(): List<Term> = buildList {
         if (settings.base != null) {
             add(Term(Cause.TIME_CONSTANT))
@@ -226,7 +205,9 @@ internal class Weighing(
         add(Term(Cause.HYSTERESIS))
         if (scales.resolution > COARSE * sqrt(base.variance)) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
-        if (moving && spread > LEAST_SPREAD) add(Term(Cause.POSITION_OFFSET))
+        // What stirs a beaker has a speed and goes nowhere.
+        val hasPlaces = !isFlat(series.x) || !isFlat(series.y)
+        if (moving && hasPlaces && spread > LEAST_SPREAD) add(Term(Cause.POSITION_OFFSET))
     }
 
     private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {

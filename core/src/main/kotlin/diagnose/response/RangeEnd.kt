@@ -18,7 +18,9 @@ internal object RangeEnd {
         val slot = model.slot(term)
         return BEYOND.flatMap { share ->
             val out = (share * (sorted.size - 1)).toInt()
-            listOf(-ResponseModel.FAR_END to sorted[sorted.size - 1 - out], sorted[out] to ResponseModel.FAR_END).map { (lower, upper) ->
+            val above = -ResponseModel.FAR_END to sorted[sorted.size - 1 - out]
+            val below = sorted[out] to ResponseModel.FAR_END
+            listOf(above, below).map { (lower, upper) ->
                 start.copyOf().also {
                     it[slot] = lower
                     it[slot + 1] = upper

@@ -64,6 +64,19 @@ class CorrelatedNoiseTest {
         assertEquals(found.time, again.time, 0.5, "begun where it was found")
     }
 
+    /** Of a row alone says what its whitened impulse has in common with the residuals. */
+    @Test
+    fun impulsesAreThoseOfEachRow() = ofAnyNoise(20_270, Arb.int(1, 60)) { noise, n, random, seed ->
+        val z = DoubleArray(n) { if (noise.used[it]) random.nextDouble(-10.0, 10.0) else 0.0 }
+        val found = noise.impulses(z)
+        for (i in 0 until n) {
+            val impulse = DoubleArray(n).also { it[i] = 1.0 }
+            noise.whiten(impulse, impulse)
+            val expected = if (noise.used[i]) dot(impulse, z) / sqrt(squares(impulse)) else 0.0
+            assertEquals(expected, found[i], 1e-6 * (1 + abs(expected)), "row $i of $n, seed $seed")
+        }
+    }
+
     /** What several shares score in one pass is what each scores whitened by itself. */
     @Test
     fun sharesScoreTogetherAsEachDoesAlone() = ofAnyNoise(20_269, Arb.int(1, 400)) { noise, n, random, seed ->

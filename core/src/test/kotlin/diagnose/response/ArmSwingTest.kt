@@ -59,7 +59,8 @@ class ArmSwingTest {
         val y = DoubleArray(rows) { maxOf(it - corner, 0) * 0.5 }
         val truth = DoubleArray(rows) { sin(x[it] / 5) + cos(2 * PI * y[it] / 25) }
         val doubts = swing(x, y, truth, speed = 0.5).doubts(2.0)
-        assertTrue((4 until rows).filter { doubts[it] > 0.05 }.all { it in corner - 5..corner + 9 }, "${doubts.toList()}")
+        val swung = (4 until rows).filter { doubts[it] > 0.05 }
+        assertTrue(swung.all { it in corner - 5..corner + 9 }, "$swung")
         assertTrue((corner..corner + 2).all { doubts[it] > 0.4 })
     }
 }
