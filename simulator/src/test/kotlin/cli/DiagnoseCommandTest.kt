@@ -201,6 +201,7 @@ class DiagnoseCommandTest {
         assertEquals(
             setOf(
                 "verdict",
+                "answer",
                 "causes",
                 "candidates",
                 "baseline",

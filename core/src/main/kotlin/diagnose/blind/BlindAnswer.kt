@@ -46,10 +46,10 @@ internal class BlindAnswer(
     /** The result. */
     fun of(
         first: BlindRound,
-        chosen: List<BlindStep>,
-        sets: List<List<Cause>>,
+        causes: List<ChosenCause>,
         end: BlindRound,
     ): DiagnosisResult {
+        val chosen = causes.map { it.step }
         val looks = end.looks
         val order = order(looks, end.adjustedLooks)
         val left = order.map { i ->
@@ -58,10 +58,7 @@ internal class BlindAnswer(
         val isLoose = areLoose(first.causes.size + 1)
         // What shifts readings by next to nothing, however surely, stays in the model.
         val unknown = chosen.mapNotNull { it.trial.term }.filter { UnknownSize.isOf(it, last, assessed(last).errors) }
-        val told = sets.filterIndexed { i, _ ->
-            val term = chosen[i].trial.term
-            term == null || (term !in unknown && !isNothing(term))
-        }
+        val told = causes.filterNot { isLeftOut(it, unknown) }.map { it.causes }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
         // An unknown water may be as flat as the readings, so that the likelihood alone does not tell of an end.
         val still = StillReadings(asFit(last))
@@ -84,17 +81,13 @@ internal class BlindAnswer(
             (chosen.isEmpty() && (end.look(strongest).ofBoat || left.first().adjusted < certain))
         // One number for many readings hides all else; what hides in noise shows where nothing was found.
         val unlisted = still.words(level) ?: if (all.isEmpty()) SuddenChanges.words(last.whitened) else null
-        val verdict = verdict(all, left.first(), strongest, end, isOthers, chosen, unlisted)
+        val verdict = verdict(all, left.first(), strongest, end, isOthers, causes, unlisted)
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         // Where nothing was chosen a lag of either kind was named: the base stands for it, or both kinds in a row.
         val named = if (chosen.isEmpty()) listOf(base, last).distinct().maxBy { heldOut(it).logLikelihood } else last
-        val sensor = ExtendedSensor(
-            asFit(named),
-            outliers.size()?.takeIf { isLoose },
-            isRounded,
-            leftOut = unknown.mapTo(HashSet()) { it.cause },
-            range = range,
-        )
+        val size = outliers.size()?.takeIf { isLoose }
+        val leftOut = unknown.mapTo(HashSet()) { it.cause }
+        val sensor = ExtendedSensor(asFit(named), size, isRounded, leftOut, range = range)
         val extended = onLog(sensor.spec("extended")).takeIf { isNamed }
         val tried = candidates(first).map { candidate ->
             if (candidate.cause == Cause.SATURATION && range != null) ended(candidate, range, still) else candidate
@@ -114,16 +107,24 @@ internal class BlindAnswer(
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
-            BlindWarnings(series, settings, search, last, lag, outliers, given)
-                .of(left.first(), verdict, rounding.takeIf { isCoarse }) +
-                listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) + unknown.map(UnknownSize::words) +
-                listOfNotNull(if (isNamed) uneven?.let { "Beside what was named $it." } else null) +
-                sensor.losses.takeIf { isNamed }.orEmpty() +
+            warnings(left.first(), verdict) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
+                unknown.map(UnknownSize::words) + besideNamed(isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() +
                 estimates.bounds.distinct(),
             mayHaveChanged = isLikelyChange,
             lag = lag.channel(""),
         )
     }
+
+    /** Whether [cause] stays in the model and is not named: it shifts readings by next to nothing, or is of [unknown] size. */
+    private fun isLeftOut(cause: ChosenCause, unknown: List<Term>): Boolean =
+        cause.step.trial.term?.let { isNothing(it) || it in unknown } == true
+
+    private fun warnings(left: Dependence, verdict: Verdict) =
+        BlindWarnings(series, settings, search, last, lag, outliers, given)
+            .of(left, verdict, rounding.takeIf { isCoarse })
+
+    private fun besideNamed(isNamed: Boolean) =
+        listOfNotNull(uneven?.takeIf { isNamed }?.let { "Beside what was named $it." })
 
     /** Whether single readings are wild, among [tried] causes; where the noise is larger for a while far ones are none. */
     private fun areLoose(tried: Int) =
@@ -153,9 +154,10 @@ internal class BlindAnswer(
         strongest: Int,
         end: BlindRound,
         isOthers: Boolean,
-        chosen: List<BlindStep>,
+        causes: List<ChosenCause>,
         unlisted: String?,
     ): Verdict {
+        val chosen = causes.map { it.step }
         val isOpen = lag.isOpen(settings.separation) && (chosen.isEmpty() || !lag.isToldIn(last, assessed(last).errors))
         // Like is held against like: a cause has water and noise of its own, the lag's kinds have the model's.
         val weakest = chosen.minOfOrNull { it.trial.sureness }
@@ -169,7 +171,7 @@ internal class BlindAnswer(
         val isStructured = left.adjusted < settings.structureLevel && outweighs && !isEnded
         val isOfFixes = end.look(strongest).ofWater && search.fixes.areFar(last)
         val sets = all + listOfNotNull(lagSet(isOpen))
-        val contradicted = chosen.map { it.trial }.firstOrNull { it.isContradicted && it.term?.cause !in NOT_HALVED }
+        val contradicted = causes.firstOrNull { it.isContradicted && it.causes.first() !in NOT_HALVED }?.step?.trial
         return when {
             unlisted != null -> Verdict.Unexplained(unlisted, listOfNotNull(openLag(isOpen)))
             contradicted != null -> Verdict.Unexplained(
@@ -198,11 +200,11 @@ internal class BlindAnswer(
 
     /**
      * In words, that the lag changed while the log was written, as its halves by themselves say it; null where they do not,
-     * or where at the [end] nothing points to it.
+     * or where at the [end] nothing points to it, neither a look nor water that changes.
      */
     private fun otherLag(end: BlindRound): String? {
         val isLikely = end.looksAsIs.any { it.name == BlindLooks.LAG_CHANGES && it.gain > LAG_CHANGES }
-        return if (isLikely) halves else null
+        return if (isLikely || end.changed > FAR_CHANGED) halves else null
     }
 
     /** What is to be said of the lag: that it is not the given one, or that it is of one kind or the other. */
@@ -345,6 +347,9 @@ internal class BlindAnswer(
 
         /** Twice a gain in log-likelihood of a lag that changes in time from which halves are asked: chance gave 11 at most. */
         const val LAG_CHANGES = 30.0
+
+        /** The same of water that changes: a lag that doubled made 1300 to 2950 of it. */
+        const val FAR_CHANGED = 100.0
         const val NO_LAG = "passes over the same water do not agree for certain that there is a lag"
 
         /** Of the log's duration: a lag that is longer would be seen to end in few of its parts. */

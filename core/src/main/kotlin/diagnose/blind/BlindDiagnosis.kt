@@ -136,10 +136,10 @@ internal class BlindDiagnosis(
         val last = chosen.lastOrNull()?.state ?: first.state
         this.found = last
         val end = found.ended ?: round(last)
-        val sets = sets(start, chosen)
+        val causes = causes(start, chosen)
         val given = settings.base?.let { GivenLag(search, base, it, last.takeIf { chosen.isNotEmpty() }) }
         return BlindAnswer(series, settings, search, base, last, lag, BlindOutliers(search, last), given)
-            .of(first, chosen, sets, end)
+            .of(first, causes, end)
     }
 
     /**
@@ -215,8 +215,8 @@ internal class BlindDiagnosis(
     private fun round(model: BlindState, still: BlindState = search.still(model)) =
         BlindRound(search, settings, lag, arms, model, still, ::tell).also { rounds++ }
 
-    /** For each chosen cause those that explain as much in its place. */
-    private fun sets(base: BlindState, chosen: List<BlindStep>): List<List<Cause>> = chosen.mapIndexed { i, step ->
+    /** Each chosen cause beside all others, with those that explain as much in its place. */
+    private fun causes(base: BlindState, chosen: List<BlindStep>): List<ChosenCause> = chosen.mapIndexed { i, step ->
         val round = if (i == chosen.size - 1) step.round else round(search.without(base, chosen, i))
         val taken = chosen.filter { it !== step }.map { it.trial.name }
         val own = round.causes.firstOrNull { it.name == step.trial.name } ?: step.trial
@@ -227,7 +227,8 @@ internal class BlindDiagnosis(
         val others = BlindRivals.alike(own, settings.setProbability, possible)
         val term = checkNotNull(step.trial.term)
         val twin = listOfNotNull(Cause.TIME_VARYING_FIELD.takeIf { BlindRivals.mayBeWaters(term) })
-        (listOf(term.cause) + twin + others).distinct()
+        val isContradicted = step.trial.isContradicted && (own.state == null || own.isContradicted)
+        ChosenCause(step, (listOf(term.cause) + twin + others).distinct(), isContradicted)
     }
 
     companion object {

@@ -23,7 +23,11 @@ internal class BlindEstimates(private val period: Double) {
         (listOf(ResponseModel.TIME_CONSTANT) + terms.flatMap { t -> List(model.width(t)) { model.slot(t) + it } })
             // An end of the range that the sensor does not have is no number.
             .filter { abs(numbers[it]) < ResponseModel.NO_END }.map { i ->
-                FitReport.slowest(model, numbers, i, bounds) ?: estimate(model.parameters[i], numbers[i], errors[i])
+                val parameter = model.parameters[i]
+                // Without the one place that shows an end of the range it may be anywhere.
+                val isOpen = parameter.name in ENDS && UnknownSize.isOpen(errors[i], model.scales.range)
+                FitReport.slowest(model, numbers, i, bounds)
+                    ?: estimate(parameter, numbers[i], if (isOpen) Double.POSITIVE_INFINITY else errors[i])
             }
 
     private fun estimate(parameter: Parameter, value: Double, error: Double): Estimate {
@@ -58,5 +62,8 @@ internal class BlindEstimates(private val period: Double) {
         const val MOST_REACH = 50.0
         private const val MOST_FACTOR = 1e9
         private const val AT_END = 1e-6
+
+        /** Ends of the range. */
+        private val ENDS = setOf("lower", "upper")
     }
 }

@@ -44,27 +44,7 @@ internal class BlindWarnings(
                 "${three(search.modes.finest)} ${series.placeUnit}; a gain or an offset cannot be seen. Errors on " +
                 "held-out blocks are those of a forecast from other passes and the rows before.",
         )
-        if (lag.isSeen) {
-            // Whether the answer is of a lag of one kind, or of either, and of nothing else.
-            val isAlone = verdict !is Verdict.Named &&
-                last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
-            val by = if (isAlone) "by " else ""
-            val tau = three(lag.timeConstant.timeConstant)
-            add(
-                (if (isAlone) "The readings lag the water " else "A lag alone would be ") +
-                    "$by$tau s as a first-order lag, or $by${three(lag.delay)} s as a dead time" +
-                    when {
-                        lag.isDeadTime -> ", which explains more."
-                        lag.isOpen(settings.separation) || lag.preference <= 0 -> "."
-                        else -> ", which explains less."
-                    },
-            )
-            add(
-                "The correction of a track (correct) compares passes over the same place alone, without a model of " +
-                    "the water between them: its lag may differ, and where it is outside of the interval here, " +
-                    "neither should be relied on.",
-            )
-        }
+        if (lag.isSeen) addAll(ofLag(verdict))
         if (search.steps == Steps.UNTIL_NEXT) add(SmallShifts.UNTIL_NEXT)
         if (!last.isResolved) {
             add(
@@ -84,5 +64,28 @@ internal class BlindWarnings(
         addAll(listOfNotNull(search.fixes.words(last), rounding?.words(), search.gaps?.words()))
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
+    }
+
+    /** What the log says of a lag, which is seen, alone. */
+    private fun ofLag(verdict: Verdict): List<String> = buildList {
+        // Whether the answer is of a lag of one kind, or of either, and of nothing else.
+        val isAlone = verdict !is Verdict.Named &&
+            last.model.terms.all { it.cause == Cause.DEAD_TIME && !lag.isNeitherAlone }
+        val by = if (isAlone) "by " else ""
+        val tau = three(lag.timeConstant.timeConstant)
+        add(
+            (if (isAlone) "The readings lag the water " else "A lag alone would be ") +
+                "$by$tau s as a first-order lag, or $by${three(lag.delay)} s as a dead time" +
+                when {
+                    lag.isDeadTime -> ", which explains more."
+                    lag.isOpen(settings.separation) || lag.preference <= 0 -> "."
+                    else -> ", which explains less."
+                },
+        )
+        add(
+            "The correction of a track (correct) compares passes over the same place alone, without a model of " +
+                "the water between them: its lag may differ, and where it is outside of the interval here, " +
+                "neither should be relied on.",
+        )
     }
 }

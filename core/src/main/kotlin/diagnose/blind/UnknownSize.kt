@@ -1,26 +1,19 @@
 package stillwater.diagnose.blind
 
 import stillwater.diagnose.Cause
-import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
-import kotlin.math.abs
 
-/** Whether a cause is in a model of a log without a reference, and the log does not tell how large it is. */
+/** Jumps that are in a model of a log without a reference, and whose size the log does not tell. */
 internal object UnknownSize {
-    /**
-     * Whether it is so of [term] in [state], whose numbers may be off by [errors]: jumps of either sign, or an end of the range
-     * anywhere.
-     */
+    /** Whether [term] is such in [state], whose numbers may be off by [errors]: by more than the readings differ by. */
     fun isOf(term: Term, state: BlindState, errors: DoubleArray): Boolean {
-        val at = state.model.slotOrNull(term) ?: return false
-        val slots = (at until at + state.model.width(term)).filter { abs(state.numbers[it]) < ResponseModel.NO_END }
-        fun reach(slot: Int) = BlindErrors.REACH * errors[slot]
-        return when (term.cause) {
-            Cause.OFFSET_STEPS -> slots.all { abs(state.numbers[it]) < reach(it) }
-            Cause.SATURATION -> slots.any { reach(it) > state.model.scales.range }
-            else -> false
-        }
+        val at = state.model.slotOrNull(term)
+        if (at == null || term.cause != Cause.OFFSET_STEPS) return false
+        return (at until at + state.model.width(term)).any { isOpen(errors[it], state.model.scales.range) }
     }
+
+    /** Whether an [error] says as good as nothing of a number, where readings are within a [range], sensor units. */
+    fun isOpen(error: Double, range: Double): Boolean = BlindErrors.REACH * error > range
 
     /** What is to be said of such a [term]. */
     fun words(term: Term): String =
