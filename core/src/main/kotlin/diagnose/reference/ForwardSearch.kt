@@ -38,7 +38,7 @@ internal class ForwardSearch(
     /** The trials chosen one after the other; each fit holds all before it. */
     fun chosen(): List<Trial> {
         val worthy = worthy(first)
-        val best = best(worthy) ?: return emptyList()
+        val best = best(worthy) ?: return undoing()
         val found = from(best)
         if (found.size < 2 || best.term.cause.baseNumbers.isNotEmpty()) return found
         val keys = found.map { it.term.key }
@@ -46,6 +46,21 @@ internal class ForwardSearch(
         val others = first.filter { it.pValue < LIKELY && it.term.key !in keys }
             .sortedByDescending { it.worth }.take(OTHER_BEGINNINGS)
         return (listOf(found) + loops.all(others) { from(it, found) }.filter { it.isNotEmpty() }).maxBy(::worth)
+    }
+
+    /**
+     * A probe ahead and a delay that undoes that at the usual speed, where the two together explain the log: neither need help
+     * alone. Empty where they do not.
+     */
+    private fun undoing(): List<Trial> {
+        val place = first.firstOrNull { it.term.cause == Cause.POSITION_OFFSET }
+        val delay = terms.firstOrNull { it.cause == Cause.DEAD_TIME }
+        if (place == null || delay == null) return emptyList()
+        val both = attempt(place.fit, place.heldOut, delay)
+        val ratio = (both.fit.score - base.score) / maxOf(both.inflation, place.inflation)
+        val isSure = Evidence.pValue(ratio, place.degrees + both.degrees) * terms.size < BESIDE * settings.level
+        val isForetold = both.foretells && both.heldOut.logLikelihood > baseHeldOut.logLikelihood
+        return if (isSure && isForetold) pruned(listOf(place, both)) else emptyList()
     }
 
     private fun attempt(fit: ModelFit, heldOut: HeldOutScore, term: Term) =
