@@ -345,7 +345,7 @@ internal class BlindAnswer(
     private companion object {
         const val LEFT = 0.25
 
-        /** Twice a gain in log-likelihood of a lag that changes in time from which halves are asked: chance gave 11 at most. */
+        /** Twice a gain in log-likelihood of a lag that changes in time from which halves are asked; chance gave 3.5. */
         const val LAG_CHANGES = 30.0
 
         /** The same of water that changes: a lag that doubled made 1300 to 2950 of it. */

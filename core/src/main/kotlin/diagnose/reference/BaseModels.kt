@@ -25,7 +25,7 @@ internal class BaseModels(
     private val used: BooleanArray,
 ) {
     private val longest = CauseSearch.longest(series, settings)
-    private val calm = Scales(series, unknown)
+    private val calm = Scales(series, unknown, swing = series.reference?.let { ArmSwing(series, it) })
 
     /** The base model as it looks with nothing known of gaps, sharp fronts and single wild readings. */
     val rough: ModelFit by lazy { of(null, null) }

@@ -7,25 +7,40 @@ import stillwater.diagnose.noise.Shocks
 import kotlin.math.abs
 import kotlin.math.ln
 
+/** What is not known of the truth where a sensor is that is not where the boat was, nor will be. */
+internal fun interface Swing {
+    /**
+     * How far the truth [behind] m behind the boat may be off what it was on the way as far back, sensor units, by row; a new
+     * array.
+     */
+    fun doubts(behind: Double): DoubleArray
+}
+
 /**
  * Quantities of a log that several models share.
  *
  * @property unknown what its reference leaves open; null where there is none. @property shocks what that does to the
- * reading; null for none.
+ * reading; null for none. @property swing what turns leave open of the truth where a sensor is that is off the boat; null for
+ * nothing.
  */
 internal class Scales private constructor(
     val series: MeasuredSeries,
     val unknown: UnknownTruth?,
     val shocks: Shocks?,
+    val swing: Swing?,
     like: Scales?,
 ) {
     private val n = series.size
 
-    constructor(series: MeasuredSeries, unknown: UnknownTruth? = null, shocks: Shocks? = null) :
-        this(series, unknown, shocks, null)
+    constructor(
+        series: MeasuredSeries,
+        unknown: UnknownTruth? = null,
+        shocks: Shocks? = null,
+        swing: Swing? = null,
+    ) : this(series, unknown, shocks, swing, null)
 
     /** The same log where what is [unknown] in the same gaps gives the reading these [shocks]. */
-    fun shaken(unknown: UnknownTruth?, shocks: Shocks?) = Scales(series, unknown, shocks, this)
+    fun shaken(unknown: UnknownTruth?, shocks: Shocks?) = Scales(series, unknown, shocks, swing, this)
 
     /** Whether row [i] may be far off for what is not known of the truth before it. */
     fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true
@@ -69,9 +84,6 @@ internal class Scales private constructor(
 
     /** The track as times of ways. */
     val way: WayTimes by lazy { like?.way ?: WayTimes(series) }
-
-    /** Where a probe on a rigid arm may be off the track; null without a reference. */
-    val swing: ArmSwing? by lazy { like?.swing ?: series.reference?.let { ArmSwing(series, way, it) } }
 
     /** Finest step between different values, sensor units; 0 where there is none. */
     val resolution: Double = like?.resolution ?: resolution(series.shown(series.values))

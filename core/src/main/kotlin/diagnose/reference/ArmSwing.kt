@@ -1,6 +1,9 @@
-package stillwater.diagnose.response
+package stillwater.diagnose.reference
 
 import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.response.Swing
+import stillwater.diagnose.response.UnknownTruth
+import stillwater.diagnose.response.WayTimes
 import stillwater.diagnose.track.SmoothTrack
 import kotlin.math.hypot
 import kotlin.math.sqrt
@@ -9,7 +12,8 @@ import kotlin.math.sqrt
  * A probe on a rigid arm beside a reference that is known along the boat's way: in turns the arm's end leaves the way, and
  * what [truth] is there is not known.
  */
-internal class ArmSwing(private val series: MeasuredSeries, private val way: WayTimes, private val truth: DoubleArray) {
+internal class ArmSwing(private val series: MeasuredSeries, private val truth: DoubleArray) : Swing {
+    private val way by lazy { WayTimes(series) }
     private val track by lazy { SmoothTrack.of(series) }
     private val most = MOST * UnknownTruth.deviation(truth)
 
@@ -31,11 +35,8 @@ internal class ArmSwing(private val series: MeasuredSeries, private val way: Way
         return if (ways > 0) sqrt(squares / ways) else 0.0
     }
 
-    /**
-     * How far the truth at the end of an arm, [behind] m behind the boat, may be off what it was on the way as far back, in
-     * sensor units, by row; new. Where the boat keeps its course that is nothing.
-     */
-    fun doubts(behind: Double): DoubleArray {
+    /** Where the boat keeps its course nothing is in doubt. */
+    override fun doubts(behind: Double): DoubleArray {
         val arm = track.onArm(behind)
         val walk = way.at(-behind)
         val times = series.times

@@ -1,4 +1,4 @@
-package stillwater.diagnose.response
+package stillwater.diagnose.reference
 
 import stillwater.diagnose.MeasuredSeries
 import stillwater.model.Conditions
@@ -18,7 +18,7 @@ class ArmSwingTest {
     private fun swing(x: DoubleArray, y: DoubleArray, truth: DoubleArray, speed: Double): ArmSwing {
         val speeds = mapOf(Conditions.SPEED to DoubleArray(rows) { speed })
         val series = MeasuredSeries(times, x, y, truth, truth, speeds)
-        return ArmSwing(series, WayTimes(series), truth)
+        return ArmSwing(series, truth)
     }
 
     @Test
