@@ -8,6 +8,7 @@ import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.CoarseRounding
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
+import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.Structure
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.three
@@ -62,6 +63,7 @@ internal class BlindWarnings(
             )
         }
         addAll(listOfNotNull(search.fixes.words(last), rounding?.words(), search.gaps?.words()))
+        StillReadings(last.asFit(search.free(last.model))).repeats()?.let(::add)
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }

@@ -69,6 +69,27 @@ internal class StillReadings(private val fit: ModelFit) {
     }
 
     /**
+     * That single readings repeat the one before to the last digit, more often than their noise does; null where they do not, or
+     * where most do. Noise whose steps from row to row have the deviation s is within a step of rounding, q, with a
+     * probability of erf(q / (√2 s)).
+     */
+    fun repeats(): String? {
+        if (fit.model.terms.any { it.cause == Cause.HYSTERESIS }) return null
+        var from = 0
+        val count = runs.sumOf { rows ->
+            val isInside = values[from] > lowest && values[from] < highest
+            from += rows
+            if (rows < FEWEST && isInside) rows - 1 else 0
+        }
+        if (count < FEWEST || count > MOST * values.size) return null
+        val steps = Spikes.spread(DoubleArray(residuals.size - 1) { residuals[it + 1] - residuals[it] })
+        val expected = values.size * Erf.erf(fit.model.scales.resolution / (sqrt(2.0) * steps))
+        if (Evidence.poissonTail(count, expected) > CERTAIN) return null
+        return "$count readings repeat the one before to the last digit, which noise does not: the logger may have " +
+            "had no new one."
+    }
+
+    /**
      * By chance, that the readings stand as still as they do at the highest or the lowest of them, and nowhere else: a
      * sensor that hangs, or sticks, does so anywhere.
      */

@@ -5,6 +5,7 @@ import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Verdict
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
+import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ResponseModel
@@ -54,6 +55,7 @@ internal class ReferenceWarnings(
         unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         caution?.let(::add)
+        StillReadings(last).repeats()?.let(::add)
         val all = off + series.wild.size
         if (all > 0) add("${Spikes.words(all)} and left out of the fits.")
     }

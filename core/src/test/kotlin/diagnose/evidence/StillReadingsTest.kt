@@ -54,6 +54,19 @@ class StillReadingsTest {
     }
 
     @Test
+    fun singleReadingsThatRepeatTheOneBeforeAreCounted() {
+        val values = normal()
+        assertNull(StillReadings(fit(values)).repeats())
+        assertNull(StillReadings(fit(rounded(values, 0.005))).repeats(), "what rounding repeats")
+        for (i in 40 until n step 60) values[i] = values[i - 1]
+        assertContains(assertNotNull(StillReadings(fit(values)).repeats()), "10 readings repeat the one before")
+        assertTrue(diagnosed(values).warnings.any { "10 readings repeat" in it })
+        // A logger that writes each reading twice is none that missed some.
+        for (i in 1 until n step 2) values[i] = values[i - 1]
+        assertNull(StillReadings(fit(values)).repeats())
+    }
+
+    @Test
     fun oneNumberInThePlaceOfReadingsIsToldThoughItMakesTheNoiseLarge() {
         val values = normal()
         for (from in listOf(100, 300, 450)) values.fill(-9.0, from, from + 8)
