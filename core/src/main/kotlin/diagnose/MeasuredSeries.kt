@@ -112,6 +112,9 @@ public class MeasuredSeries private constructor(
     /** Speed of each row, m/s: the condition of that name, or from the positions over some seconds. */
     public val speed: DoubleArray = like?.speed ?: filled(Conditions.SPEED) ?: fromPositions()
 
+    /** Whether the log has places, which are not all one. */
+    internal val hasPlaces: Boolean get() = !isFlat(x) || !isFlat(y)
+
     /** Whether the boat moves, so that there is a way to speak of. */
     internal val isMoving: Boolean get() = median(speed) > SLOWEST
 

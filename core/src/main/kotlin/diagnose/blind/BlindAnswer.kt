@@ -56,7 +56,6 @@ internal class BlindAnswer(
             Dependence(looks[i].name, looks[i].ratio, looks[i].degrees, looks[i].pValue, end.adjustedLooks[i])
         }
         val isLoose = areLoose(first.causes.size + 1)
-        // What shifts readings by next to nothing, however surely, stays in the model.
         val unknown = chosen.mapNotNull { it.trial.term }.filter { UnknownSize.isOf(it, last, assessed(last).errors) }
         val told = causes.filterNot { isLeftOut(it, unknown) }.map { it.causes }
         val isRounded = isCoarse && told.none { Cause.QUANTISATION in it }
@@ -107,7 +106,7 @@ internal class BlindAnswer(
             verdict.ambiguity.flatten().toSet().takeIf { it.isNotEmpty() }?.let { Manoeuvres.of(it) },
             left,
             outliers.rows,
-            warnings(left.first(), verdict) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
+            warnings(left.first(), verdict, still) + listOfNotNull(CHANGES.takeIf { isLikelyChange }) + little(chosen) +
                 unknown.map(UnknownSize::words) + besideNamed(isNamed) + sensor.losses.takeIf { isNamed }.orEmpty() +
                 estimates.bounds.distinct(),
             mayHaveChanged = isLikelyChange,
@@ -119,9 +118,9 @@ internal class BlindAnswer(
     private fun isLeftOut(cause: ChosenCause, unknown: List<Term>): Boolean =
         cause.step.trial.term?.let { isNothing(it) || it in unknown } == true
 
-    private fun warnings(left: Dependence, verdict: Verdict) =
+    private fun warnings(left: Dependence, verdict: Verdict, still: StillReadings) =
         BlindWarnings(series, settings, search, last, lag, outliers, given)
-            .of(left, verdict, rounding.takeIf { isCoarse })
+            .of(left, verdict, rounding.takeIf { isCoarse }, still)
 
     private fun besideNamed(isNamed: Boolean) =
         listOfNotNull(uneven?.takeIf { isNamed }?.let { "Beside what was named $it." })
@@ -188,23 +187,24 @@ internal class BlindAnswer(
                 "what passes over the same water show would take a lag of ${three(base.timeConstant)} s, which " +
                     "such a log cannot tell from water that changes, or from positions that are wrong",
             )
-            all.isEmpty() && otherLag(end) != null ->
-                Verdict.Unexplained(checkNotNull(otherLag(end)), listOfNotNull(openLag(isOpen)))
-            sets.isEmpty() -> uneven?.let(Verdict::Unexplained) ?: Verdict.Consistent
-            sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
-            else -> Verdict.Named(sets.map { it.single() })
+            else -> otherLag(all, end)?.let { Verdict.Unexplained(it, listOfNotNull(openLag(isOpen))) } ?: verdict(sets)
         }
     }
 
-    private val halves by lazy { LagOfHalves(series, settings, search.loops).words() }
+    private fun verdict(sets: List<List<Cause>>): Verdict = when {
+        sets.isEmpty() -> uneven?.let(Verdict::Unexplained) ?: Verdict.Consistent
+        sets.any { it.size > 1 } -> Verdict.Ambiguous(sets)
+        else -> Verdict.Named(sets.map { it.single() })
+    }
 
     /**
      * In words, that the lag changed while the log was written, as its halves by themselves say it; null where they do not,
-     * or where at the [end] nothing points to it, neither a look nor water that changes.
+     * where something is named in [all], or where at the [end] nothing points to it, neither a look nor water that changes.
      */
-    private fun otherLag(end: BlindRound): String? {
+    private fun otherLag(all: List<List<Cause>>, end: BlindRound): String? {
+        if (all.isNotEmpty()) return null
         val isLikely = end.looksAsIs.any { it.name == BlindLooks.LAG_CHANGES && it.gain > LAG_CHANGES }
-        return if (isLikely || end.changed > FAR_CHANGED) halves else null
+        return if (isLikely || end.changed > FAR_CHANGED) LagOfHalves(series, settings, search.loops).words() else null
     }
 
     /** What is to be said of the lag: that it is not the given one, or that it is of one kind or the other. */

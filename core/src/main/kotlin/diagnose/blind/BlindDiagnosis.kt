@@ -11,6 +11,7 @@ import stillwater.diagnose.evidence.CoarseRounding
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.StillReadings
 import stillwater.diagnose.evidence.TooLittle
+import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.track.Passes
 import java.util.Locale
@@ -49,12 +50,12 @@ internal class BlindDiagnosis(
         val why = TooLittle.why(series)
         if (why != null) return TooLittle.answer(series, why)
         val base = search.best()
-        val wave = base.shortestNeeded
-        val share = Passes.share(search.track.x, search.track.y, wave)
+        val share = passes(base)
         if (share < LEAST_PASSES) {
+            val near = "%.2g".format(Locale.ROOT, base.shortestNeeded / Passes.NEAR)
             return TooLittle.answer(
                 series,
-                Passes.tooFew(share, LEAST_PASSES, "%.2g".format(Locale.ROOT, wave / Passes.NEAR), series.placeUnit),
+                Passes.tooFew(share, LEAST_PASSES, near, series.placeUnit),
                 BlindOutliers(search, base).rows,
                 ofReadings(base),
             )
@@ -62,6 +63,9 @@ internal class BlindDiagnosis(
         val (begun, isTurned) = prepared(base)
         return answer(begun, isTurned)
     }
+
+    /** The share of the rows that are near another pass, for the waves that the water of [base] needs. */
+    private fun passes(base: BlindState) = Passes.share(search.track.x, search.track.y, base.shortestNeeded)
 
     /**
      * The model [begun] of a lag alone without wild readings, with steps that are held where they look so, and with the
@@ -97,9 +101,10 @@ internal class BlindDiagnosis(
     fun timeConstant(): FoundLag? {
         if (TooLittle.why(series) != null) return null
         val begun = search.best()
-        if (Passes.share(search.track.x, search.track.y, begun.shortestNeeded) < LEAST_PASSES) return null
+        if (passes(begun) < LEAST_PASSES) return null
         val (base, _) = prepared(begun)
-        return lag(base, search.still(base)).takeIf { it.isSeen }?.let { foundLag(search, it.timeConstant) }
+        val state = lag(base, search.still(base)).takeIf { it.isSeen }?.timeConstant ?: return null
+        return FoundLag(state.timeConstant, BlindAssessed(search, state).errors[ResponseModel.TIME_CONSTANT])
     }
 
     /** What readings show by themselves, whether or not the boat comes back, in words; [base] is the model of a lag alone. */

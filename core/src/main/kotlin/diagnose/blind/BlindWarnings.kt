@@ -23,8 +23,13 @@ internal class BlindWarnings(
     private val outliers: BlindOutliers,
     private val given: GivenLag?,
 ) {
-    /** In words, beside [verdict]; [left] is the strongest of what is left, [rounding] what is coarse. */
-    fun of(left: Dependence, verdict: Verdict, rounding: CoarseRounding?): List<String> = buildList {
+    /** In words, beside [verdict]; [left] is the strongest of what is left, [rounding] what is coarse, [still] what may be. */
+    fun of(
+        left: Dependence,
+        verdict: Verdict,
+        rounding: CoarseRounding?,
+        still: StillReadings,
+    ): List<String> = buildList {
         val isNamed = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         if (given?.isPartial == true) {
             val what = if (given.state == null) {
@@ -63,7 +68,7 @@ internal class BlindWarnings(
             )
         }
         addAll(listOfNotNull(search.fixes.words(last), rounding?.words(), search.gaps?.words()))
-        StillReadings(last.asFit(search.free(last.model))).repeats()?.let(::add)
+        still.repeats()?.let(::add)
         val off = outliers.rows.size
         if (off > 0) add("${Spikes.words(off)} and left out of the fits.")
     }

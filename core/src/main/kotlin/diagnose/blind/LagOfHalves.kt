@@ -3,7 +3,6 @@ package stillwater.diagnose.blind
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Loops
 import stillwater.diagnose.MeasuredSeries
-import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.three
 import kotlin.math.abs
 import kotlin.math.hypot
@@ -39,7 +38,3 @@ internal class LagOfHalves(
 
 /** A time constant of so many [seconds], which may be off by [error] on a logarithmic scale. */
 internal class FoundLag(val seconds: Double, val error: Double)
-
-/** The time constant of [state] under [search]. */
-internal fun foundLag(search: BlindSearch, state: BlindState) =
-    FoundLag(state.timeConstant, BlindAssessed(search, state).errors[ResponseModel.TIME_CONSTANT])

@@ -91,7 +91,7 @@ internal class Structure(private val fit: ModelFit, private val isPart: Boolean 
             val twice = DoubleArray(n) { cos(2 * heading[it]) }
             val twiceToo = DoubleArray(n) { sin(2 * heading[it]) }
             // Along a line, as up and down a profile, there are two.
-            val isLine = isFlat(series.y)
+            val isLine = series.hasPlaces && isFlat(series.y)
             val more = if (isLine) "more on the way there than back" else "more on some headings than on others"
             val way = if (isLine) "the way it goes, there or back" else "the heading"
             add(way to listOf(east, north, twice, twiceToo))
@@ -105,7 +105,7 @@ internal class Structure(private val fit: ModelFit, private val isPart: Boolean 
         add("the speed" to listOf(speed, power(speed, 2)))
         val x = standard(series.x)
         val y = standard(series.y)
-        if (series.x.any { it != series.x[0] } || series.y.any { it != series.y[0] }) {
+        if (series.hasPlaces) {
             add("the position" to listOf(x, y, times(x, y), power(x, 2), power(y, 2)))
         }
     }

@@ -48,7 +48,7 @@ internal object TooLittle {
         isFlat(series.values) -> "the readings never change"
         series.values.max() - series.values.min() < SMALLEST_RANGE ->
             "the readings change by less than can be reckoned with"
-        isFlat(series.x) && isFlat(series.y) ->
+        !series.hasPlaces ->
             "the boat never moves, so that no pass comes back to the same water"
         else -> null
     }

@@ -65,7 +65,8 @@ internal fun ResponseModel.noise(noise: CorrelatedNoise, rows: BooleanArray): Co
 
 /**
  * This fit where what gaps leave of the sensor's state, often hundreds of deviations of the noise, fades as its own numbers
- * say, and turns take an arm as long as they say off the way: fitted to [rows] with noise that wanders within [longest] s, in turn with the fade, as long as that makes it likelier.
+ * say, and turns take an arm as long as they say off the way: fitted to [rows] with noise that wanders within [longest] s, in
+ * turn with these, as long as that makes it likelier.
  */
 internal fun ModelFit.withOwnFade(rows: BooleanArray, longest: Double): ModelFit {
     var best = this

@@ -31,7 +31,7 @@ internal class ReferenceWarnings(
 
     /**
      * In words, beside [verdict]: [most] is the strongest of what is left, [uneven] what the noise goes with, [caution] what
-     * may be wrong with the reference, null for nothing; so many readings are far [off].
+     * may be wrong with the reference, null for nothing; so many readings are far [off], and some may stand [still].
      */
     fun of(
         most: Dependence,
@@ -39,6 +39,7 @@ internal class ReferenceWarnings(
         uneven: String?,
         caution: String?,
         off: Int,
+        still: StillReadings,
     ): List<String> = buildList {
         val named = verdict is Verdict.Named || verdict is Verdict.Ambiguous
         if (named && most.adjusted < settings.structureLevel) {
@@ -55,7 +56,7 @@ internal class ReferenceWarnings(
         unknown?.words()?.let(::add)
         if (late > 0) add("Put right before the causes were weighed: ${ReferenceLead.words(late)}.")
         caution?.let(::add)
-        StillReadings(last).repeats()?.let(::add)
+        still.repeats()?.let(::add)
         val all = off + series.wild.size
         if (all > 0) add("${Spikes.words(all)} and left out of the fits.")
     }

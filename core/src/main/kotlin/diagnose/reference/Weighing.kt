@@ -147,7 +147,7 @@ internal class Weighing(
             },
             left,
             (spikes + series.wild.keys).sorted(),
-            warnings.of(left.first(), verdict, uneven, faults.caution(explained), spikes.size) +
+            warnings.of(left.first(), verdict, uneven, faults.caution(explained), spikes.size, still) +
                 shifts.words(small.map { it.first }) +
                 listOfNotNull(EQUAL.takeIf { equal.isNotEmpty() }) +
                 shifts.cautions(clear).takeIf { named }.orEmpty() + report.warnings +
@@ -206,8 +206,7 @@ internal class Weighing(
         if (scales.resolution > COARSE * sqrt(base.variance)) add(Term(Cause.QUANTISATION))
         add(Term(Cause.SATURATION))
         // What stirs a beaker has a speed and goes nowhere.
-        val hasPlaces = !isFlat(series.x) || !isFlat(series.y)
-        if (moving && hasPlaces && spread > LEAST_SPREAD) add(Term(Cause.POSITION_OFFSET))
+        if (moving && series.hasPlaces && spread > LEAST_SPREAD) add(Term(Cause.POSITION_OFFSET))
     }
 
     private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
