@@ -43,7 +43,7 @@ public class Diagnosis(
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
         val notes = listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 })
-        val answer = ReferenceDiagnosis(sane, settings, loops, 0.0, progress).answer()
+        val answer = ReferenceDiagnosis(sane, settings, loops, 0.0, progress = progress).answer()
         return answer.ofRead(series.isRead, notes).also { progress(1.0) }
     }
 

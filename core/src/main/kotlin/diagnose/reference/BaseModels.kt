@@ -17,15 +17,18 @@ import kotlin.math.abs
  * Models without a cause of a log with a reference: a first-order lag with gain and offset, or the given sensor.
  *
  * @param used rows that are fitted; which they are may change. @param unknown what the reference leaves open.
+ * @param lengthScale of what tells the truth halfway between rows, usual steps; 0 for a spline through these alone.
  */
 internal class BaseModels(
     private val series: MeasuredSeries,
     private val settings: DiagnosisSettings,
     private val unknown: UnknownTruth,
     private val used: BooleanArray,
+    lengthScale: Double,
 ) {
     private val longest = CauseSearch.longest(series, settings)
-    private val calm = Scales(series, unknown, swing = series.reference?.let { ArmSwing(series, it) })
+    private val calm =
+        Scales(series, unknown, swing = series.reference?.let { ArmSwing(series, it) }, lengthScale = lengthScale)
 
     /** The base model as it looks with nothing known of gaps, sharp fronts and single wild readings. */
     val rough: ModelFit by lazy { of(null, null) }
@@ -48,8 +51,7 @@ internal class BaseModels(
 
     /** What models share where the readings have lag and noise like those of [fit]. */
     fun scales(fit: ModelFit?, steps: Steps): Scales {
-        if (fit == null) return calm
-        return calm.shaken(shaken, fit.shocks(shaken, steps.isHeld))
+        return fit?.scales(calm, shaken, steps.isHeld) ?: calm
     }
 
     /**
@@ -78,7 +80,7 @@ internal class BaseModels(
      */
     fun of(steps: Steps?, rough: ModelFit?): ModelFit {
         val ways = listOf(Steps.EVEN, Steps.HELD) + listOfNotNull(Steps.UNTIL_NEXT.takeIf { unknown.isSharp })
-        val fits = (steps?.let { listOf(it) } ?: ways).map { of(it, scales(rough, it)) }
+        val fits = (steps?.let { listOf(it) } ?: ways).map { of(it, scales(rough, it)).withOwnFade(used, longest) }
         // Held steps are the simulator's own way; where the log does not say, the truth is taken as continuous. A given
         // sensor's numbers may be wrong, so that this is told with them free.
         val likeliest = fits.maxBy { it.score }

@@ -3,10 +3,12 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Cause
 import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.noise.CorrelatedNoise
-import stillwater.diagnose.noise.Shocks
+import stillwater.diagnose.response.Doubt
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Scales
+import stillwater.diagnose.response.Shaken
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.response.UnknownTruth
 
@@ -20,39 +22,54 @@ private const val ENOUGH = 0.1
 private const val SHORTEST = 0.02
 
 /** Robust deviation of what this fit leaves, whitened, sensor units. */
-private val ModelFit.spread: Double get() = Spikes.spread(model.series.shown(whitened))
+internal val ModelFit.spread: Double get() = Spikes.spread(model.series.shown(whitened))
 
-/** Shocks to the readings of a sensor as this fit has it, of what [unknown] leaves open; null for none. */
-internal fun ModelFit.shocks(unknown: UnknownTruth, isHeld: Boolean): Shocks? =
-    model.shocks(numbers, spread, unknown, isHeld)
+/** What of [calm] such fits have whose lag and noise are like this one's, where the truth is held over each step or not ([isHeld]). */
+internal fun ModelFit.scales(calm: Scales, unknown: UnknownTruth, isHeld: Boolean): Scales {
+    val doubt = if (isHeld) Doubt() else model.scales.doubt
+    return calm.shaken(unknown, unknown.shocks(model.shaken(numbers, isHeld), spread, doubt), doubt)
+}
 
-private fun ResponseModel.shocks(
-    numbers: DoubleArray,
-    spread: Double,
-    unknown: UnknownTruth,
-    isHeld: Boolean,
-): Shocks? {
+/** The sensor that this model at [numbers] is, where the truth is held over each step or not ([isHeld]). */
+internal fun ResponseModel.shaken(numbers: DoubleArray, isHeld: Boolean = steps.isHeld): Shaken {
     fun time(cause: Cause) = slotOrNull(Term(cause))?.let { numbers[it] } ?: 0.0
-    return unknown.shocks(
+    return Shaken(
         lags(numbers).also { for (i in it.indices) it[i] = maxOf(it[i], SHORTEST * series.period) },
         numbers[ResponseModel.GAIN],
-        spread,
         isHeld,
         maxOf(time(Cause.DEAD_TIME), 0.0),
         time(Cause.SECOND_ORDER_RESPONSE),
         time(Cause.POSITION_OFFSET).takeIf { it != 0.0 }?.let { scales.swing?.doubts(it) },
+        beyond(numbers),
     )
 }
 
 /**
- * This model where what gaps leave of the sensor's state fades as [numbers] say, and a probe that is off the boat swings out in
- * turns, under noise as [base] leaves; this one where there is neither.
+ * This model where what gaps leave of the sensor's state fades as [numbers] say, a probe that is off the boat swings out in turns,
+ * and [doubt] is taken, under noise as [base] leaves; this one where none of it is there.
  */
-internal fun ResponseModel.fadingAs(numbers: DoubleArray, base: ModelFit): ResponseModel {
+internal fun ResponseModel.fadingAs(
+    numbers: DoubleArray,
+    base: ModelFit,
+    doubt: Doubt = doubt(numbers, base),
+): ResponseModel {
     val unknown = scales.unknown ?: return this
-    if (unknown.isGap.none { it } && slotOrNull(Term(Cause.POSITION_OFFSET)) == null) return this
-    val shocks = shocks(numbers, base.spread, unknown, steps.isHeld)
-    return ResponseModel(series, terms, steps, scales.shaken(unknown, shocks))
+    val isPlain = doubt == Doubt() && scales.doubt == doubt
+    if (isPlain && unknown.isGap.none { it } && slotOrNull(Term(Cause.POSITION_OFFSET)) == null) return this
+    return ResponseModel(
+        series,
+        terms,
+        steps,
+        scales.shaken(unknown, unknown.shocks(shaken(numbers), base.spread, doubt), doubt),
+    )
+}
+
+/** What is in doubt for this model at [numbers], as far as [base] says, which is another one. */
+private fun ResponseModel.doubt(numbers: DoubleArray, base: ModelFit): Doubt {
+    val unknown = scales.unknown ?: return Doubt()
+    val known = base.model.scales.doubt
+    if (known.between != null || !DoubtSearch.isApart(this, numbers, base.spread, unknown)) return known
+    return known.copy(between = DoubtSearch.FIRST)
 }
 
 /** Noise like [noise] of readings of this model. */
@@ -65,14 +82,15 @@ internal fun ResponseModel.noise(noise: CorrelatedNoise, rows: BooleanArray): Co
 
 /**
  * This fit where what gaps leave of the sensor's state, often hundreds of deviations of the noise, fades as its own numbers
- * say, and turns take an arm as long as they say off the way: fitted to [rows] with noise that wanders within [longest] s, in
- * turn with these, as long as that makes it likelier.
+ * say, turns take an arm as long as they say off the way, and as much is in doubt of the truth as is likeliest: fitted to [rows]
+ * with noise that wanders within [longest] s, in turn with these, as long as that makes it likelier.
  */
 internal fun ModelFit.withOwnFade(rows: BooleanArray, longest: Double): ModelFit {
     var best = this
     repeat(TURNS) {
-        val own = model.fadingAs(best.numbers, best)
-        if (own === model) return best
+        val unknown = model.scales.unknown ?: return best
+        val own = best.model.fadingAs(best.numbers, best, DoubtSearch(best, unknown, longest).likeliest())
+        if (own === best.model) return best
         val next = Fitting.fit(own, best.numbers, free, rows, longest, guess = own.noise(best.noise, rows))
         val gain = next.score - best.score
         if (gain > 0) best = next

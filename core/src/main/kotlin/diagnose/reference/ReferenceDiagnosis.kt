@@ -14,8 +14,10 @@ import stillwater.diagnose.evidence.Trial
 import stillwater.diagnose.evidence.allOrEach
 import stillwater.diagnose.evidence.without
 import stillwater.diagnose.noise.CorrelatedNoise
+import stillwater.diagnose.response.FinerTruth
 import stillwater.diagnose.response.Fitting
 import stillwater.diagnose.response.ModelFit
+import stillwater.diagnose.response.ReferenceGaps
 import stillwater.diagnose.response.ReferenceLead
 import stillwater.diagnose.response.ReferenceNoise
 import stillwater.diagnose.response.ResponseModel
@@ -31,6 +33,7 @@ import kotlin.math.sqrt
  *
  * @param loops how what can be done at once is; the answer is the same bits.
  * @param before the share that the row before has in the reference of [series], which is held over each step; 0 of a log.
+ * @param lengthScale of what tells the truth halfway between rows, usual steps; 0 for a spline through these alone.
  * @param progress told how much is done, a share within 0..1 that grows; at most a few hundred times.
  */
 internal class ReferenceDiagnosis(
@@ -38,12 +41,13 @@ internal class ReferenceDiagnosis(
     private val settings: DiagnosisSettings,
     private val loops: Loops,
     private val before: Double,
+    private val lengthScale: Double = 0.0,
     progress: (Double) -> Unit,
 ) {
     private val unknown = UnknownTruth.of(series)
     private val used = series.readRows()
     private val longest = CauseSearch.longest(series, settings)
-    private val models = BaseModels(series, settings, unknown, used)
+    private val models = BaseModels(series, settings, unknown, used, lengthScale)
     private val parts = ProgressParts(progress)
     private val told by lazy { parts.next(1.0) }
     private var trials = 0
@@ -56,8 +60,28 @@ internal class ReferenceDiagnosis(
             return UnwrittenMoves(series, unknown.isGap, settings.base).answer(why)
         }
         val quieter = quieter(checkNotNull(series.reference))
-        if (quieter == null) return weighed().result()
-        return likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, parts.next(HALF))).result()
+        if (quieter == null) return finer(weighed()).result()
+        return finer(likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, progress = parts.next(HALF)))).result()
+    }
+
+    /**
+     * The weighing with the truth told halfway between the rows, where these are so far apart for the water that what was chosen
+     * in [first] is then for certain likelier, and explains more; else that one. Once what is strong is in the model such water
+     * shows, and not before.
+     */
+    private fun finer(first: Weighing): Weighing {
+        val last = first.last
+        if (unknown.isSharp || series.isSparse || ReferenceGaps.reach(last) < FELT) return first
+        val log = last.model.series
+        val (lengthScale, score) = FinerTruth.LENGTHS.map { length ->
+            val own = last.model.scales
+            val scales = Scales(log, unknown, own.shocks, own.swing, length)
+            val model = ResponseModel(log, last.model.terms, Steps.EVEN, scales)
+            length to Fitting.fit(model, last.numbers, last.free, last.noise.used, longest, guess = last.noise).score
+        }.maxBy { it.second }
+        if (score < last.score + HELD) return first
+        val second = ReferenceDiagnosis(log, settings, loops, 0.0, lengthScale) { }.weighed()
+        return if (second.explained > first.explained + HELD) second else first
     }
 
     /**
@@ -140,10 +164,10 @@ internal class ReferenceDiagnosis(
         // What else is at work beside a late reference shows only once that is put right.
         val explained = (if (shifts.isEmpty()) first.lateness else first.explained) ?: return null
         // With a slow path beside it the time constant is that of the fast one.
-        val shocks = models.scales(first.base, Steps.EVEN).shocks
+        val scales = models.scales(first.base, Steps.EVEN)
         val tau = first.base.numbers[ResponseModel.TIME_CONSTANT]
         fun led(fit: ModelFit, gone: List<Trial>, rows: Double) =
-            fit.without(gone, tau, Scales(ahead(rows), models.shaken, shocks), Steps.EVEN, used, longest)
+            fit.without(gone, tau, scales.of(ahead(rows)), Steps.EVEN, used, longest)
         val (rows, least) = shifts.allOrEach().mapNotNull { gone ->
             val kept = first.chosen.sumOf { it.cost } - gone.sumOf { it.cost }
             val least = ReferenceFaults.enough(explained, first.base.score) + NUMBER -
@@ -296,6 +320,9 @@ internal class ReferenceDiagnosis(
         const val LIKELIER = 4.6
 
         const val FEWEST = 30
+
+        /** Standard errors of the whole log by which what is not known between rows may carry a fit before it is looked for. */
+        const val FELT = 1.0
 
         /** Noise of the reference, in that of the readings, above which it is taken off. */
         const val NOISY = 0.2

@@ -97,7 +97,12 @@ internal class ReferenceFaults(
             if (base.free[ResponseModel.TIME_CONSTANT]) lag else 0.0
         val spread = Spikes.spread(series.shown(base.whitened))
         val scales =
-            Scales(lead, unknown, unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, between.isHeld))
+            Scales(
+                lead,
+                unknown,
+                unknown.shocks(tau, base.numbers[ResponseModel.GAIN], spread, between.isHeld),
+                lengthScale = base.model.scales.lengthScale,
+            )
         val start = base.numbers.copyOf().also { it[ResponseModel.TIME_CONSTANT] = tau }
         val guess = CorrelatedNoise(series.times, base.noise.share, base.noise.time, used, scales.shocks)
         val model = ResponseModel(lead, base.model.terms, between, scales)
@@ -116,7 +121,7 @@ internal class ReferenceFaults(
     /** Twice the log-likelihood with the reference smoothed as much as serves best, less what that gains by chance. */
     private fun smoothest(): Double = WIDTHS.maxOf { width ->
         val smooth = series.withQuieter(smoothed(width * series.period))
-        val scales = Scales(smooth, base.model.scales.unknown, base.model.scales.shocks)
+        val scales = base.model.scales.of(smooth)
         val model = ResponseModel(smooth, base.model.terms, base.model.steps, scales)
         Fitting.fit(model, base.numbers, base.free, used, search.longest, guess = base.noise).score
     } - CHANCE

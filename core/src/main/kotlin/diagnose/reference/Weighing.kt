@@ -120,7 +120,7 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val (equal, others) = chosen.zip(forward.alike(chosen)).partition { (trial, _) -> mayBeEqual(trial.term) }
+        val (equal, others) = chosen.zip(forward.alike(chosen).map(::withPlace)).partition { (trial, _) -> mayBeEqual(trial.term) }
         val (small, clear) = others.partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
             hung() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
@@ -156,6 +156,12 @@ internal class Weighing(
             if (named) clear.map { (trial, _) -> effect(trial.term) } else emptyList(),
             water.revisits(),
         )
+    }
+
+    /** A boat that keeps its speed has a probe behind it that is late by the same time everywhere: a dead time may be that. */
+    private fun withPlace(set: List<Cause>): List<Cause> {
+        val isSteady = !hasPlace && series.isMoving && !isFlat(series.y)
+        return if (isSteady && set == listOf(Cause.DEAD_TIME)) set + Cause.POSITION_OFFSET else set
     }
 
     /**

@@ -3,10 +3,8 @@ package stillwater.diagnose.response
 import stillwater.diagnose.Cause
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.algebra.Spline
-import kotlin.math.PI
 import kotlin.math.abs
 import kotlin.math.exp
-import kotlin.math.sin
 import kotlin.math.sqrt
 
 /**
@@ -15,7 +13,8 @@ import kotlin.math.sqrt
  * The parts act in this order: delay and offset of place, lag (with all that changes its time constant, or with a limit to
  * its rate), second lag or slow path, rate limit, dead band, gain and offset, cross-sensitivity, drift, jumps, ends of the range, rounding. The
  * truth is taken as a cubic spline through the rows, or as held over each step ([steps]); each lag is exact for
- * that, but one with a limit where that begins or ends to act within the step.
+ * that, but one with a limit where that begins or ends to act within the step. Where rows are far apart for the water the
+ * spline goes through the truth halfway between them as well ([Scales.finer]).
  *
  * @property series the log; its reference must be there. @property terms what acts beside the base. @property steps how
  *   the truth goes on between the rows. @property behind how far behind the fixes the place is that the truth is that
@@ -40,6 +39,11 @@ internal class ResponseModel(
 
     /** Rows by which a second lag is ahead that is stepped by what the first one shows at the end of a row. */
     val secondLead: Double get() = if (steps == Steps.HELD && Cause.SECOND_ORDER_RESPONSE in causes) steps.lead else 0.0
+
+    /** The same between the rows as well, and what it shows there; null where the truth is not told there. */
+    private val finer =
+        scales.finer?.takeIf { !held }?.let { ResponseModel(it.scales.series, terms, steps, it.scales, behind) }
+    private val shownFiner by lazy { DoubleArray(checkNotNull(finer).n) }
     private val work = DoubleArray(n)
     private val second = DoubleArray(n)
     private val taus = DoubleArray(n)
@@ -116,14 +120,19 @@ internal class ResponseModel(
      */
     @Synchronized
     fun predict(p: DoubleArray, out: DoubleArray, isRounded: Boolean = true) {
+        if (finer != null) {
+            finer.predict(p, shownFiner, isRounded)
+            scales.finer?.rows?.forEachIndexed { i, row -> out[i] = shownFiner[row] }
+            return
+        }
         if (!shape.isOf(p)) {
             shape = shapeBefore.also { shapeBefore = shape }
             if (!shape.isOf(p)) shape.become(p)
         }
         shape.shown.copyInto(out)
         calibrate(p, out)
-        if (Cause.SATURATION in causes) clip(out, p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
-        if (isRounded && Cause.QUANTISATION in causes) round(out, p[slot(Cause.QUANTISATION)])
+        if (Cause.SATURATION in causes) out.clip(p[slot(Cause.SATURATION)], p[slot(Cause.SATURATION) + 1])
+        if (isRounded && Cause.QUANTISATION in causes) out.round(scales.resolution, p[slot(Cause.QUANTISATION)])
     }
 
     /** The reading before gain and offset, for some numbers. */
@@ -225,6 +234,17 @@ internal class ResponseModel(
     /** How far the sensor is behind the place that the truth is that of, m. */
     private fun distance(p: DoubleArray) =
         (if (Cause.POSITION_OFFSET in causes) p[slot(Cause.POSITION_OFFSET)] else 0.0) - behind
+
+    /** How long before the first row or after the last one the sensor at [p] sees what it has in each row, s; null for never. */
+    fun beyond(p: DoubleArray): DoubleArray? {
+        val deadTime = if (Cause.DEAD_TIME in causes) p[slot(Cause.DEAD_TIME)] else 0.0
+        val distance = distance(p)
+        if (deadTime == 0.0 && distance == 0.0) return null
+        val times = series.times
+        return DoubleArray(n).also { beyond ->
+            late(deadTime, distance) { i, _, time -> beyond[i] = maxOf(times[0] - time, time - times[n - 1], 0.0) }
+        }
+    }
 
     /** Has [see] told for each row after which row and at what time the sensor has what it shows there. */
     private inline fun late(deadTime: Double, distance: Double, see: (Int, Int, Double) -> Unit) {
@@ -339,26 +359,6 @@ internal class ResponseModel(
         return fades
     }
 
-    private fun clip(out: DoubleArray, lower: Double, upper: Double) {
-        for (i in 0 until n) out[i] = out[i].coerceIn(minOf(lower, upper), upper)
-    }
-
-    /**
-     * The mean of what rounding shows where noise of [spread] comes before it: a Fourier series of the rounding
-     * error.
-     */
-    private fun round(out: DoubleArray, spread: Double) {
-        val step = scales.resolution
-        for (i in 0 until n) {
-            var error = 0.0
-            for (k in 1..HARMONICS) {
-                val fade = exp(-2 * (PI * k * spread / step) * (PI * k * spread / step))
-                error += (if (k % 2 == 1) 1 else -1) * fade * sin(2 * PI * k * out[i] / step) / k
-            }
-            out[i] -= step / PI * error
-        }
-    }
-
     companion object {
         const val TIME_CONSTANT = 0
         const val GAIN = 1
@@ -381,7 +381,6 @@ internal class ResponseModel(
 
         /** Where an end of the range is put that is none, sensor units. */
         const val FAR_END = 1e12
-        private const val HARMONICS = 4
 
         /** Of what two fades differ by, below which the limit of equal ones is as exact. */
         private const val ALIKE = 1e-6

@@ -26,6 +26,8 @@ internal class UnknownTruth private constructor(
     val isSharp: Boolean,
     private val doubts: DoubleArray,
     private val guesses: DoubleArray,
+    private val between: DoubleArray,
+    private val changes: TruthChanges,
     private val times: DoubleArray,
     val late: Double = 0.0,
 ) {
@@ -45,36 +47,28 @@ internal class UnknownTruth private constructor(
     fun isInDoubt(i: Int): Boolean = (maxOf(i - 1, 0)..minOf(i + 1, doubts.size - 1)).any { doubts[it] > 0 }
 
     /**
-     * Shocks to the reading of a sensor with a lag of [timeConstants] s before each row and [gain] under noise of [spread],
-     * sensor units; those of gaps and of missing rows alone if the truth [isHeld] over each step, but that sharp steps may come a
-     * little beside a row. What it saw in a gap goes on to reach it for a [delay], s, and from a [second] lag, s, before the
-     * first. Of the truth where the sensor is off the way [swing] is in doubt besides, by row; null for nothing. Null where
-     * nothing is in doubt.
+     * Shocks to the reading of a [sensor] under noise of [spread], sensor units, where [doubt] is taken; those of gaps, of missing
+     * rows and beyond the log alone if it has the truth held over each step, but that sharp steps may come a little beside a
+     * row. What it saw in a gap goes on to reach it after a delay, and from a second lag. Null where nothing is in doubt.
      */
-    fun shocks(
-        timeConstants: DoubleArray,
-        gain: Double,
-        spread: Double,
-        isHeld: Boolean,
-        delay: Double,
-        second: Double,
-        swing: DoubleArray?,
-    ): Shocks? {
-        val keep = DoubleArray(times.size) { i ->
-            if (i == 0) 1.0 else exp(-(times[i] - times[i - 1]) / timeConstants[i])
-        }
+    fun shocks(sensor: Shaken, spread: Double, doubt: Doubt): Shocks? {
+        val keep = DoubleArray(times.size) { i -> if (i == 0) 1.0 else kept(i, sensor.timeConstants) }
         val beside = if (isSharp) BESIDE_ROW else 0.0
+        val beyond = if (doubt.isBeyond) sensor.beyond else null
+        val period = MeasuredSeries.period(times)
         var gap = -1
         val variance = DoubleArray(times.size) { i ->
             if (isGap[i]) gap = i
-            val doubt = if (isGap[i]) {
+            val off = if (isGap[i]) {
                 doubts[i]
             } else {
-                val after = if (gap < 0) 0.0 else doubts[gap] * reaching(times[i] - times[gap], delay, second)
-                val between = maxOf(guesses[i], if (isHeld) beside * doubts[i] else doubts[i])
-                (1 - keep[i]) * maxOf(between, after, swing?.get(i) ?: 0.0)
+                val after = if (gap < 0) 0.0 else doubts[gap] * reaching(times[i] - times[gap], sensor.delay, sensor.second)
+                val within = if (doubt.between == null) doubts[i] else doubt.between * between[i]
+                val here = maxOf(guesses[i], if (sensor.isHeld) beside * doubts[i] else within)
+                val outside = if (beyond == null || i == 0) 0.0 else maxOf(beyond[i - 1], beyond[i])
+                (1 - keep[i]) * maxOf(here, after, sensor.swing?.get(i) ?: 0.0, changes.over(outside / period))
             }
-            val shock = gain * doubt / spread
+            val shock = sensor.gain * off / spread
             if (abs(shock) > LEAST) shock * shock else 0.0
         }
         return if (variance.any { it > 0 }) Shocks(variance, keep) else null
@@ -82,7 +76,30 @@ internal class UnknownTruth private constructor(
 
     /** The same of a sensor with one lag of [timeConstant] s and no delay. */
     fun shocks(timeConstant: Double, gain: Double, spread: Double, isHeld: Boolean): Shocks? =
-        shocks(DoubleArray(times.size) { timeConstant }, gain, spread, isHeld, 0.0, 0.0, null)
+        shocks(Shaken(DoubleArray(times.size) { timeConstant }, gain, isHeld), spread, Doubt())
+
+    private fun kept(i: Int, timeConstants: DoubleArray) = exp(-(times[i] - times[i - 1]) / timeConstants[i])
+
+    /** By how much what the truth may be off within a usual step shakes readings with a lag of [timeConstants] s before each row. */
+    fun usual(timeConstants: DoubleArray): Double =
+        median(DoubleArray(times.size - 1) { i -> (1 - kept(i + 1, timeConstants)) * between[i + 1] })
+
+    /** The same of a log that has more rows, at [times], s: each row is the one of [rows] there. */
+    fun among(rows: IntArray, times: DoubleArray): UnknownTruth {
+        fun of(column: BooleanArray) = BooleanArray(times.size).also { for (i in rows.indices) it[rows[i]] = column[i] }
+        fun of(column: DoubleArray) = DoubleArray(times.size).also { for (i in rows.indices) it[rows[i]] = column[i] }
+        return UnknownTruth(
+            of(isGap),
+            of(isBroken),
+            isSharp,
+            of(doubts),
+            of(guesses),
+            of(between),
+            changes,
+            times,
+            late,
+        )
+    }
 
     /** Share of what a sensor saw in a gap that reaches its lag so long [after] it, s. */
     private fun reaching(after: Double, delay: Double, second: Double): Double = when {
@@ -107,7 +124,7 @@ internal class UnknownTruth private constructor(
                 i++
             }
         }
-        return UnknownTruth(isGap, isBroken, isSharp, moved, guesses, times, late)
+        return UnknownTruth(isGap, isBroken, isSharp, moved, guesses, between, changes, times, late)
     }
 
     companion object {
@@ -119,6 +136,8 @@ internal class UnknownTruth private constructor(
                 false,
                 DoubleArray(series.size),
                 DoubleArray(series.size),
+                DoubleArray(series.size),
+                TruthChanges.of(series),
                 series.times,
             )
 
@@ -131,7 +150,8 @@ internal class UnknownTruth private constructor(
             if (isGap.none { it }) return null
             val spread = deviation(series.values)
             val doubts = DoubleArray(series.size) { if (isGap[it]) spread else 0.0 }
-            return UnknownTruth(isGap, isGap, false, doubts, DoubleArray(series.size), series.times)
+            val none = DoubleArray(series.size)
+            return UnknownTruth(isGap, isGap, false, doubts, none, none, TruthChanges.of(series), series.times)
         }
 
         private fun gaps(series: MeasuredSeries) =
@@ -153,11 +173,11 @@ internal class UnknownTruth private constructor(
                 val beside = maxOf(steps.getOrElse(i - 2) { 0.0 }, steps.getOrElse(i + 2) { 0.0 })
                 isGap[i] || (steps[i] > far && steps[i] > STEEPER * beside)
             }
+            val between = DoubleArray(n) { i -> if (i == 0 || isGap[i]) 0.0 else maxOf(within[i - 1], within[i]) }
             val doubts = DoubleArray(n) { i ->
-                val doubt = if (i == 0) 0.0 else maxOf(within[i - 1], within[i])
                 when {
                     isGap[i] -> spread
-                    doubt > UNUSUAL * usual && doubt > ROUNDING * spread -> doubt
+                    between[i] > UNUSUAL * usual && between[i] > ROUNDING * spread -> between[i]
                     else -> 0.0
                 }
             }
@@ -169,7 +189,9 @@ internal class UnknownTruth private constructor(
                 if (guess > ROUNDING * spread) guess else 0.0
             }
             val sudden = DoubleArray(n) { if (isBroken[it]) steps[it] else 0.0 }
-            return UnknownTruth(isGap, isBroken, squares(sudden) > MOSTLY * squares(steps), doubts, guesses, times)
+            val isSharp = squares(sudden) > MOSTLY * squares(steps)
+            val changes = TruthChanges.of(series)
+            return UnknownTruth(isGap, isBroken, isSharp, doubts, guesses, between, changes, times)
         }
 
         /**

@@ -23,16 +23,21 @@ internal class WayTimes(private val series: MeasuredSeries) {
     inner class Walk(private val distance: Double) {
         private var after = 0
 
-        /** The time that belongs to row [i], no earlier than the last one asked for, s; the last time beyond the end. */
+        /** The time that belongs to row [i], no earlier than the last one asked for, s; beyond the ends with the speed there. */
         fun timeAt(i: Int): Double {
             val times = series.times
             val wanted = smooth[i] + distance
             while (after < smooth.size && smooth[after] < wanted) after++
-            if (after == smooth.size) return times.last()
+            if (after == smooth.size) return times.last() + (wanted - smooth.last()) / maxOf(series.speed.last(), SLOWEST)
             if (smooth[after] == wanted) return times[after]
-            if (after == 0) return times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], 0.01)
+            if (after == 0) return times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], SLOWEST)
             val share = (wanted - smooth[after - 1]) / (smooth[after] - smooth[after - 1])
             return times[after - 1] + share * (times[after] - times[after - 1])
         }
+    }
+
+    private companion object {
+        /** Of a boat at an end of its log, m/s. */
+        const val SLOWEST = 0.01
     }
 }
