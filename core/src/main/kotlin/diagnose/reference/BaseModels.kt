@@ -50,9 +50,7 @@ internal class BaseModels(
     }
 
     /** What models share where the readings have lag and noise like those of [fit]. */
-    fun scales(fit: ModelFit?, steps: Steps): Scales {
-        return fit?.scales(calm, shaken, steps.isHeld) ?: calm
-    }
+    fun scales(fit: ModelFit?, steps: Steps): Scales = fit?.scales(calm, shaken, steps.isHeld) ?: calm
 
     /**
      * By how much the readings are later than the reference, s, below 0 where they are earlier: by a row or more for

@@ -9,6 +9,7 @@ import stillwater.diagnose.evidence.HeldOutScore
 import stillwater.diagnose.evidence.RoundingNull
 import stillwater.diagnose.evidence.Trial
 import stillwater.diagnose.response.ModelFit
+import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
 import stillwater.diagnose.response.baseNumbers
 import stillwater.diagnose.response.conditionalNumber
@@ -175,8 +176,15 @@ internal class ForwardSearch(
     }
 
     /** What leaves a given number open may owe all that it explains to that number. */
-    private fun isRival(trial: Trial) =
-        trial.pValue < LIKELY || trial.term.cause.conditionalNumber?.let { base.free[it] } ?: true
+    private fun isRival(trial: Trial) = !isLagAlone(trial) &&
+        (trial.pValue < LIKELY || trial.term.cause.conditionalNumber?.let { base.free[it] } ?: true)
+
+    /** Whether [trial] has as much of a second path as there may be, beside a given lag: that is another lag, and no second path. */
+    private fun isLagAlone(trial: Trial): Boolean {
+        if (trial.term.cause != Cause.TWO_PATH_RESPONSE || base.free[ResponseModel.TIME_CONSTANT]) return false
+        val share = trial.fit.model.slot(trial.term) + 1
+        return trial.fit.numbers[share] > trial.fit.model.parameters[share].upper - ALL
+    }
 
     companion object {
         /**
@@ -185,6 +193,9 @@ internal class ForwardSearch(
          */
         const val BESIDE = 0.1
         private const val OTHER_BEGINNINGS = 2
+
+        /** Of a share, what it may lack of the most. */
+        private const val ALL = 0.01
         private const val LIKELY = 0.01
 
         /** Twice the log-likelihood by which two sets of causes are not the same. */

@@ -66,22 +66,28 @@ internal class ReferenceDiagnosis(
 
     /**
      * The weighing with the truth told halfway between the rows, where these are so far apart for the water that what was chosen
-     * in [first] is then for certain likelier, and explains more; else that one. Once what is strong is in the model such water
-     * shows, and not before.
+     * in [first], or nothing, is then for certain likelier, and that explains more; else that one. Where something strong is in
+     * the log it shows with that alone, and where nothing is what was chosen may have made up for it. What was taken off the
+     * reference as its noise may have been such water.
      */
     private fun finer(first: Weighing): Weighing {
-        val last = first.last
-        if (unknown.isSharp || series.isSparse || ReferenceGaps.reach(last) < FELT) return first
-        val log = last.model.series
-        val (lengthScale, score) = FinerTruth.LENGTHS.map { length ->
-            val own = last.model.scales
-            val scales = Scales(log, unknown, own.shocks, own.swing, length)
-            val model = ResponseModel(log, last.model.terms, Steps.EVEN, scales)
-            length to Fitting.fit(model, last.numbers, last.free, last.noise.used, longest, guess = last.noise).score
-        }.maxBy { it.second }
-        if (score < last.score + HELD) return first
-        val second = ReferenceDiagnosis(log, settings, loops, 0.0, lengthScale) { }.weighed()
+        if (unknown.isSharp || series.isSparse || ReferenceGaps.reach(first.last) < FELT) return first
+        val fits = setOf(first.base, first.last)
+        val (best, gain) = setOf(series, first.last.model.series)
+            .flatMap { log -> FinerTruth.LENGTHS.map { log to it } }
+            .map { way -> way to fits.maxOf { gain(it, way.first, way.second) } }
+            .maxBy { it.second }
+        if (gain < HELD) return first
+        val second = ReferenceDiagnosis(best.first, settings, loops, 0.0, best.second) { }.weighed()
         return if (second.explained > first.explained + HELD) second else first
+    }
+
+    /** By how much the model of [fit] is likelier in [log] with a truth told between its rows by a process of [lengthScale]; doubled. */
+    private fun gain(fit: ModelFit, log: MeasuredSeries, lengthScale: Double): Double {
+        val own = fit.model.scales
+        val scales = Scales(log, unknown, own.shocks, own.swing, lengthScale)
+        val model = ResponseModel(log, fit.model.terms, Steps.EVEN, scales)
+        return Fitting.fit(model, fit.numbers, fit.free, fit.noise.used, longest, guess = fit.noise).score - fit.score
     }
 
     /**

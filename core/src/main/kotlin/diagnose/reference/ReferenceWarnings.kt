@@ -47,6 +47,7 @@ internal class ReferenceWarnings(
         }
         uneven?.takeIf { named }?.let { add("Beside what was named $it.") }
         steps(verdict)?.let(::add)
+        apart(verdict)?.let(::add)
         if (verdict is Verdict.Consistent && mayHide) {
             add(
                 "The noise that was found wanders for ${three(last.noise.time)} s at a time, longer than the lag is: " +
@@ -73,12 +74,22 @@ internal class ReferenceWarnings(
         else -> null
     }
 
+    /** What rows that are far apart for the water leave open; null where they are not. */
+    private fun apart(verdict: Verdict): String? = when {
+        last.model.scales.doubt.between == null -> null
+        verdict is Verdict.Unexplained -> "$APART, and what is left may be that."
+        last.model.scales.lengthScale > 0 -> "$APART: it is told by the rows beside, and what that may be off counts as noise."
+        else -> null
+    }
+
     /** Whether nearly all noise wanders, more slowly than the sensor answers. */
     private val mayHide: Boolean get() = last.noise.share > MOSTLY && last.noise.time > tau(last)
 
     private fun tau(fit: ModelFit) = fit.numbers[ResponseModel.TIME_CONSTANT]
 
     private companion object {
+        const val APART = "Rows are far apart for what the water changes by: how it went between them is not in the log"
+
         /** Of the noise's variance. */
         const val MOSTLY = 0.8
     }

@@ -120,7 +120,8 @@ internal class Weighing(
             Cause.OUTLIERS.takeIf { outliers },
             Cause.TIME_VARYING_FIELD.takeIf { changing },
         )
-        val (equal, others) = chosen.zip(forward.alike(chosen).map(::withPlace)).partition { (trial, _) -> mayBeEqual(trial.term) }
+        val sets = forward.alike(chosen).map(::withPlace)
+        val (equal, others) = chosen.zip(sets).partition { (trial, _) -> mayBeEqual(trial.term) }
         val (small, clear) = others.partition { (trial, set) -> shifts.isSmall(trial, set) }
         val verdict =
             hung() ?: insufficient() ?: unlisted(loose) ?: verdict(clear.map { it.second }, certain, left.first())
@@ -295,7 +296,8 @@ internal class Weighing(
         }
         val seen = base.free[ResponseModel.TIME_CONSTANT] &&
             base.numbers[ResponseModel.TIME_CONSTANT] > series.period / 2
-        if (seen && report.timeConstantError(base) > 1) {
+        // A lag that the base cannot tell may be plain once what hides it is in the model.
+        if (seen && setOf(base, last).all { report.timeConstantError(it) > 1 }) {
             return Verdict.InsufficientData("the truth changes too little to show any lag")
         }
         return null

@@ -56,7 +56,8 @@ internal class FinerTruth(private val log: MeasuredSeries, unknown: UnknownTruth
     }
 
     /** [columns] so, by their names. */
-    fun of(columns: Map<String, DoubleArray>): Map<String, DoubleArray> = columns.mapValues { (_, column) -> of(column) }
+    fun of(columns: Map<String, DoubleArray>): Map<String, DoubleArray> =
+        columns.mapValues { (_, column) -> of(column) }
 
     /** The truth at [time], before row [i], as the rows on either side foretell it. */
     private fun foretold(i: Int, time: Double): Double {
@@ -82,9 +83,9 @@ internal class FinerTruth(private val log: MeasuredSeries, unknown: UnknownTruth
         val LENGTHS: List<Double> = listOf(0.7, 1.0, 1.4, 2.0)
 
         /** Rows on either side. */
-        private const val SIDE = 6
+        private const val SIDE = 10
 
         /** Of the process's variance, what is added to each row's so that rows near each other do not count for more than they tell. */
-        private const val NUGGET = 1e-5
+        private const val NUGGET = 1e-6
     }
 }

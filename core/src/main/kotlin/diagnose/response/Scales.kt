@@ -33,7 +33,7 @@ internal class Scales private constructor(
     val swing: Swing?,
     val lengthScale: Double,
     like: Scales?,
-    between: FinerTruth?,
+    private val between: FinerTruth?,
 ) {
     private val n = series.size
 
@@ -64,6 +64,12 @@ internal class Scales private constructor(
         return Finer(Scales(finer.series, finer.unknown, null, doubt, null, 0.0, this, finer), finer.rows)
     }
 
+    /** A column of what this is like in the rows of this; null for null. */
+    private fun own(column: DoubleArray?) = column?.let { between?.of(it) ?: it }
+
+    /** Columns of it, by their names. */
+    private fun own(columns: Map<String, DoubleArray>?) = columns?.let { between?.of(it) ?: it }
+
     /** Whether row [i] may be far off for what is not known of the truth before it. */
     fun isInDoubt(i: Int): Boolean = unknown?.isInDoubt(i) == true || shocks?.isShaken(i) == true ||
         (doubt.between != null && shocks?.isShakenNear(i) == true)
@@ -76,7 +82,7 @@ internal class Scales private constructor(
 
     /** Log of speed over the ordinary, as the lag takes it. */
     val logSpeed: DoubleArray =
-        like?.logSpeed?.let { between?.of(it) ?: it } ?: DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
+        own(like?.logSpeed) ?: DoubleArray(n) { ln((series.speed[it] / ordinarySpeed).coerceIn(0.01, 100.0)) }
 
     /** Temperature that counts as ordinary, °C. */
     val ordinaryTemperature: Double =
@@ -84,7 +90,7 @@ internal class Scales private constructor(
 
     /** Temperature over the ordinary, °C; 0 where there is none. */
     val warmth: DoubleArray =
-        like?.warmth?.let { between?.of(it) ?: it } ?: DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
+        own(like?.warmth) ?: DoubleArray(n) { i -> series.temperature?.let { it[i] - ordinaryTemperature } ?: 0.0 }
 
     /** What each condition is centred on. */
     val middles: Map<String, Double>
@@ -95,14 +101,14 @@ internal class Scales private constructor(
     init {
         val bridged by lazy { series.conditions.keys.associateWith { checkNotNull(series.filled(it)) } }
         middles = like?.middles ?: bridged.mapValues { (_, column) -> median(column) }
-        centred = like?.centred?.let { between?.of(it) ?: it }
+        centred = own(like?.centred)
             ?: bridged.mapValues { (name, column) -> DoubleArray(n) { column[it] - middles.getValue(name) } }
     }
 
     /** The same without most of its own noise and rounding, which a reading does not show. */
     val quiet: Map<String, DoubleArray> by lazy {
         val isGap = unknown?.isGap ?: BooleanArray(n)
-        like?.quiet?.let { between?.of(it) ?: it } ?: centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
+        own(like?.quiet) ?: centred.mapValues { (_, column) -> ReferenceNoise(series.times, column, isGap).smoothed() }
     }
 
     /** The track as times of ways. */

@@ -62,7 +62,7 @@ internal class UnknownTruth private constructor(
             val off = if (isGap[i]) {
                 doubts[i]
             } else {
-                val after = if (gap < 0) 0.0 else doubts[gap] * reaching(times[i] - times[gap], sensor.delay, sensor.second)
+                val after = if (gap < 0) 0.0 else doubts[gap] * reaching(times[i] - times[gap], sensor)
                 val within = if (doubt.between == null) doubts[i] else doubt.between * between[i]
                 val here = maxOf(guesses[i], if (sensor.isHeld) beside * doubts[i] else within)
                 val outside = if (beyond == null || i == 0) 0.0 else maxOf(beyond[i - 1], beyond[i])
@@ -101,10 +101,10 @@ internal class UnknownTruth private constructor(
         )
     }
 
-    /** Share of what a sensor saw in a gap that reaches its lag so long [after] it, s. */
-    private fun reaching(after: Double, delay: Double, second: Double): Double = when {
-        after <= delay -> 1.0
-        second > 0 -> exp(-(after - delay) / second)
+    /** Share of what a [sensor] saw in a gap that reaches its lag so long [after] it, s. */
+    private fun reaching(after: Double, sensor: Shaken): Double = when {
+        after <= sensor.delay -> 1.0
+        sensor.second > 0 -> exp(-(after - sensor.delay) / sensor.second)
         else -> 0.0
     }
 

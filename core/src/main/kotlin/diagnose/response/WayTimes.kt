@@ -28,7 +28,9 @@ internal class WayTimes(private val series: MeasuredSeries) {
             val times = series.times
             val wanted = smooth[i] + distance
             while (after < smooth.size && smooth[after] < wanted) after++
-            if (after == smooth.size) return times.last() + (wanted - smooth.last()) / maxOf(series.speed.last(), SLOWEST)
+            if (after == smooth.size) {
+                return times.last() + (wanted - smooth.last()) / maxOf(series.speed.last(), SLOWEST)
+            }
             if (smooth[after] == wanted) return times[after]
             if (after == 0) return times[0] + (wanted - smooth[0]) / maxOf(series.speed[0], SLOWEST)
             val share = (wanted - smooth[after - 1]) / (smooth[after] - smooth[after - 1])
