@@ -78,7 +78,7 @@ internal class ReferenceWarnings(
     private fun apart(verdict: Verdict): String? = when {
         last.model.scales.doubt.between == null -> null
         verdict is Verdict.Unexplained -> "$APART, and what is left may be that."
-        last.model.scales.lengthScale > 0 -> "$APART: it is told by the rows beside, and what that may be off counts as noise."
+        last.model.scales.lengthScale > 0 -> "$APART: the rows beside tell it, and what that may be off is noise."
         else -> null
     }
 
