@@ -1,5 +1,6 @@
 package stillwater.diagnose.reference
 
+import stillwater.diagnose.evidence.BeyondDoubt
 import stillwater.diagnose.response.Doubt
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.NoiseSearch
@@ -20,6 +21,11 @@ internal class DoubtSearch(private val fit: ModelFit, private val unknown: Unkno
     private val spread = fit.spread
     private val sensor = model.shaken(fit.numbers)
     private val start = model.scales.doubt
+
+    /** A wild reading beside what is in doubt would make all of that as large. */
+    private val rows = BeyondDoubt(fit).let { wild ->
+        BooleanArray(fit.noise.used.size) { fit.noise.used[it] && it !in wild }
+    }
     private var best = start
     private var score = Double.NEGATIVE_INFINITY
 
@@ -42,7 +48,7 @@ internal class DoubtSearch(private val fit: ModelFit, private val unknown: Unkno
 
     private fun offer(doubt: Doubt) {
         val scales = model.scales.shaken(unknown, unknown.shocks(sensor, spread, doubt), doubt)
-        val search = NoiseSearch(scales, fit.residuals, fit.noise.used, longest)
+        val search = NoiseSearch(scales, fit.residuals, rows, longest)
         search.near(fit.noise)
         if (search.score > score) {
             score = search.score

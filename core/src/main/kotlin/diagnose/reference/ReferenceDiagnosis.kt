@@ -79,7 +79,9 @@ internal class ReferenceDiagnosis(
             .maxBy { it.second }
         if (gain < HELD) return first
         val second = ReferenceDiagnosis(best.first, settings, loops, 0.0, best.second) { }.weighed()
-        return if (second.explained > first.explained + HELD) second else first
+        // Other rows may have been left out as wild.
+        val rows = first.last.noise.rows
+        return if (second.explained / second.last.noise.rows * rows > first.explained + HELD) second else first
     }
 
     /** By how much the model of [fit] is likelier in [log] with a truth told between its rows by a process of [lengthScale]; doubled. */
@@ -275,8 +277,9 @@ internal class ReferenceDiagnosis(
         val sure = BeyondDoubt(fit)
         val scales = fit.model.scales
         fun off(column: DoubleArray) = Spikes.of(DoubleArray(rows.size) { column[rows[it]] }).map { rows[it] }
-        // Under noise that wanders a wild reading shows twice, there and back.
-        return (off(fit.whitened) union off(fit.noise.impulses(fit.whitened))).sorted().filter {
+        // Under noise that wanders a wild reading shows twice, there and back; beside what is in doubt it may be taken for that.
+        val found = off(fit.whitened) union off(fit.noise.impulses(fit.whitened)) union rows.filter { it in sure }
+        return found.sorted().filter {
             // Rounding moves readings by up to half a step: what is within a step need not be wild.
             abs(fit.residuals[it]) > scales.resolution && Spikes.isSingle(fit.residuals, it) &&
                 (!(models.shaken.isInDoubt(it) || scales.isInDoubt(it)) || it in sure)
