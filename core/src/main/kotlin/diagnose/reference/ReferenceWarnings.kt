@@ -77,8 +77,8 @@ internal class ReferenceWarnings(
     /** What rows that are far apart for the water leave open; null where they are not. */
     private fun apart(verdict: Verdict): String? = when {
         last.model.scales.doubt.between == null -> null
-        verdict is Verdict.Unexplained -> "$APART, and what is left may be that."
-        last.model.scales.lengthScale > 0 -> "$APART: the rows beside tell it, and what that may be off is noise."
+        verdict is Verdict.Unexplained -> "$APART What is left may be that."
+        last.model.scales.lengthScale > 0 -> "$APART The rows beside tell it, and what that may be off is noise."
         else -> null
     }
 
@@ -88,7 +88,8 @@ internal class ReferenceWarnings(
     private fun tau(fit: ModelFit) = fit.numbers[ResponseModel.TIME_CONSTANT]
 
     private companion object {
-        const val APART = "Rows are far apart for what the water changes by: how it went between them is not in the log"
+        const val APART =
+            "Rows are far apart for what the water changes by, and how it went between them is not in the log."
 
         /** Of the noise's variance. */
         const val MOSTLY = 0.8
