@@ -75,7 +75,10 @@ internal class ReferenceDiagnosis(
         val fits = setOf(first.base, first.last)
         val (best, gain) = setOf(series, first.last.model.series)
             .flatMap { log -> FinerTruth.LENGTHS.map { log to it } }
-            .map { way -> way to fits.maxOf { gain(it, way.first, way.second) } }
+            .map { (log, length) ->
+                val scales = Scales(log, unknown, swing = first.last.model.scales.swing, lengthScale = length)
+                Pair(log, length) to fits.maxOf { gain(it, scales) }
+            }
             .maxBy { it.second }
         if (gain < HELD) return first
         val second = ReferenceDiagnosis(best.first, settings, loops, 0.0, best.second) { }.weighed()
@@ -84,11 +87,10 @@ internal class ReferenceDiagnosis(
         return if (second.explained / second.last.noise.rows * rows > first.explained + HELD) second else first
     }
 
-    /** By how much the model of [fit] is likelier in [log] with a truth told between its rows by a process of [lengthScale]; doubled. */
-    private fun gain(fit: ModelFit, log: MeasuredSeries, lengthScale: Double): Double {
-        val own = fit.model.scales
-        val scales = Scales(log, unknown, own.shocks, own.swing, lengthScale)
-        val model = ResponseModel(log, fit.model.terms, Steps.EVEN, scales)
+    /** By how much the model of [fit] is likelier in the log of [scales], with its truth between the rows; doubled. */
+    private fun gain(fit: ModelFit, scales: Scales): Double {
+        val own = scales.shaken(unknown, fit.model.scales.shocks, fit.model.scales.doubt)
+        val model = ResponseModel(scales.series, fit.model.terms, Steps.EVEN, own)
         return Fitting.fit(model, fit.numbers, fit.free, fit.noise.used, longest, guess = fit.noise).score - fit.score
     }
 

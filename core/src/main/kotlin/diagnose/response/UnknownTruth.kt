@@ -31,6 +31,8 @@ internal class UnknownTruth private constructor(
     private val times: DoubleArray,
     val late: Double = 0.0,
 ) {
+    private val period by lazy { MeasuredSeries.period(times) }
+
     /** Whether so many steps are in doubt that the log says little of how the reading follows the truth. */
     val isMostly: Boolean get() = isBroken.count { it } > OFTEN * isBroken.size
 
@@ -55,7 +57,6 @@ internal class UnknownTruth private constructor(
         val keep = DoubleArray(times.size) { i -> if (i == 0) 1.0 else kept(i, sensor.timeConstants) }
         val beside = if (isSharp) BESIDE_ROW else 0.0
         val beyond = if (doubt.isBeyond) sensor.beyond else null
-        val period = MeasuredSeries.period(times)
         var gap = -1
         val variance = DoubleArray(times.size) { i ->
             if (isGap[i]) gap = i
@@ -114,7 +115,6 @@ internal class UnknownTruth private constructor(
      */
     fun seen(late: Double): UnknownTruth {
         if (late == 0.0) return this
-        val period = median(DoubleArray(times.size - 1) { times[it + 1] - times[it] })
         val moved = DoubleArray(times.size) { if (isGap[it]) doubts[it] else 0.0 }
         for (row in 1 until times.size) {
             if (isGap[row] || !(doubts[row] > 0)) continue
