@@ -51,6 +51,19 @@ public class ReferenceLearner(
     private val level = mean(series.values)
     private val residuals = DoubleArray(series.size)
     private val lag = LagWeights()
+    private val duration = series.times.last() - series.times.first()
+
+    /** Gain of what was scored last. */
+    private var scoredGain = 1.0
+
+    /** Whether readings rise with the reference for certain: a first-order lag has them do so, and leaves less than half of them. */
+    private val isRising: Boolean by lazy {
+        val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(likeliestLag()))
+        leave(gain, offset)
+        val all = series.values.indices.filter { starts.counts[it] }
+        gain > 0 && all.sumOf { residuals[it] * residuals[it] } <
+            all.sumOf { (series.values[it] - level) * (series.values[it] - level) } / 2
+    }
 
     /** Gain and offset that go with [response]: z ≈ gain · response(reference) + offset. */
     public fun calibration(response: Response): Pair<Double, Double> {
@@ -106,18 +119,23 @@ public class ReferenceLearner(
             bend += (reference[i] - line) * (reference[i] - line)
             bends++
         }
-        val delays = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
-        val best = delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
-        val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(best))
+        val (gain, offset) = calibration(ResponseKind.FIRST_ORDER.response(likeliestLag()))
         leave(gain, offset)
         val left = sqrt(residuals.sumOf { it * it } / maxOf(1, count))
         val bent = kotlin.math.abs(gain) * sqrt(bend / maxOf(1, bends)) / FROM_DOUBLE
         return if (left > 0) bent / left else Double.POSITIVE_INFINITY
     }
 
+    /** Time constant of the likeliest first-order lag, s, to a factor of two half octaves. */
+    private fun likeliestLag(): Double =
+        List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
+            .maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (count < FEWEST || (kind == ResponseKind.FLOW && !series.hasSpeeds)) return null
-        val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) }, isSharp = true)
+        // How the sensor follows a fall does not show in a log that only rises.
+        if (kind == ResponseKind.ASYMMETRIC && !goesBothWays()) return null
+        val fit = ResponseFit(kind, groupOf, groups, { plausible(kind, it) }, { scores(kind, it) }, isSharp = true)
         if (kind == ResponseKind.SLEW) {
             val slopes = (0 until series.size - 1).filter { usable[it] && usable[it + 1] }.map {
                 kotlin.math.abs(series.values[it + 1] - series.values[it]) / (series.times[it + 1] - series.times[it])
@@ -127,11 +145,61 @@ public class ReferenceLearner(
             if (!(top > 0)) return null
             // The rate is in the reference's units, the slopes in the readings'; spreads say how the two compare.
             val starts = listOf(top, top / scale()).filter { it > 0 && it.isFinite() }
-            return fit.near(doubleArrayOf(starts.map { ln(it) }.maxBy { total(kind, doubleArrayOf(it)) }))
+            return upright(fit.near(doubleArrayOf(starts.map { ln(it) }.maxBy { total(kind, doubleArrayOf(it)) })))
         }
         val delays = List(DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble()) }
-        return fit.best(delays.maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) })
+        return upright(fit.best(delays.maxBy { plausible(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }))
     }
+
+    /** [found] unless its readings fall with the reference where they rise with it, or its slow path is the faster one. */
+    private fun upright(found: CandidateResponse): CandidateResponse? {
+        total(found.kind, DoubleArray(found.parameters.size) { ln(found.parameters[it]) })
+        return found.takeUnless { isTurned || isCrossed(it.response) }
+    }
+
+    /** Whether the reference, of all that it goes over, goes down again by a tenth, and up. */
+    private fun goesBothWays(): Boolean {
+        var highest = Double.NEGATIVE_INFINITY
+        var lowest = Double.POSITIVE_INFINITY
+        var fall = 0.0
+        var rise = 0.0
+        for (i in reference.indices) {
+            if (!usable[i]) continue
+            highest = maxOf(highest, reference[i])
+            lowest = minOf(lowest, reference[i])
+            fall = maxOf(fall, highest - reference[i])
+            rise = maxOf(rise, reference[i] - lowest)
+        }
+        return minOf(fall, rise) > TURN * (highest - lowest)
+    }
+
+    /**
+     * [total] less what keeps a search off what no sensor is or no log shows: a lag longer than the log, whatever state that
+     * began in, a slow path that is the faster one, readings that are turned.
+     */
+    private fun plausible(kind: ResponseKind, logs: DoubleArray): Double {
+        val sum = total(kind, logs)
+        if (sum == Double.NEGATIVE_INFINITY) return sum
+        val turned = if (isTurned) TURNED else 0.0
+        val response = kind.response(*DoubleArray(logs.size) { exp(logs[it]) })
+        val longer = response.lags.sumOf { beyond(maxOf(it.rising, it.falling), duration) }
+        return sum - turned - OFF * (longer + if (isCrossed(response)) beyond(response.lags[0], response.lags[1]) else 0.0)
+    }
+
+    private fun beyond(lag: ResponseLag, other: ResponseLag) = beyond(lag.rising, other.rising)
+
+    /** Square of the logarithm by which [time] is beyond [most]. */
+    private fun beyond(time: Double, most: Double): Double = ln(maxOf(time, most) / most).let { it * it }
+
+    /** Whether of two paths the slow one is the faster. */
+    private fun isCrossed(response: Response) =
+        response.slowShare > 0 && response.lags[1].rising < response.lags[0].rising
+
+    /**
+     * Whether what was scored last has readings fall with the reference although they rise with it: a longer lag that began
+     * beyond them all may look like those.
+     */
+    private val isTurned: Boolean get() = scoredGain < 0 && isRising
 
     /** Spread of the readings over that of the reference. */
     private fun scale(): Double {
@@ -154,6 +222,7 @@ public class ReferenceLearner(
         respond(response)
         val (gain, offset) = fitted(response)
         leave(gain, offset)
+        scoredGain = gain
         var own = 0.0
         var next = 0.0
         for (i in residuals.indices) {
@@ -329,6 +398,13 @@ public class ReferenceLearner(
         /** A line through rows twice as far apart misses four times as much. */
         private const val FROM_DOUBLE = 4.0
         private const val MOST_LOG = 25.0
+
+        /** Of all that the reference goes over. */
+        private const val TURN = 0.1
+
+        /** Log-likelihoods that keep a search off readings that fall with the reference, and off numbers beyond their ends. */
+        private const val TURNED = 1e6
+        private const val OFF = 1000.0
 
         /** Of one a reading: with less left beside where stretches begin, none is told from the offset. */
         private const val NO_OFFSET = 1e-9

@@ -2,6 +2,7 @@ package stillwater.estimate
 
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
+import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.random.Random
 import kotlin.test.Test
@@ -98,6 +99,31 @@ class ReferenceLearnerTest {
         val found = assertNotNull(ReferenceLearner(series, truth).candidate(ResponseKind.ASYMMETRIC))
         assertEquals(6.0, found.parameters[0], 0.15, "seed $SEED")
         assertEquals(12.0, found.parameters[1], 0.3, "seed $SEED")
+    }
+
+    /** Of a log of one step up, followed by a probe that is not quite of first order: sums of lags as of a thick foil. */
+    @Test
+    fun noResponseIsTurnedNorLongerThanTheLog() {
+        for (seed in 1L..3L) {
+            val random = java.util.Random(seed)
+            val rows = 60
+            val times = DoubleArray(rows) { it.toDouble() }
+            val truth = DoubleArray(rows) { if (it < 8) 70.0 else 94.5 - 11 * exp(-(it - 8) / 1.6) }
+            val values = DoubleArray(rows) { row ->
+                val after = row - 7.6
+                val left = (1..9 step 2).sumOf { exp(-after * it * it / 30.0) / (it * it) } / 1.18
+                70 + (if (after < 0) 0.0 else 24.5 * (1 - left)) + 0.02 * random.nextGaussian()
+            }
+            val learner = ReferenceLearner(TrackSeries(times, times, DoubleArray(rows), values), truth)
+            assertEquals(null, learner.candidate(ResponseKind.ASYMMETRIC), "how it falls does not show, seed $seed")
+            for (kind in ResponseKind.entries) {
+                val found = learner.candidate(kind) ?: continue
+                assertTrue(learner.calibration(found.response).first > 0, "$kind, seed $seed")
+                val longest = found.response.lags.maxOfOrNull { it.rising } ?: 0.0
+                // What keeps a search off lags beyond the log is a slope, and no wall.
+                assertTrue(longest < 1.1 * rows, "$kind $longest s, seed $seed")
+            }
+        }
     }
 
     private companion object {

@@ -6,6 +6,7 @@ import stillwater.report.SignificantDigits
 import stillwater.sensor.SensorSpec
 import stillwater.sensor.SensorStage
 import stillwater.sensor.TimeConstant
+import kotlin.math.sqrt
 
 /**
  * What a cause comes to in the sensor that was found, in the quantities that a user would measure: both time constants of an
@@ -21,11 +22,17 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
     fun of(cause: Cause): String? = sensor.stages.firstNotNullOfOrNull { of(cause, it) }
 
     private fun of(cause: Cause, stage: SensorStage): String? = when (cause) {
-        Cause.ASYMMETRIC_RESPONSE -> (stage as? SensorStage.Asymmetric)?.let {
-            "rising ${seconds(it.rising)}, falling ${seconds(it.falling)}"
+        Cause.ASYMMETRIC_RESPONSE -> when (stage) {
+            is SensorStage.Asymmetric -> ofDirection(stage.rising, stage.falling)
+            is SensorStage.Combined -> sqrt(stage.risingOverFalling).let { up ->
+                ofDirection(stage.timeConstant * up, stage.timeConstant / up)
+            }
+            else -> null
         }
-        Cause.TWO_PATH_RESPONSE -> (stage as? SensorStage.TwoPath)?.let {
-            "fast ${seconds(it.fast)}, slow ${seconds(it.slow)}"
+        Cause.TWO_PATH_RESPONSE -> when (stage) {
+            is SensorStage.TwoPath -> ofPaths(stage.fast, stage.slow)
+            is SensorStage.Combined -> ofPaths(stage.timeConstant, stage.timeConstant * stage.slowOverFast)
+            else -> null
         }
         Cause.FLOW_DEPENDENT_RESPONSE -> when (stage) {
             is SensorStage.FlowLag -> ofFlow(stage.timeConstant, stage.referenceSpeed, stage.exponent)
@@ -46,6 +53,10 @@ internal class CauseInWords(private val sensor: SensorSpec, private val unitAfte
         Cause.QUANTISATION -> (stage as? SensorStage.Quantum)?.let { "steps of ${three.format(it.step)}$unitAfter" }
         else -> null
     }
+
+    private fun ofDirection(rising: Double, falling: Double) = "rising ${seconds(rising)}, falling ${seconds(falling)}"
+
+    private fun ofPaths(fast: Double, slow: Double) = "fast ${seconds(fast)}, slow ${seconds(slow)}"
 
     /** Which way it goes is what the signs of exponents and relative changes do not say by themselves. */
     private fun ofFlow(timeConstant: Double, speed: Double, exponent: Double): String {

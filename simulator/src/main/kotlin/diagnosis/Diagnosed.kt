@@ -92,7 +92,7 @@ class Diagnosed(
 
     /** A lag that was fitted is the simulation's, and no cause; who has a slow sensor wants to hear of it first. */
     private fun besideLag(): String {
-        val tau = result.baseline.parameters.firstOrNull { it.name == "time_constant_s" }
+        val tau = result.baseline.parameters.firstOrNull { it.name == TIME_CONSTANT }
         val lowest = tau?.interval?.lower ?: 0.0
         return if (isGiven || tau == null || lowest <= 0) "" else ", beside the lag of ${number(tau)} itself"
     }
@@ -105,11 +105,23 @@ class Diagnosed(
     }
 
     private fun sentence(cause: Cause): String {
-        val parameters = result.effects.firstOrNull { it.cause == cause }?.parameters
-            ?: result.candidates.firstOrNull { it.cause == cause }?.parameters.orEmpty()
+        val parameters = result.effects.firstOrNull { it.cause == cause }?.parameters ?: alone(cause)
         val own = result.extendedSensor?.let { CauseInWords(it, unitAfter).of(cause) }
         val all = listOfNotNull(numbers(parameters).ifEmpty { null }, own).joinToString("; ")
         return (wrong(cause) ?: cause.sentence) + if (all.isEmpty()) "" else " ($all)"
+    }
+
+    /**
+     * The numbers of [cause] as it was fitted alone; beside others, which change what the lag is and how much noise is left,
+     * those that are its own.
+     */
+    private fun alone(cause: Cause): List<Estimate> {
+        val parameters = result.candidates.firstOrNull { it.cause == cause }?.parameters.orEmpty()
+        return when {
+            result.effects.isEmpty() -> parameters
+            cause == Cause.QUANTISATION -> emptyList()
+            else -> parameters.filter { it.name != TIME_CONSTANT }
+        }
     }
 
     /** Of a sensor that was given with a number for [cause], that this number is wrong; null of others. */
@@ -183,7 +195,7 @@ class Diagnosed(
         val three = SignificantDigits(3)
         val base = result.baseline
         val after = result.extended
-        val tau = base.parameters.firstOrNull { it.name == "time_constant_s" }
+        val tau = base.parameters.firstOrNull { it.name == TIME_CONSTANT }
         val best = result.candidates.firstOrNull()
         val sensor = if (isGiven) "the sensor given" else "lag of ${tau?.let(::number) ?: "unknown length"}"
         return listOfNotNull(
@@ -219,7 +231,7 @@ class Diagnosed(
             "extended: the base's own lag$besideBase"
         } else {
             val gain = after.heldOutLogLikelihood - base.heldOutLogLikelihood
-            val tau = after.parameters.firstOrNull { it.name == "time_constant_s" }
+            val tau = after.parameters.firstOrNull { it.name == TIME_CONSTANT }
             val lag = if (tau == null) "" else "lag of ${number(tau)}; "
             "extended: ${lag}held-out residuals ${three.format(after.heldOutRmse)}$unitAfter, log-likelihood " +
                 "${three.format(abs(gain))} ${if (gain < 0) "lower" else "higher"}"
@@ -234,6 +246,8 @@ class Diagnosed(
 
         /** Significant digits of a number whose interval is narrow. */
         const val MOST_DIGITS = 6
+
+        const val TIME_CONSTANT = "time_constant_s"
 
         /** The kinds of a lag. */
         val LAG = setOf(Cause.TIME_CONSTANT, Cause.DEAD_TIME)

@@ -7,7 +7,7 @@ internal object CellText {
         "mean", "average", "avg", "median", "min", "minimum", "max", "maximum", "std", "sd", "stdev", "std dev",
         "standard deviation", "mean value", "total", "sum", "count", "end", "end of file", "end of data", "eof",
     )
-    private val TIME = Regex("""\d{1,4}([-/.])(\d{1,2}|[A-Za-z]{3,9})\1\d{1,4}(?!\d).*|\d{1,2}:\d{2}(?!\d).*""")
+    private val TIME = Regex("""\d{1,4}([-/.])(\d{1,2}|[A-Za-z]{3,9})\1\d{1,4}(?!\d).*|\d{1,2}:(\d{2}|\d:\d{1,2})(?!\d).*""")
 
     /** Whether [text] is what loggers write where they have no reading: nothing, NaN, NA, null, dashes, asterisks. */
     fun isMissing(text: String): Boolean {
@@ -15,8 +15,11 @@ internal object CellText {
         return trimmed.all { it == '-' || it == '*' || it == '+' } || trimmed.lowercase() in MISSING
     }
 
-    /** Whether loggers write [number] where they have none. */
-    fun isCode(number: Double): Boolean = number == -9999.0 || number == -99_999.0 || number == -999_999.0
+    /** What loggers, and the exchange files of cruises (WOCE, SeaDataNet), write where they have no number. */
+    private val CODES = setOf(-999.0, -9999.0, -99_999.0, -999_999.0)
+
+    /** Whether [number] is what is written where there is none. */
+    fun isCode(number: Double): Boolean = number in CODES
 
     /** Whether [text] begins a line that sums up a column, or ends a file: such a line is no reading. */
     fun isSummary(text: String): Boolean = text.trim().trimEnd(':', '.').lowercase() in SUMMARIES

@@ -86,8 +86,23 @@ internal class CsvLayout(
             } else {
                 search(content, begin, stated?.let(::listOf) ?: SEPARATORS, wanted)
             }
-            if (header == null) refuseBlanks(content)
+            if (header == null) {
+                refuseNumbersAlone(content, begin)
+                refuseBlanks(content)
+            }
             return layout(content, header ?: Header(begin, separator))
+        }
+
+        /** A table that begins with its numbers does not say what they are. */
+        private fun refuseNumbersAlone(content: LogContent, begin: Int) {
+            val line = content.head[begin]
+            val isTable = SEPARATORS.any { separator ->
+                val fields = fields(line, separator).orEmpty()
+                fields.size > 1 && fields.all { CellText.isTime(it) || CellText.isNumber(it, separator != ',') }
+            }
+            if (!isTable) return
+            val expected = "a line with the names of the columns before the numbers, such as time_s,latitude,longitude,value"
+            throw LogProblem(content.file, begin + 1L, null, expected, quoted(line))
         }
 
         /** Of columns with blanks between them nobody can say where a name or a time with blanks in it ends. */
@@ -143,7 +158,9 @@ internal class CsvLayout(
             val table = Table(head, header.index, header.separator, emptySet())
             val units = table.units(header.index)
             val body = header.index + 1 + units
-            val sample = (body until head.size).firstOrNull { !table.isPassed(it) }
+            val rows = (body until head.size).filterNot(table::isPassed)
+            // Between a header and its rows a logger's settings may stand.
+            val sample = rows.firstOrNull { table.hasRow(it, header.index) } ?: rows.firstOrNull()
             return CsvLayout(
                 header.separator,
                 header.index + 1,
@@ -261,6 +278,9 @@ internal class CsvLayout(
             if (!isSure) open?.invoke()
             return isSure
         }
+
+        /** Whether the line [j] has as many columns as the header [i], and numbers or times in them. */
+        fun hasRow(j: Int, i: Int) = row(j).size == row(i).size && isData(row(j))
 
         /** Whether the line [j] is blank or a remark. */
         fun isPassed(j: Int) = head[j].isBlank() || CellText.isRemark(head[j])

@@ -86,6 +86,9 @@ internal class SeaBirdHeader private constructor(
         return SeaBirdHeader(names, longNames, endLine, badFlag, found, start, bins)
     }
 
+    /** Column [number] of a file, with its short [name] and its [longName], as they stand there. */
+    class Column(val number: String, val name: String, val longName: String)
+
     companion object {
         /** In place of a column: one scan after the other. */
         const val BY_COUNT = -1
@@ -137,21 +140,22 @@ internal class SeaBirdHeader private constructor(
             val end = head.indexOfFirst { it.trim() == END }
             if (end < 0) throw problem(null, "a line $END that ends a Sea-Bird header", "none in the first lines")
             val entries = HashMap<String, String>()
-            val columns = ArrayList<MatchResult>()
+            val columns = ArrayList<Column>()
             for (line in head.subList(0, end)) {
-                NAME.matchEntire(line)?.let { columns += it }
+                NAME.matchEntire(line)?.destructured?.let { (i, name, long) -> columns += Column(i, name, long) }
                 ENTRY.matchEntire(line)?.let { entries[it.groupValues[1]] = it.groupValues[2] }
             }
+            if (columns.isEmpty()) columns += SeaBirdXml.columns(head.subList(0, end), entries)
             if (columns.isEmpty()) {
                 val found = "a Sea-Bird file without them, as .hex is: convert it by Sea-Bird's Data Conversion"
                 throw problem(end + 1, "lines '# name 0 = ...' before $END", found)
             }
-            if (columns.withIndex().any { (i, column) -> column.groupValues[1] != "$i" }) {
+            if (columns.withIndex().any { (i, column) -> column.number != "$i" }) {
                 throw problem(end + 1, "lines '# name 0 = ...' in their order", "a number that is missing or twice")
             }
             if (entries["file_type"] == "binary") throw problem(end + 1, "file_type = ascii", "binary")
-            val names = columns.map { it.groupValues[2] }
-            val longNames = columns.map { it.groupValues[3] }
+            val names = columns.map { it.name }
+            val longNames = columns.map { it.longName }
             val flag = entries["bad_flag"]?.let { DecimalText.parse(it) } ?: Double.NaN
             val start = entries["start_time"]?.let(::start)
             val interval = entries["interval"].orEmpty()

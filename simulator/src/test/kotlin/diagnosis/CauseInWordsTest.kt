@@ -26,6 +26,10 @@ class CauseInWordsTest {
             "8.00 s at 14.2 °C, 8.16 s at one degree more",
             words(Cause.TEMPERATURE_DEPENDENT_RESPONSE, SensorStage.TemperatureLag(8.0, 14.2, -0.02)),
         )
+        // 8 · √(1/4) and 8 / √(1/4).
+        val paths = SensorStage.Combined(8.0, risingOverFalling = 0.25, slowOverFast = 5.0, slowShare = 0.2)
+        assertEquals("rising 4.00 s, falling 16.0 s", words(Cause.ASYMMETRIC_RESPONSE, paths))
+        assertEquals("fast 8.00 s, slow 40.0 s", words(Cause.TWO_PATH_RESPONSE, paths))
         val both = SensorStage.Combined(8.0, referenceSpeed = 1.4, exponent = 0.5, referenceTemperature = 14.2)
         assertEquals("8.00 s at 1.40 m/s, 5.66 s at twice that", words(Cause.FLOW_DEPENDENT_RESPONSE, both))
         assertEquals(

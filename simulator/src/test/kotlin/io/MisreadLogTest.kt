@@ -226,6 +226,16 @@ class MisreadLogTest {
                 "log.csv:3: expected commas, semicolons or tabs between columns, found blanks",
             ),
             Case(
+                "numbers without names, and commas",
+                "2014-8-7 22:6:14,1,43.55,69.57,0.15\n2014-8-7 22:6:17,1,43.56,69.57,0.16\n",
+                "log.csv:1: expected a line with the names of the columns before the numbers",
+            ),
+            Case(
+                "numbers without names, and tabs",
+                "20.0\t35234.9\t-0.018\n20.0\t1873.1\t-0.019\n",
+                "log.csv:1: expected a line with the names of the columns before the numbers",
+            ),
+            Case(
                 "many rows with blanks between columns",
                 "time_s x_m y_m v\n" + (0 until 800).joinToString("") { "$it.0 ${it % 40}.25 1.0 8.$it\n" },
                 "log.csv:1: expected commas, semicolons or tabs between columns, found blanks",

@@ -183,4 +183,27 @@ class SeaBirdLogTest {
         val noPlace = refusal(file(listOf("timeS: Time", "depSM: Depth [m]", "v: V"), listOf("0 1 2", "1 1 2")))
         assertTrue("(--x 'depSM' for a profile)" in noPlace, noPlace)
     }
+
+    /** Fathom, the program that came after Data Conversion, tells the columns in lines of XML. */
+    @Test
+    fun readsTheColumnsThatFathomTellsInXml() {
+        val ids = listOf("timeS" to "Time", "latitude" to "", "longitude" to "", "t090C" to "Temperature")
+        val columns = ids.flatMapIndexed { i, (id, name) ->
+            listOfNotNull(
+                "#         <Column Number='$i' ID='$id'>",
+                "#           <Name>$name</Name>".takeIf { name.isNotEmpty() },
+                "#           <Units>deg C</Units>".takeIf { id == "t090C" },
+                "#         </Column>",
+            )
+        }
+        val head = listOf("* Sea-Bird SBE19plus Data File:", "* FileName = made_up.hex") +
+            "# <FathomProcessing Version=2.1.7>" + "#       <BadFlag>-9.99e-29</BadFlag>" + "#       <Columns>" + columns +
+            "#       </Columns>" + "# </FathomProcessing>" + "*END*"
+        val rows = listOf("0  45.54372  -73.15357  19.967", "1  45.54373  -73.15357  -9.99e-29", "2  45.54374  -73.15357  16.05")
+        val file = directory.resolve("made_up.cnv").apply { writeBytes((head + rows).joinToString("\n").toByteArray()) }
+        val log = SurveyLog.open(file, LogChoice(value = "Temperature"))
+        assertEquals("t090C", log.quantity)
+        assertEquals(listOf(19.967, 16.05), log.readings().map { it.value })
+        assertEquals(listOf(0.0, 2.0), times(log))
+    }
 }

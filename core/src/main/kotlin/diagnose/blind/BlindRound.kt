@@ -62,7 +62,7 @@ internal class BlindRound(
         if (open.isResolved) changing / BlindEvidence.inflation(listOf(column), open.whitened) else 0.0
     }
 
-    private val terms = BlindTerms.of(search, !isShapeOpen && !search.fixes.areFar(state)).filter(::isNew)
+    private val terms = BlindTerms.on(state, search, tries, isShapeOpen, settings.level)
 
     /**
      * What serves best on top of [quiet], where neither noise nor water that changes has taken what a cause does:
@@ -149,8 +149,6 @@ internal class BlindRound(
     /** Whether [trial] needs no lag, or there is one for certain: a lag alone, or the one that it is another shape of. */
     private fun isOfLag(trial: BlindTrial): Boolean = lag.isSeen || trial.term?.cause !in BlindTerms.OF_LAG ||
         trial.state?.let { lag.isSeenIn(it, trial.inflation) } == true
-
-    private fun isNew(term: Term) = state.model.terms.none { it.key == term.key }
 
     /**
      * Whether [trial], on water that does not change, may be worth water and noise of its own. A drift always may: it is

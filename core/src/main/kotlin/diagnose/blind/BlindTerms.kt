@@ -50,6 +50,25 @@ internal object BlindTerms {
     }
 
     /**
+     * What is tried on top of [state], by [tries]; nothing between a time constant and a dead time where [isShapeOpen]. Where fixes
+     * are far off other shapes of a lag are not, but that a place which is behind them, surer than [level], may be a dead
+     * time: that makes nothing smoother than a lag alone does, as changes of the water that the boat did not see would.
+     */
+    fun on(
+        state: BlindState,
+        search: BlindSearch,
+        tries: BlindTrials,
+        isShapeOpen: Boolean,
+        level: Double,
+    ): List<Term> {
+        val areFar = search.fixes.areFar(state)
+        val terms = of(search, !isShapeOpen && !areFar).filter { new -> state.model.terms.none { it.key == new.key } }
+        val place = terms.firstOrNull { areFar && !isShapeOpen && it.cause == Cause.POSITION_OFFSET }
+        val isBehind = place != null && tries.attempt(place).let { it.isLate && it.pValue < level }
+        return if (isBehind) terms + Term(Cause.DEAD_TIME) else terms
+    }
+
+    /**
      * Whether [term], as [found] has it, makes readings late by less than so many [rows]: the smoothed way itself is off by
      * a tenth, which explains a little.
      */

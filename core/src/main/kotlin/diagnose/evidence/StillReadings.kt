@@ -4,6 +4,7 @@ import org.hipparchus.special.Erf
 import stillwater.diagnose.Cause
 import stillwater.diagnose.response.ModelFit
 import stillwater.sensor.SensorStage
+import kotlin.math.abs
 import kotlin.math.pow
 import kotlin.math.sqrt
 
@@ -34,6 +35,15 @@ internal class StillReadings(private val fit: ModelFit) {
         }
     }
 
+    /**
+     * The step of rounding as far as it tells of readings that repeat: the least from row to row, where there is any. A converter's
+     * levels need not be as far apart as each other, nor as the last digit is.
+     */
+    private val step: Double = maxOf(
+        fit.model.scales.resolution,
+        (1 until values.size).map { abs(values[it] - values[it - 1]) }.filter { it > 0 }.minOrNull() ?: 0.0,
+    )
+
     /** The stretches in the order of the log. */
     private val all: List<Stretch> = if (fit.model.terms.any { it.cause == Cause.HYSTERESIS }) emptyList() else found()
 
@@ -47,7 +57,7 @@ internal class StillReadings(private val fit: ModelFit) {
         val before = (2 until FEWEST).sumOf { rows -> short.count { it >= rows } }
         val after = (2 until FEWEST).sumOf { rows -> short.count { it > rows } }
         val usual = if (short.size >= MANY) after.toDouble() / before else 0.0
-        maxOf(Erf.erf(fit.model.scales.resolution / (sqrt(8.0) * spread)), usual)
+        maxOf(Erf.erf(step / (sqrt(8.0) * spread)), usual)
     }
 
     /** By chance, that a stretch as long is somewhere in the log. */
@@ -83,7 +93,7 @@ internal class StillReadings(private val fit: ModelFit) {
         }
         if (count < FEWEST || count > MOST * values.size) return null
         val steps = Spikes.spread(DoubleArray(residuals.size - 1) { residuals[it + 1] - residuals[it] })
-        val expected = values.size * Erf.erf(fit.model.scales.resolution / (sqrt(2.0) * steps))
+        val expected = values.size * Erf.erf(step / (sqrt(2.0) * steps))
         if (Evidence.poissonTail(count, expected) > CERTAIN) return null
         return "$count readings repeat the one before to the last digit, which noise does not: the logger may have " +
             "had no new one."

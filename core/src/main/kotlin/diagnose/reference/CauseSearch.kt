@@ -3,6 +3,7 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Cause
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.evidence.AnyResponse
 import stillwater.diagnose.evidence.Evidence
 import stillwater.diagnose.evidence.HeldOut
 import stillwater.diagnose.evidence.HeldOutScore
@@ -69,10 +70,10 @@ internal class CauseSearch(
         // Causes are held against each other by what they gain itself: how far each one's scores seem to be correlated
         // differs by chance.
         val cost = searched + 2 * degrees
-        val isNone = (term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)) ||
+        val isNone = GainSign(base).isTurned(best) || (term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)) ||
             (term.cause == Cause.QUANTISATION && scales.resolution < sqrt(best.variance))
         val own = if (places > 0) jumpsPValue(base, best, corrected) else Evidence.pValue(ratio, degrees)
-        val p = if (isNone) 1.0 else maxOf(own, ownPValue(base, best, term))
+        val p = if (isNone) 1.0 else maxOf(own, ownPValue(base, best, term), AnyResponse(base).pValue(best, term.cause, degrees))
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood
@@ -157,16 +158,20 @@ internal class CauseSearch(
         free: BooleanArray,
         noises: List<CorrelatedNoise>,
         base: ModelFit,
-    ): ModelFit = noises.flatMap { noise ->
-        val rough = starts.map { start ->
-            val own = model.fadingAs(start, base)
-            Fitting.fit(own, start, free, used, longest, noise = own.noise(noise, used))
-        }.maxBy(::plainest)
-        listOf(rough, Fitting.fit(rough.model, rough.numbers, free, used, longest, guess = rough.noise))
-    }.maxBy(::plainest)
+    ): ModelFit {
+        val sign = GainSign(base)
+        return noises.flatMap { noise ->
+            val rough = starts.map { start ->
+                val own = model.fadingAs(start, base)
+                Fitting.fit(own, start, free, used, longest, noise = own.noise(noise, used))
+            }.maxBy { plainest(it, sign) }
+            listOf(rough, Fitting.fit(rough.model, rough.numbers, free, used, longest, guess = rough.noise))
+        }.maxBy { plainest(it, sign) }
+    }
 
-    /** Twice the log-likelihood of [fit] less what each end of a range is to explain for certain. */
-    private fun plainest(fit: ModelFit): Double = fit.score - SmallShifts.CERTAIN * RangeEnd.count(fit)
+    /** Twice the log-likelihood of [fit] less what each end of a range is to explain for certain; least with a gain of another [sign]. */
+    private fun plainest(fit: ModelFit, sign: GainSign): Double =
+        if (sign.isTurned(fit)) -Double.MAX_VALUE else fit.score - SmallShifts.CERTAIN * RangeEnd.count(fit)
 
     private fun starts(base: ModelFit, model: ResponseModel, term: Term): List<DoubleArray> {
         val all = Starts(base, model, term).all()

@@ -128,8 +128,19 @@ internal class ForwardSearch(
             Evidence.pValue(gain, trial.degrees) * terms.size > settings.level &&
                 CalibrationPoint.isPossible(without, base, trial.term.cause.baseNumbers)
         }
-        if (needless.isEmpty()) return chosen
-        val kept = chosen.filter { it !in needless }
+        return if (needless.isEmpty()) jumpsLast(chosen) else again(chosen.filter { it !in needless })
+    }
+
+    /** [chosen] with its jumps looked for anew, which may have stood for what came after them, where that explains as much. */
+    private fun jumpsLast(chosen: List<Trial>): List<Trial> {
+        val (jumps, others) = chosen.partition { it.term.cause == Cause.OFFSET_STEPS }
+        if (others.isEmpty() || jumps.isEmpty() || chosen.last() in jumps) return chosen
+        val again = again(others + jumps)
+        return if (worth(again) > worth(chosen)) again else chosen
+    }
+
+    /** What comes of [kept] where they are tried one after the other. */
+    private fun again(kept: List<Trial>): List<Trial> {
         var fit = base
         var heldOut = baseHeldOut
         return kept.map { trial ->

@@ -139,7 +139,7 @@ internal class ReferenceDiagnosis(
         // with each beginning of it, because what came after may make up for the wrong way.
         // Where it moves in sharp steps a row's delay goes with the one way and half of it with the other, too much for
         // the numbers of one to do for the other.
-        val doubtful = (unknown.isSharp && first.chosen.isNotEmpty()) ||
+        val doubtful = (unknown.isSharp && (first.chosen.isNotEmpty() || first.isStructured)) ||
             first.chosen.any { turned(it.fit).score > it.fit.score + HELD }
         // A place ahead by just what a held truth is ahead by is rather that.
         val isLikeHeld = first.chosen.any { first.shifts.isLikeHeld(it.term) }

@@ -94,6 +94,10 @@ internal class Weighing(
 
     /** In words, what the noise goes with; null where it is even. */
     private val uneven by lazy { UnevenNoise(last).words(settings.level / tried) }
+    private val left by lazy { Structure.dependences(last, search.longest) }
+
+    /** Whether something is left for certain beside what was chosen. */
+    val isStructured: Boolean get() = left.first().adjusted < settings.structureLevel
     private val faults by lazy { ReferenceFaults(search, base, baseHeldOut, used, tried, settings.level) }
 
     /**
@@ -113,7 +117,6 @@ internal class Weighing(
         val loose = LooseReadings(last)
         val outliers = loose.pValue * tried < settings.level
         val changing = water.pValue * tried < settings.level
-        val left = Structure.dependences(last, search.longest)
         val rounded = chosen.none { it.term.cause == Cause.QUANTISATION } && isRounded
         val certain = listOfNotNull(
             Cause.QUANTISATION.takeIf { rounded },
@@ -218,7 +221,7 @@ internal class Weighing(
 
     private fun verdict(sets: List<List<Cause>>, certain: List<Cause>, left: Dependence): Verdict {
         val all = sets + certain.map { listOf(it) }
-        val structured = left.adjusted < settings.structureLevel
+        val structured = isStructured
         // A truth that is guessed between rows swings beyond both ends of what it does; readings that stand still at one end
         // do so whatever it does.
         val isAtEnd by lazy { still.atEnd < settings.level / tried }
@@ -233,6 +236,9 @@ internal class Weighing(
             )
             // A clock that is behind is no lag of a reference, and leaves something that is put right as one.
             all.isEmpty() && late > ReferenceLead.ordinary(base) -> Verdict.Unexplained(ReferenceLead.words(late))
+            structured && isMore(left) && isCoarse() -> Verdict.InsufficientData(
+                "rows are so far apart that how the truth went in between might explain what is left",
+            )
             structured && isMore(left) -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
@@ -242,6 +248,10 @@ internal class Weighing(
             else -> Verdict.Named(all.map { it.single() })
         }
     }
+
+    /** Whether what is not known of the truth between rows makes much of what the model leaves of the single reading. */
+    private fun isCoarse(): Boolean = scales.unknown?.isSharp != true &&
+        ReferenceGaps.reach(last) > COARSELY * sqrt(series.size.toDouble())
 
     /**
      * Whether the truth moves within a row so often that how the reading follows it is not known. It is known all the same
@@ -374,6 +384,9 @@ internal class Weighing(
 
         /** Of the noise's variance: more of it is told of rounding. */
         const val ROUNDED = 0.25
+
+        /** Of what is left, what is not known between rows may make of it; both as deviations of a reading. */
+        const val COARSELY = 0.2
 
         /** Standard errors by which what is not known of the truth may move a fit before its causes are in doubt. */
         const val MOST_UNKNOWN = 2.0

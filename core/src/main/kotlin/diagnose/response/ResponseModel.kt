@@ -103,6 +103,10 @@ internal class ResponseModel(
             val to = slotOrNull(term) ?: continue
             val start = other.slotOrNull(term) ?: continue
             for (k in 0 until minOf(other.width(term), width(term))) numbers[to + k] = from[start + k]
+            // Beyond the slowest path nothing changes with the number, so that no step would lead back.
+            if (term.cause == Cause.TWO_PATH_RESPONSE && other.slowRatio(from) < from[start]) {
+                numbers[to] = WITHIN * other.slowRatio(from)
+            }
         }
         return numbers
     }
@@ -388,5 +392,8 @@ internal class ResponseModel(
         /** Time constants after which nothing is left of the first state. */
         private const val FADED = 40.0
         private const val SLOWEST = 8
+
+        /** Of the slowest path, where a fit begins that was beyond it. */
+        private const val WITHIN = 0.9
     }
 }

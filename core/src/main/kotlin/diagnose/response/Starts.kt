@@ -47,7 +47,7 @@ internal class Starts(
     private fun places(): List<DoubleArray> = when {
         small && term.cause in IN_PROPORTION -> listOf(with(STEPS.getValue(term.cause)))
         small && term.cause == Cause.DRIFT -> listOf(with(scales.range / series.duration))
-        small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(1.0))
+        small && term.cause == Cause.CROSS_SENSITIVITY -> listOf(with(scales.range / extent()))
         small && term.cause == Cause.DEAD_TIME -> listOf(0.3, 1.0).map { inPlace(it * series.period) }
         small && term.cause == Cause.SECOND_ORDER_RESPONSE -> listOf(0.1, 0.5, 1.5).map { inPlace(it * series.period) }
         small && term.cause == Cause.TWO_PATH_RESPONSE -> listOf(3.0, 8.0, 25.0).map { ratio ->
@@ -57,6 +57,12 @@ internal class Starts(
             listOf(inPlace(0.3 * series.period, scales.ordinarySpeed * 0.3 * series.period))
         small && term.cause == Cause.SLEW_LIMIT -> rates(listOf(0.75, 0.9, 0.97, 0.99, 0.998)).map { with(it) }
         else -> of(term.cause)
+    }
+
+    /** From the least to the most of the condition that the reading may show, in its unit. */
+    private fun extent(): Double {
+        val column = scales.centred.getValue(term.condition.orEmpty())
+        return column.max() - column.min()
     }
 
     private fun of(cause: Cause): List<DoubleArray> = when (cause) {

@@ -57,6 +57,7 @@ internal class UnknownTruth private constructor(
         val keep = DoubleArray(times.size) { i -> if (i == 0) 1.0 else kept(i, sensor.timeConstants) }
         val beside = if (isSharp) BESIDE_ROW else 0.0
         val beyond = if (doubt.isBeyond) sensor.beyond else null
+        val doubts = if (isSharp && late == 0.0) arriving(sensor) else doubts
         var gap = -1
         val variance = DoubleArray(times.size) { i ->
             if (isGap[i]) gap = i
@@ -100,6 +101,30 @@ internal class UnknownTruth private constructor(
             times,
             late,
         )
+    }
+
+    /**
+     * What is in doubt of sharp steps where it reaches the lag of a [sensor]: after its delay, in the two rows that this
+     * falls in, in each by its part, and from a second lag for as long as that takes; of gaps as it is.
+     */
+    private fun arriving(sensor: Shaken): DoubleArray {
+        if (sensor.delay == 0.0 && sensor.second == 0.0) return doubts
+        val out = DoubleArray(times.size) { if (isGap[it]) doubts[it] else 0.0 }
+        for (row in 1 until times.size) {
+            if (isGap[row] || !(doubts[row] > 0)) continue
+            val from = times[row - 1] + sensor.delay
+            val to = times[row] + sensor.delay
+            var i = times.binarySearch(from).let { if (it >= 0) it + 1 else -it - 1 }.coerceAtLeast(1)
+            while (i < times.size && !isGap[i]) {
+                val part = if (times[i - 1] < to) (minOf(times[i], to) - maxOf(times[i - 1], from)) / (to - from) else 0.0
+                val later = if (sensor.second > 0) exp(-maxOf(0.0, times[i - 1] - from) / sensor.second) else 0.0
+                val share = maxOf(part, later)
+                if (share < SEEN) break
+                out[i] = maxOf(out[i], share * doubts[row])
+                i++
+            }
+        }
+        return out
     }
 
     /** Share of what a [sensor] saw in a gap that reaches its lag so long [after] it, s. */
@@ -173,7 +198,18 @@ internal class UnknownTruth private constructor(
                 val beside = maxOf(steps.getOrElse(i - 2) { 0.0 }, steps.getOrElse(i + 2) { 0.0 })
                 isGap[i] || (steps[i] > far && steps[i] > STEEPER * beside)
             }
-            val between = DoubleArray(n) { i -> if (i == 0 || isGap[i]) 0.0 else maxOf(within[i - 1], within[i]) }
+            val sudden = DoubleArray(n) { if (isBroken[it]) steps[it] else 0.0 }
+            val isSharp = squares(sudden) > MOSTLY * squares(steps)
+            // Between two sharp steps the truth is foretold from what lies between them alone.
+            val calm = if (isSharp) {
+                within(ReferenceGaps.errors(times, truth, 1, isBroken), ReferenceGaps.errors(times, truth, 2, isBroken))
+            } else {
+                within
+            }
+            val between = DoubleArray(n) { i ->
+                val errors = if (isBroken[i]) within else calm
+                if (i == 0 || isGap[i]) 0.0 else maxOf(errors[i - 1], errors[i])
+            }
             val doubts = DoubleArray(n) { i ->
                 when {
                     isGap[i] -> spread
@@ -188,8 +224,6 @@ internal class UnknownTruth private constructor(
                 val guess = if (isLong || isGuess) most(near, i, if (isGuess) 2 else 1) else 0.0
                 if (guess > ROUNDING * spread) guess else 0.0
             }
-            val sudden = DoubleArray(n) { if (isBroken[it]) steps[it] else 0.0 }
-            val isSharp = squares(sudden) > MOSTLY * squares(steps)
             val changes = TruthChanges.of(series)
             return UnknownTruth(isGap, isBroken, isSharp, doubts, guesses, between, changes, times)
         }
@@ -218,6 +252,9 @@ internal class UnknownTruth private constructor(
             val mean = truth.average()
             return sqrt(truth.sumOf { (it - mean) * (it - mean) } / truth.size)
         }
+
+        /** Of what is in doubt of a sharp step: less of it is not followed through a second lag. */
+        private const val SEEN = 1e-3
 
         /** A step longer than so many usual ones is a gap. */
         private const val GAP = 4.0

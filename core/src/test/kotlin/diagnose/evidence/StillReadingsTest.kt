@@ -11,6 +11,7 @@ import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Steps
 import stillwater.sensor.SensorStage
+import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.math.sqrt
@@ -64,6 +65,21 @@ class StillReadingsTest {
         // A logger that writes each reading twice is none that missed some.
         for (i in 1 until n step 2) values[i] = values[i - 1]
         assertNull(StillReadings(fit(values)).repeats())
+    }
+
+    /** A converter whose levels are 0.0133, 0.0134 or 0.0160 apart, with noise as large, as a board of two thermometers has. */
+    @Test
+    fun levelsThatAreNotAsFarApartAsEachOtherAreNoLoggerThatHung() {
+        val steps = doubleArrayOf(0.0133, 0.0134, 0.0133, 0.0160)
+        val levels = (0 until 800).runningFold(0.0) { level, i -> level + steps[i % steps.size] }
+        for (seed in 1L..5L) {
+            val noise = java.util.Random(seed)
+            val values = readings { 0.014 * noise.nextGaussian() }
+            for (i in values.indices) values[i] = levels.minBy { abs(it - values[i]) }
+            val still = StillReadings(fit(values))
+            assertNull(still.words(0.05), "seed $seed")
+            assertNull(still.repeats(), "seed $seed")
+        }
     }
 
     @Test

@@ -1,0 +1,115 @@
+package stillwater.diagnose.evidence
+
+import stillwater.diagnose.Cause
+import stillwater.diagnose.MeasuredSeries
+import stillwater.diagnose.algebra.dot
+import stillwater.diagnose.algebra.squares
+import stillwater.diagnose.response.ModelFit
+import stillwater.diagnose.response.ResponseModel
+import kotlin.math.abs
+
+/**
+ * What a linear response of any shape would show in a log whose reference hardly turns.
+ *
+ * Where the truth goes one way, or there and back once, what goes with the value, with the time or with the direction is much the
+ * same as a response that is not quite of first order: a jump while the reading still follows a step, an end of the range where
+ * the log began. Only what such a response cannot do then tells of another cause.
+ *
+ * @param base the model without the cause.
+ */
+internal class AnyResponse(private val base: ModelFit) {
+    private val series = base.model.series
+    private val truth = requireNotNull(series.reference) { "there is a reference to respond to" }
+
+    /** Changes of the truth that a reading sees between two lags, by column, length n. */
+    private val columns by lazy {
+        val edges = edges(series.period, LAGS * base.numbers[ResponseModel.TIME_CONSTANT])
+        edges.zipWithNext { from, to -> DoubleArray(series.size) { seen(it, from) - seen(it, to) } }
+    }
+
+    /**
+     * Probability by chance of what [fit], the base with a term more, explains beyond any linear response, with [degrees] numbers
+     * more; 0 where the reference turns often enough or [cause] is a shape of response itself.
+     */
+    fun pValue(fit: ModelFit, cause: Cause, degrees: Int): Double {
+        if (cause !in CONFUSED || !hardlyTurns(series)) return 0.0
+        val shown = whitened(fit, DoubleArray(series.size) { fit.predicted[it] - base.predicted[it] })
+        val kept = fit.free.indices.filter { fit.free[it] }.zip(fit.jacobian.toList())
+            .filter { (i, _) -> i < ResponseModel.BASE || i < base.free.size && base.free[i] }.map { it.second }
+        val others = kept + columns.map { whitened(fit, it) }
+        val direction = Evidence.orthonormal(listOf(shown), Evidence.orthonormal(others))
+        if (direction.isEmpty()) return 1.0
+        val explained = dot(direction.single(), shown).let { it * it }
+        val left = squares(fit.whitened)
+        val ratio = Evidence.ratio(left + explained, left, fit.noise.rows)
+        return Evidence.pValue(ratio / Evidence.inflation(direction, fit.whitened), degrees)
+    }
+
+    private fun whitened(fit: ModelFit, column: DoubleArray) =
+        DoubleArray(column.size).also { fit.noise.whiten(column, it) }
+
+    /** The truth [lag] s before row [i]; before the log that of its first row. */
+    private fun seen(i: Int, lag: Double): Double {
+        val time = series.times[i] - lag
+        val at = series.times.binarySearch(time)
+        if (at >= 0) return truth[at]
+        val after = -at - 1
+        if (after == 0) return truth[0]
+        val share = (time - series.times[after - 1]) / (series.times[after] - series.times[after - 1])
+        return truth[after - 1] + share * (truth[after] - truth[after - 1])
+    }
+
+    companion object {
+        /** What a response of another shape does as well where the truth hardly turns. */
+        private val CONFUSED = setOf(
+            Cause.OFFSET_STEPS,
+            Cause.SATURATION,
+            Cause.HYSTERESIS,
+            Cause.DRIFT,
+            Cause.CROSS_SENSITIVITY,
+            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
+            Cause.FLOW_DEPENDENT_RESPONSE,
+            Cause.ASYMMETRIC_RESPONSE,
+        )
+
+        /** Of the reference's range, by which it must go back for a turn. */
+        private const val TURN = 0.1
+        private const val FEW_TURNS = 1
+
+        /** Time constants for which a response is followed. */
+        private const val LAGS = 6.0
+
+        /** Whether the reference of [series] turns at most once. */
+        fun hardlyTurns(series: MeasuredSeries): Boolean {
+            val truth = series.reference ?: return false
+            val back = TURN * (truth.max() - truth.min())
+            var turns = 0
+            var direction = 0
+            var farthest = truth[0]
+            for (value in truth) {
+                if (direction != 0 && (value - farthest) * direction < -back) {
+                    turns++
+                    direction = -direction
+                    farthest = value
+                } else if (direction == 0 && abs(value - truth[0]) > back) {
+                    direction = if (value > truth[0]) 1 else -1
+                    farthest = value
+                } else if ((value - farthest) * direction > 0) {
+                    farthest = value
+                }
+            }
+            return turns <= FEW_TURNS
+        }
+
+        /** Lags, s, from none to at least [last], a row of [period] s apart at first and then ever farther. */
+        private fun edges(period: Double, last: Double): List<Double> {
+            val edges = mutableListOf(0.0)
+            var step = 1
+            while (edges.last() < last) {
+                repeat(2) { edges += edges.last() + step * period }
+                step *= 2
+            }
+            return edges
+        }
+    }
+}
