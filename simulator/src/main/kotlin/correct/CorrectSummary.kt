@@ -186,6 +186,7 @@ internal class CorrectSummary(
     private fun silence(): String {
         val series = result.series
         if (isFlat(series.values)) return "the readings never change"
+        if (!result.log.hasPlaces) return "the log has no places"
         val count = if (result.agreement.crossings > 0) "too few passes come" else "no pass comes"
         return result.learned.stillBoat ?: "$count near another"
     }

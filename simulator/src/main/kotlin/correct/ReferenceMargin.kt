@@ -31,8 +31,8 @@ internal class ReferenceMargin private constructor(
     /** Whether there are rows enough to tell how wide intervals have to be. */
     val isEnough: Boolean get() = rows >= FEWEST
 
-    /** Whether intervals are too narrow by more than chance. */
-    val isMisfit: Boolean get() = isEnough && factor > MISFIT
+    /** Whether intervals are too narrow by more than chance: of few rows by far. */
+    val isMisfit: Boolean get() = (isEnough && factor > MISFIT) || (rows >= FEW && factor > FAR)
 
     /** [track] with intervals that hold the reference as often as they say. */
     fun widened(track: CorrectedTrack): CorrectedTrack = if (isMisfit) track.scaledBy(factor) else track
@@ -40,6 +40,10 @@ internal class ReferenceMargin private constructor(
     companion object {
         /** Rows with a reference below which their share says little. */
         private const val FEWEST = 100
+
+        /** The same where intervals are too narrow by a factor that even rows which all err alike do not give by chance. */
+        private const val FEW = 30
+        private const val FAR = 2.0
         private const val NOMINAL = 0.95
         private const val TWO_SIDED = 1.96
         private const val NORMAL = 1.4826

@@ -55,6 +55,18 @@ class ReferenceMarginTest {
         assertTrue(margin.isMisfit && margin.covered < 0.5, "${margin.covered}, ${margin.factor}")
     }
 
+    /** Of 60 rows, that an offset as large as the water's waves is outside is no chance; a tenth too narrow would be. */
+    @Test
+    fun fewRowsWidenIntervalsThatAreFarTooNarrow() {
+        fun margin(offset: Double): ReferenceMargin {
+            val rows = TrackSeries(times.copyOf(60), times.copyOf(60), DoubleArray(60), DoubleArray(60) { water[it] + normal(0.01) })
+            val track = TrackCorrector(rows).correct(listOf(LikelyResponse(listOf(Response()), 1.0)))
+            return ReferenceMargin.of(rows, track, DoubleArray(60) { water[it] + offset + normal(0.01) })
+        }
+        assertTrue(margin(0.8).isMisfit)
+        assertFalse(margin(0.0).isMisfit)
+    }
+
     @Test
     fun noFactorIsAskedOfIntervalsWithoutWidth() {
         val series = TrackSeries(times, times, DoubleArray(ROWS), DoubleArray(ROWS) { water[it] + normal(0.01) })

@@ -125,7 +125,7 @@ class LoggerExportTest {
                 // date -u -d 2025-07-14T08:00:00Z +%s
                 1_752_480_000.0,
                 LogChoice(value = "v", skipBadRows = true),
-                mapOf("lines with other columns" to 2),
+                mapOf("rows with a wrong number of fields" to 2),
             ),
             Case(
                 "missing readings",

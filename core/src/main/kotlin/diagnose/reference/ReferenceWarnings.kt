@@ -3,6 +3,7 @@ package stillwater.diagnose.reference
 import stillwater.diagnose.Dependence
 import stillwater.diagnose.DiagnosisSettings
 import stillwater.diagnose.Verdict
+import stillwater.diagnose.evidence.AnyResponse
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Spikes
 import stillwater.diagnose.evidence.StillReadings
@@ -48,6 +49,9 @@ internal class ReferenceWarnings(
         uneven?.takeIf { named }?.let { add("Beside what was named $it.") }
         steps(verdict)?.let(::add)
         apart(verdict)?.let(::add)
+        if (verdict !is Verdict.Consistent && verdict !is Verdict.InsufficientData && AnyResponse.hardlyTurns(series)) {
+            add(ONE_WAY)
+        }
         if (verdict is Verdict.Consistent && mayHide) {
             add(
                 "The noise that was found wanders for ${three(last.noise.time)} s at a time, longer than the lag is: " +
@@ -88,6 +92,9 @@ internal class ReferenceWarnings(
     private fun tau(fit: ModelFit) = fit.numbers[ResponseModel.TIME_CONSTANT]
 
     private companion object {
+        const val ONE_WAY =
+            "The reference goes up or down, or there and back, once: a cause that goes with the value or the time shows " +
+                "only beyond what a response of another shape does. Several moves to and fro would tell them apart."
         const val APART =
             "Rows are far apart for what the water changes by, and how it went between them is not in the log."
 
