@@ -25,6 +25,7 @@ import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Steps
 import stillwater.diagnose.response.UnknownTruth
 import stillwater.diagnose.track.SmoothCourse
+import stillwater.estimate.LagWeights
 import kotlin.math.abs
 import kotlin.math.sqrt
 
@@ -203,15 +204,26 @@ internal class ReferenceDiagnosis(
         if (isAtOnce && shifts.none { it.term.cause == Cause.TWO_PATH_RESPONSE }) return null
         val rows = used.copyOf()
         val fewer = (shifts.allOrEach() + listOf(emptyList())).distinct()
-        val (before, gone) = SHARES.flatMap { share ->
+        val (before, gone) = (SHARES + straight(first.last)).flatMap { share ->
             val held = series.withQuieter(rowBefore(series, unknown.isGap, share))
             val before = ReferenceDiagnosis(held, settings, loops, share) { }
-            fewer.map { gone -> Triple(before, gone, before.ahead(first, gone, rows)) }
+            // What goes straight is no simulation's peculiarity, but what lies between two rows.
+            val more = if (share == MEANS) COINCIDENCE - HELD else 0.0
+            fewer.map { gone -> Triple(before, gone, before.ahead(first, gone, rows) - more) }
         }.maxBy { it.third }.takeIf { it.third >= 0 } ?: return null
         val second = before.weighing(Steps.HELD, first.spikes)
         val isFewer = second.chosen.count(::isShift) < shifts.size
         if (isUndone(first, second) && second.explained < first.explained + COINCIDENCE) return null
         return second.takeIf { it.explained >= first.explained + if (isFewer && gone.isNotEmpty()) -SHIFT else HELD }
+    }
+
+    /**
+     * The share that the row before has in a step of the lag of [fit] where the truth goes straight from row to row. Unlike a
+     * smooth curve through its rows that makes none of a reference's noise larger.
+     */
+    private fun straight(fit: ModelFit): Double {
+        val weights = LagWeights().also { it.set(fit.numbers[ResponseModel.TIME_CONSTANT], series.period) }
+        return weights.before / (weights.before + weights.now)
     }
 
     /** Whether [trial] is what half a row of delay looks like; of a given sensor the time constant is, too. */
@@ -318,8 +330,11 @@ internal class ReferenceDiagnosis(
         /** The same of one delay in five hundred that there might be, of which few sensors have any. */
         const val COINCIDENCE = 18.0
 
-        /** Of the row before in a truth that is held over a step: none, as in one that goes straight, and all. */
-        val SHARES = listOf(0.0, 0.5, 1.0)
+        /** Of the row before in a truth that is held over a step: half, as in a simulation by means. */
+        const val MEANS = 0.5
+
+        /** The same that any log is asked for: none and all besides. */
+        val SHARES = listOf(0.0, MEANS, 1.0)
 
         /** Twice the log-likelihood, less two, above which a shift is more than half a row: 1 % over 18 causes tried. */
         const val SHIFT = 9.9
