@@ -134,7 +134,7 @@ public class ReferenceLearner(
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (count < FEWEST || (kind == ResponseKind.FLOW && !series.hasSpeeds)) return null
         // How the sensor follows a fall does not show in a log that only rises.
-        if (kind == ResponseKind.ASYMMETRIC && !goesBothWays()) return null
+        if (kind == ResponseKind.ASYMMETRIC && !BothWays.areIn(reference, usable)) return null
         val fit = ResponseFit(kind, groupOf, groups, { plausible(kind, it) }, { scores(kind, it) }, isSharp = true)
         if (kind == ResponseKind.SLEW) {
             val slopes = (0 until series.size - 1).filter { usable[it] && usable[it + 1] }.map {
@@ -157,22 +157,6 @@ public class ReferenceLearner(
         return found.takeUnless { isTurned || isCrossed(it.response) }
     }
 
-    /** Whether the reference, of all that it goes over, goes down again by a tenth, and up. */
-    private fun goesBothWays(): Boolean {
-        var highest = Double.NEGATIVE_INFINITY
-        var lowest = Double.POSITIVE_INFINITY
-        var fall = 0.0
-        var rise = 0.0
-        for (i in reference.indices) {
-            if (!usable[i]) continue
-            highest = maxOf(highest, reference[i])
-            lowest = minOf(lowest, reference[i])
-            fall = maxOf(fall, highest - reference[i])
-            rise = maxOf(rise, reference[i] - lowest)
-        }
-        return minOf(fall, rise) > TURN * (highest - lowest)
-    }
-
     /**
      * [total] less what keeps a search off what no sensor is or no log shows: a lag longer than the log, whatever state that
      * began in, a slow path that is the faster one, readings that are turned.
@@ -183,10 +167,9 @@ public class ReferenceLearner(
         val turned = if (isTurned) TURNED else 0.0
         val response = kind.response(*DoubleArray(logs.size) { exp(logs[it]) })
         val longer = response.lags.sumOf { beyond(maxOf(it.rising, it.falling), duration) }
-        return sum - turned - OFF * (longer + if (isCrossed(response)) beyond(response.lags[0], response.lags[1]) else 0.0)
+        val crossed = if (isCrossed(response)) beyond(response.lags[0].rising, response.lags[1].rising) else 0.0
+        return sum - turned - OFF * (longer + crossed)
     }
-
-    private fun beyond(lag: ResponseLag, other: ResponseLag) = beyond(lag.rising, other.rising)
 
     /** Square of the logarithm by which [time] is beyond [most]. */
     private fun beyond(time: Double, most: Double): Double = ln(maxOf(time, most) / most).let { it * it }
@@ -398,9 +381,6 @@ public class ReferenceLearner(
         /** A line through rows twice as far apart misses four times as much. */
         private const val FROM_DOUBLE = 4.0
         private const val MOST_LOG = 25.0
-
-        /** Of all that the reference goes over. */
-        private const val TURN = 0.1
 
         /** Log-likelihoods that keep a search off readings that fall with the reference, and off numbers beyond their ends. */
         private const val TURNED = 1e6

@@ -23,7 +23,8 @@ class OneMoveTest {
         }
         val readings = DoubleArray(ROWS) { row ->
             val after = row - MOVED + 0.4
-            val left = (1..9 step 2).sumOf { exp(-after * it * it / SLOWEST) / (it * it) } / (1..9 step 2).sumOf { 1.0 / (it * it) }
+            val odd = 1..9 step 2
+            val left = odd.sumOf { exp(-after * it * it / SLOWEST) / (it * it) } / odd.sumOf { 1.0 / (it * it) }
             70 + (if (after < 0) 0.0 else 24.5 * (1 - left)) + 0.02 * random.nextGaussian()
         }
         val still = DoubleArray(ROWS)
@@ -35,8 +36,7 @@ class OneMoveTest {
         for (seed in 1L..3L) {
             val result = Diagnosis(dunked(seed)).run()
             val named = (result.verdict as? Verdict.Named)?.causes.orEmpty()
-            val confused = setOf(Cause.SATURATION, Cause.OFFSET_STEPS, Cause.HYSTERESIS, Cause.DRIFT, Cause.ASYMMETRIC_RESPONSE)
-            assertEquals(emptySet(), named.toSet() intersect confused, "seed $seed: ${result.verdict}")
+            assertEquals(emptySet(), named.toSet() intersect CONFUSED, "seed $seed: ${result.verdict}")
             val gain = result.extended?.parameters?.firstOrNull { it.name == "gain" }?.value ?: 1.0
             assertTrue(gain > 0, "gain $gain, seed $seed")
         }
@@ -62,7 +62,8 @@ class OneMoveTest {
         fun hardlyTurns(truth: (Int) -> Double): Boolean {
             val reference = DoubleArray(ROWS, truth)
             val still = DoubleArray(ROWS)
-            return AnyResponse.hardlyTurns(MeasuredSeries(DoubleArray(ROWS) { it.toDouble() }, still, still, still, reference))
+            val times = DoubleArray(ROWS) { it.toDouble() }
+            return AnyResponse.hardlyTurns(MeasuredSeries(times, still, still, still, reference))
         }
         assertTrue(hardlyTurns { if (it < MOVED) 70.0 else 94.5 })
         assertTrue(hardlyTurns { -it.toDouble() + 0.3 * sin(it.toDouble()) })
@@ -74,5 +75,12 @@ class OneMoveTest {
         const val ROWS = 80
         const val MOVED = 12
         const val SLOWEST = 30.0
+        val CONFUSED = setOf(
+            Cause.SATURATION,
+            Cause.OFFSET_STEPS,
+            Cause.HYSTERESIS,
+            Cause.DRIFT,
+            Cause.ASYMMETRIC_RESPONSE,
+        )
     }
 }

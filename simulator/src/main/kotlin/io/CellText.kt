@@ -7,7 +7,8 @@ internal object CellText {
         "mean", "average", "avg", "median", "min", "minimum", "max", "maximum", "std", "sd", "stdev", "std dev",
         "standard deviation", "mean value", "total", "sum", "count", "end", "end of file", "end of data", "eof",
     )
-    private val TIME = Regex("""\d{1,4}([-/.])(\d{1,2}|[A-Za-z]{3,9})\1\d{1,4}(?!\d).*|\d{1,2}:(\d{2}|\d:\d{1,2})(?!\d).*""")
+    private val TIME =
+        Regex("""\d{1,4}([-/.])(\d{1,2}|[A-Za-z]{3,9})\1\d{1,4}(?!\d).*|\d{1,2}:(\d{2}|\d:\d{1,2})(?!\d).*""")
 
     /** Whether [text] is what loggers write where they have no reading: nothing, NaN, NA, null, dashes, asterisks. */
     fun isMissing(text: String): Boolean {

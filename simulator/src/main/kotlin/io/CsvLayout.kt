@@ -101,7 +101,7 @@ internal class CsvLayout(
                 fields.size > 1 && fields.all { CellText.isTime(it) || CellText.isNumber(it, separator != ',') }
             }
             if (!isTable) return
-            val expected = "a line with the names of the columns before the numbers, such as time_s,latitude,longitude,value"
+            val expected = "a line with the names of the columns before the numbers, such as time_s,x_m,y_m,value"
             throw LogProblem(content.file, begin + 1L, null, expected, quoted(line))
         }
 

@@ -15,8 +15,8 @@ internal object DateText {
     private const val SIXTY = 60.0
     private const val LATEST_TWO_DIGITS = 69
     private val DATE = Regex("""\s*(\d{1,4})([-/. ])(\d{1,2}|[A-Za-z]{3,9})\2(\d{1,4})(?:[T,\s]+(.*))?""")
-    private val TIME =
-        Regex("""\s*(\d{1,2}):(\d{2}|\d(?=:))(?::(\d{1,2}(?:[.,]\d+)?))?\s*(?:([AaPp])\.?[Mm]\.?)?\s*(?:Z|UTC|GMT)?\s*""")
+    private const val CLOCK = """\s*(\d{1,2}):(\d{2}|\d(?=:))(?::(\d{1,2}(?:[.,]\d+)?))?\s*"""
+    private val TIME = Regex(CLOCK + """(?:([AaPp])\.?[Mm]\.?)?\s*(?:Z|UTC|GMT)?\s*""")
     private val MONTHS = listOf("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 
     /**

@@ -15,7 +15,9 @@ internal object SeaBirdXml {
     fun columns(lines: List<String>, entries: MutableMap<String, String>): List<SeaBirdHeader.Column> {
         val columns = ArrayList<SeaBirdHeader.Column>()
         for (line in lines) {
-            COLUMN.matchEntire(line)?.destructured?.let { (number, id) -> columns += SeaBirdHeader.Column(number, id, "") }
+            COLUMN.matchEntire(line)?.destructured?.let { (number, id) ->
+                columns += SeaBirdHeader.Column(number, id, "")
+            }
             BAD_FLAG.matchEntire(line)?.let { entries["bad_flag"] = it.groupValues[1] }
             INTERVAL.matchEntire(line)?.let { entries["interval"] = "seconds: ${it.groupValues[1]}" }
             val name = NAME.matchEntire(line)?.groupValues?.get(1)

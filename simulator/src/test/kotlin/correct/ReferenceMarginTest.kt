@@ -59,7 +59,8 @@ class ReferenceMarginTest {
     @Test
     fun fewRowsWidenIntervalsThatAreFarTooNarrow() {
         fun margin(offset: Double): ReferenceMargin {
-            val rows = TrackSeries(times.copyOf(60), times.copyOf(60), DoubleArray(60), DoubleArray(60) { water[it] + normal(0.01) })
+            val few = times.copyOf(60)
+            val rows = TrackSeries(few, few, DoubleArray(60), DoubleArray(60) { water[it] + normal(0.01) })
             val track = TrackCorrector(rows).correct(listOf(LikelyResponse(listOf(Response()), 1.0)))
             return ReferenceMargin.of(rows, track, DoubleArray(60) { water[it] + offset + normal(0.01) })
         }

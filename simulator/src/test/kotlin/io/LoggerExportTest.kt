@@ -111,18 +111,10 @@ class LoggerExportTest {
                 skipped = mapOf("codes for a missing reading" to 2),
             ),
             Case(
-                "minutes and seconds of one digit",
-                "Time,x_m,y_m,v\n2014-8-7 22:6:4.5,0,0,8.1\n2014-8-7 22:7:4.5,1,0,8.2\n2014-8-7 22:8:4.5,2,0,8.3\n",
-                "survey CSV",
-                // date -u -d 2014-08-07T22:06:04.5Z +%s.%N
-                1_407_449_164.5,
-            ),
-            Case(
                 "a logger's settings between the names and the rows",
                 "Date,Time,x_m,y_m,v\nDISPLAY OPTIONS\nType=made up\n2025-07-14,08:00:00,0,0,8.1\n" +
                     "2025-07-14,08:01:00,1,0,8.2\n2025-07-14,08:02:00,2,0,8.3\n",
                 "survey CSV",
-                // date -u -d 2025-07-14T08:00:00Z +%s
                 1_752_480_000.0,
                 LogChoice(value = "v", skipBadRows = true),
                 mapOf("rows with a wrong number of fields" to 2),

@@ -197,9 +197,9 @@ class SeaBirdLogTest {
             )
         }
         val head = listOf("* Sea-Bird SBE19plus Data File:", "* FileName = made_up.hex") +
-            "# <FathomProcessing Version=2.1.7>" + "#       <BadFlag>-9.99e-29</BadFlag>" + "#       <Columns>" + columns +
-            "#       </Columns>" + "# </FathomProcessing>" + "*END*"
-        val rows = listOf("0  45.54372  -73.15357  19.967", "1  45.54373  -73.15357  -9.99e-29", "2  45.54374  -73.15357  16.05")
+            "# <FathomProcessing Version=2.1.7>" + "#       <BadFlag>-9.99e-29</BadFlag>" + "#       <Columns>" +
+            columns + "#       </Columns>" + "# </FathomProcessing>" + "*END*"
+        val rows = listOf("19.967", "-9.99e-29", "16.05").mapIndexed { i, value -> "$i  45.5437$i  -73.15357  $value" }
         val file = directory.resolve("made_up.cnv").apply { writeBytes((head + rows).joinToString("\n").toByteArray()) }
         val log = SurveyLog.open(file, LogChoice(value = "Temperature"))
         assertEquals("t090C", log.quantity)

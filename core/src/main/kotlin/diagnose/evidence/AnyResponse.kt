@@ -34,8 +34,9 @@ internal class AnyResponse(private val base: ModelFit) {
     fun pValue(fit: ModelFit, cause: Cause, degrees: Int): Double {
         if (cause !in CONFUSED || !hardlyTurns(series)) return 0.0
         val shown = whitened(fit, DoubleArray(series.size) { fit.predicted[it] - base.predicted[it] })
+        // A cause may free a number of the base, as a given sensor's; new terms stand last.
         val kept = fit.free.indices.filter { fit.free[it] }.zip(fit.jacobian.toList())
-            .filter { (i, _) -> i < ResponseModel.BASE || i < base.free.size && base.free[i] }.map { it.second }
+            .filter { (i, _) -> i < ResponseModel.BASE || base.free.getOrElse(i) { false } }.map { it.second }
         val others = kept + columns.map { whitened(fit, it) }
         val direction = Evidence.orthonormal(listOf(shown), Evidence.orthonormal(others))
         if (direction.isEmpty()) return 1.0

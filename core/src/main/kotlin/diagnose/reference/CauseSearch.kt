@@ -73,7 +73,8 @@ internal class CauseSearch(
         val isNone = GainSign(base).isTurned(best) || (term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)) ||
             (term.cause == Cause.QUANTISATION && scales.resolution < sqrt(best.variance))
         val own = if (places > 0) jumpsPValue(base, best, corrected) else Evidence.pValue(ratio, degrees)
-        val p = if (isNone) 1.0 else maxOf(own, ownPValue(base, best, term), AnyResponse(base).pValue(best, term.cause, degrees))
+        val ofItself = maxOf(ownPValue(base, best, term), AnyResponse(base).pValue(best, term.cause, degrees))
+        val p = if (isNone) 1.0 else maxOf(own, ofItself)
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
         var gained = heldOut.logLikelihood - baseHeldOut.logLikelihood

@@ -93,8 +93,8 @@ internal class ReferenceWarnings(
 
     private companion object {
         const val ONE_WAY =
-            "The reference goes up or down, or there and back, once: a cause that goes with the value or the time shows " +
-                "only beyond what a response of another shape does. Several moves to and fro would tell them apart."
+            "The reference goes up or down, or there and back, once: a cause that goes with the value or the time " +
+                "shows only beyond what a response of another shape does. Several moves to and fro would tell them apart."
         const val APART =
             "Rows are far apart for what the water changes by, and how it went between them is not in the log."
 
