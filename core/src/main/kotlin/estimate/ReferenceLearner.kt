@@ -126,7 +126,7 @@ public class ReferenceLearner(
         return if (left > 0) bent / left else Double.POSITIVE_INFINITY
     }
 
-    /** Time constant of the likeliest first-order lag, s, to a factor of two half octaves. */
+    /** Time constant of the likeliest first-order lag, s, to half an octave. */
     private fun likeliestLag(): Double =
         List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
             .maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }

@@ -6,6 +6,7 @@ import stillwater.diagnose.algebra.dot
 import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
+import stillwater.diagnose.response.Term
 import kotlin.math.abs
 
 /**
@@ -28,16 +29,16 @@ internal class AnyResponse(private val base: ModelFit) {
     }
 
     /**
-     * Probability by chance of what [fit], the base with a term more, explains beyond any linear response, with [degrees] numbers
-     * more; 0 where the reference turns often enough or [cause] is a shape of response itself.
+     * Probability by chance of what [fit], the base with [term], explains beyond any linear response, with [degrees] numbers
+     * more; 0 where the reference turns often enough or the term is a shape of response itself.
      */
-    fun pValue(fit: ModelFit, cause: Cause, degrees: Int): Double {
-        if (cause !in CONFUSED || !hardlyTurns(series)) return 0.0
+    fun pValue(fit: ModelFit, term: Term, degrees: Int): Double {
+        if (term.cause !in CONFUSED || !hardlyTurns(series)) return 0.0
         val shown = whitened(fit, DoubleArray(series.size) { fit.predicted[it] - base.predicted[it] })
-        // A cause may free a number of the base, as a given sensor's; new terms stand last.
-        val kept = fit.free.indices.filter { fit.free[it] }.zip(fit.jacobian.toList())
-            .filter { (i, _) -> i < ResponseModel.BASE || base.free.getOrElse(i) { false } }.map { it.second }
-        val others = kept + columns.map { whitened(fit, it) }
+        val slot = fit.model.slotOrNull(term)
+        val own = if (slot == null) IntRange.EMPTY else slot until slot + fit.model.width(term)
+        val kept = fit.free.indices.filter { fit.free[it] }.zip(fit.jacobian.toList()).filter { it.first !in own }
+        val others = kept.map { it.second } + columns.map { whitened(fit, it) }
         val direction = Evidence.orthonormal(listOf(shown), Evidence.orthonormal(others))
         if (direction.isEmpty()) return 1.0
         val explained = dot(direction.single(), shown).let { it * it }

@@ -73,7 +73,9 @@ internal class CauseSearch(
         val isNone = GainSign(base).isTurned(best) || (term.cause == Cause.SATURATION && RangeEnd.isNone(best, used)) ||
             (term.cause == Cause.QUANTISATION && scales.resolution < sqrt(best.variance))
         val own = if (places > 0) jumpsPValue(base, best, corrected) else Evidence.pValue(ratio, degrees)
-        val ofItself = maxOf(ownPValue(base, best, term), AnyResponse(base).pValue(best, term.cause, degrees))
+        // Where a log has no place for a jump nothing is added.
+        val added = if (best === base) term else best.model.terms.last()
+        val ofItself = maxOf(ownPValue(base, best, term), AnyResponse(base).pValue(best, added, degrees))
         val p = if (isNone) 1.0 else maxOf(own, ofItself)
         val worthHolding = p < settings.heldOutBelow
         val heldOut = if (worthHolding) HeldOut.score(best, used) else baseHeldOut
@@ -83,8 +85,6 @@ internal class CauseSearch(
         }
         val isWorse = heldOut.rmse > WORSE * baseHeldOut.rmse
         val worth = if (isWorse) Double.NEGATIVE_INFINITY else gain - cost
-        // Where a log has no place for a jump nothing is added.
-        val added = if (best === base) term else best.model.terms.last()
         return Trial(added, best, ratio, inflation, degrees, cost, worth, p, heldOut, gained > 0 && !isWorse)
     }
 

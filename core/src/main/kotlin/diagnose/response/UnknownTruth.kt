@@ -116,8 +116,8 @@ internal class UnknownTruth private constructor(
             val to = times[row] + sensor.delay
             var i = times.binarySearch(from).let { if (it >= 0) it + 1 else -it - 1 }.coerceAtLeast(1)
             while (i < times.size && !isGap[i]) {
-                val within = minOf(times[i], to) - maxOf(times[i - 1], from)
-                val part = maxOf(within / (to - from), 0.0)
+                val overlap = minOf(times[i], to) - maxOf(times[i - 1], from)
+                val part = maxOf(overlap / (to - from), 0.0)
                 val later = if (sensor.second > 0) exp(-maxOf(0.0, times[i - 1] - from) / sensor.second) else 0.0
                 val share = maxOf(part, later)
                 if (share < SEEN) break
