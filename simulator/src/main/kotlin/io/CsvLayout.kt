@@ -86,23 +86,14 @@ internal class CsvLayout(
             } else {
                 search(content, begin, stated?.let(::listOf) ?: SEPARATORS, wanted)
             }
-            if (header == null) {
-                refuseNumbersAlone(content, begin)
-                refuseBlanks(content)
-            }
+            if (header == null && !isOfNumbers(head[begin])) refuseBlanks(content)
             return layout(content, header ?: Header(begin, separator))
         }
 
-        /** A table that begins with its numbers does not say what they are. */
-        private fun refuseNumbersAlone(content: LogContent, begin: Int) {
-            val line = content.head[begin]
-            val isTable = SEPARATORS.any { separator ->
-                val fields = fields(line, separator).orEmpty()
-                fields.size > 1 && fields.all { CellText.isTime(it) || CellText.isNumber(it, separator != ',') }
-            }
-            if (!isTable) return
-            val expected = "a line with the names of the columns before the numbers, such as time_s,x_m,y_m,value"
-            throw LogProblem(content.file, begin + 1L, null, expected, quoted(line))
+        /** Whether one of the separators parts [line] into numbers and times alone: its table has no header. */
+        private fun isOfNumbers(line: String): Boolean = SEPARATORS.any { separator ->
+            val fields = fields(line, separator).orEmpty()
+            fields.size > 1 && fields.all { CellText.isTime(it) || CellText.isNumber(it, separator != ',') }
         }
 
         /** Of columns with blanks between them nobody can say where a name or a time with blanks in it ends. */

@@ -228,12 +228,12 @@ class MisreadLogTest {
             Case(
                 "numbers without names, and commas",
                 "2014-8-7 22:6:14,1,43.55,69.57,0.15\n2014-8-7 22:6:17,1,43.56,69.57,0.16\n",
-                "log.csv:1: expected a line with the names of the columns before the numbers",
+                "log.csv:1: expected a header line with column names",
             ),
             Case(
                 "numbers without names, and tabs",
                 "20.0\t35234.9\t-0.018\n20.0\t1873.1\t-0.019\n",
-                "log.csv:1: expected a line with the names of the columns before the numbers",
+                "log.csv:1: expected a header line with column names",
             ),
             Case(
                 "many rows with blanks between columns",
