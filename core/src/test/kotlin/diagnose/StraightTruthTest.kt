@@ -28,13 +28,13 @@ class StraightTruthTest {
     /** A simulation that holds the mean of two rows is so near that the lag was 0.05 s short, of errors of 0.025 s. */
     @Test
     fun itsLagIsNotThatOfASimulationByMeans() {
-        val lags = (1L..8L).map { seed ->
+        val lags = (1L..6L).map { seed ->
             val result = Diagnosis(log(seed)).run()
             assertIs<Verdict.Consistent>(result.verdict, "seed $seed")
             result.baseline.parameters.first().value
         }
         // Three standard errors of the mean.
-        assertEquals(LAG, lags.average(), 0.027, "$lags")
+        assertEquals(LAG, lags.average(), 0.031, "$lags")
     }
 
     private companion object {
