@@ -94,7 +94,7 @@ public class ReferenceLearner(
      * still rarer than one in twenty.
      */
     public fun lagRange(): ClosedFloatingPointRange<Double> {
-        val times = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
+        val times = lagsTried()
         val none = total(ResponseKind.NONE, doubleArrayOf())
         val each = times.map { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
         val least = maxOf(none, each.max()) - CLEARLY / 2
@@ -127,14 +127,15 @@ public class ReferenceLearner(
     }
 
     /** Time constant of the likeliest first-order lag, s, to half an octave. */
-    private fun likeliestLag(): Double =
-        List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
-            .maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+    private fun likeliestLag(): Double = lagsTried().maxBy { total(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }
+
+    /** Time constants from an eighth of a step on, s, half an octave apart. */
+    private fun lagsTried() = List(RANGE_TIMES) { series.medianStep * DELAY_FROM * Math.pow(2.0, it / 2.0) }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
         if (count < FEWEST || (kind == ResponseKind.FLOW && !series.hasSpeeds)) return null
         // How the sensor follows a fall does not show in a log that only rises.
-        if (kind == ResponseKind.ASYMMETRIC && !BothWays.areIn(reference, usable)) return null
+        if (kind == ResponseKind.ASYMMETRIC && !goesBothWays()) return null
         val fit = ResponseFit(kind, groupOf, groups, { plausible(kind, it) }, { scores(kind, it) }, isSharp = true)
         if (kind == ResponseKind.SLEW) {
             val slopes = (0 until series.size - 1).filter { usable[it] && usable[it + 1] }.map {
@@ -149,6 +150,11 @@ public class ReferenceLearner(
         }
         val delays = List(DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble()) }
         return upright(fit.best(delays.maxBy { plausible(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }))
+    }
+
+    private fun goesBothWays(): Boolean {
+        val seen = reference.filterIndexed { i, _ -> usable[i] }.toDoubleArray()
+        return seen.isNotEmpty() && Turns.of(seen) > 0
     }
 
     /** [found] unless its readings fall with the reference where they rise with it, or its slow path is the faster one. */

@@ -149,7 +149,7 @@ internal class CsvLayout(
             val table = Table(head, header.index, header.separator, emptySet())
             val units = table.units(header.index)
             val body = header.index + 1 + units
-            val rows = (body until head.size).filterNot(table::isPassed)
+            val rows = (body until head.size).asSequence().filterNot(table::isPassed)
             // Between a header and its rows a logger's settings may stand.
             val sample = rows.firstOrNull { table.hasRow(it, header.index) } ?: rows.firstOrNull()
             return CsvLayout(

@@ -7,7 +7,7 @@ import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
-import kotlin.math.abs
+import stillwater.estimate.Turns
 
 /**
  * What a linear response of any shape would show in a log whose reference hardly turns.
@@ -74,34 +74,13 @@ internal class AnyResponse(private val base: ModelFit) {
             Cause.ASYMMETRIC_RESPONSE,
         )
 
-        /** Of the reference's range, by which it must go back for a turn. */
-        private const val TURN = 0.1
         private const val FEW_TURNS = 1
 
         /** Time constants for which a response is followed. */
         private const val LAGS = 6.0
 
         /** Whether the reference of [series] turns at most once. */
-        fun hardlyTurns(series: MeasuredSeries): Boolean {
-            val truth = series.reference ?: return false
-            val back = TURN * (truth.max() - truth.min())
-            var turns = 0
-            var direction = 0
-            var farthest = truth[0]
-            for (value in truth) {
-                if (direction != 0 && (value - farthest) * direction < -back) {
-                    turns++
-                    direction = -direction
-                    farthest = value
-                } else if (direction == 0 && abs(value - truth[0]) > back) {
-                    direction = if (value > truth[0]) 1 else -1
-                    farthest = value
-                } else if ((value - farthest) * direction > 0) {
-                    farthest = value
-                }
-            }
-            return turns <= FEW_TURNS
-        }
+        fun hardlyTurns(series: MeasuredSeries): Boolean = series.reference?.let { Turns.of(it) <= FEW_TURNS } == true
 
         /** Lags, s, from none to at least [last], a row of [period] s apart at first and then ever farther. */
         private fun edges(period: Double, last: Double): List<Double> {

@@ -1,7 +1,6 @@
 package stillwater.diagnose.reference
 
 import stillwater.diagnose.Cause
-import stillwater.diagnose.algebra.SymmetricSystem
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Term
@@ -9,7 +8,6 @@ import stillwater.diagnose.response.conditionalNumber
 import stillwater.model.Conditions
 import kotlin.math.exp
 import kotlin.math.ln
-import kotlin.math.sqrt
 
 /**
  * Where a number of a given sensor would be right, once a cause lets it change with a condition.
@@ -39,19 +37,13 @@ internal object CalibrationPoint {
 
     private fun isWithin(fit: ModelFit, base: ModelFit, number: Int): Boolean {
         if (base.free[number] || !fit.free[number]) return true
-        val off = ERRORS * error(fit, number)
+        val off = ERRORS * fit.standardError(number)
         if (number == ResponseModel.TIME_CONSTANT) {
             val shown = timeConstants(fit)
             return base.numbers[number] in shown.start * exp(-off)..shown.endInclusive * exp(off)
         }
         val shown = offsets(fit)
         return base.numbers[number] in shown.start - off..shown.endInclusive + off
-    }
-
-    /** Standard error of [number], on the scale it is fitted on. */
-    private fun error(fit: ModelFit, number: Int): Double {
-        val place = fit.free.indices.filter { fit.free[it] }.indexOf(number)
-        return sqrt(SymmetricSystem.of(fit.jacobian, fit.whitened).inverseDiagonal(place) * fit.variance)
     }
 
     private fun ModelFit.number(term: Term) = model.slotOrNull(term)?.let { numbers[it] } ?: 0.0

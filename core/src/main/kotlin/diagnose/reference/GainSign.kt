@@ -1,9 +1,7 @@
 package stillwater.diagnose.reference
 
-import stillwater.diagnose.algebra.SymmetricSystem
 import stillwater.diagnose.response.ModelFit
 import stillwater.diagnose.response.ResponseModel
-import kotlin.math.sqrt
 
 /**
  * Whether readings rise with the reference, as [base] has it for certain.
@@ -14,18 +12,15 @@ import kotlin.math.sqrt
  */
 internal class GainSign(private val base: ModelFit) {
     private val gain = base.numbers[ResponseModel.GAIN]
-    private val isRising by lazy { gain > DEVIATIONS * deviation() }
+
+    /** A gain that was given is known. */
+    private val isRising by lazy {
+        val isGiven = !base.free[ResponseModel.GAIN]
+        gain > if (isGiven) 0.0 else DEVIATIONS * base.standardError(ResponseModel.GAIN)
+    }
 
     /** Whether readings fall with the reference in [fit] though they rise with it. */
     fun isTurned(fit: ModelFit): Boolean = fit.numbers[ResponseModel.GAIN] < 0 && isRising
-
-    /** Standard error of the gain; 0 of one that was given. */
-    private fun deviation(): Double {
-        if (!base.free[ResponseModel.GAIN]) return 0.0
-        val place = (0 until ResponseModel.GAIN).count { base.free[it] }
-        val squared = SymmetricSystem.of(base.jacobian, base.whitened).inverseDiagonal(place) * base.variance
-        return sqrt(squared)
-    }
 
     private companion object {
         const val DEVIATIONS = 3.0

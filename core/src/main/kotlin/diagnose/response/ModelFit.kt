@@ -5,6 +5,7 @@ import stillwater.diagnose.algebra.squares
 import stillwater.diagnose.noise.CorrelatedNoise
 import kotlin.math.abs
 import kotlin.math.exp
+import kotlin.math.sqrt
 
 /**
  * A model with the numbers that fit a log best under correlated noise.
@@ -29,6 +30,12 @@ internal class ModelFit(
 
     /** Whitened derivatives by each free parameter, on the scale it is fitted on. */
     val jacobian: Array<DoubleArray> by lazy { Fitting.jacobian(this) }
+
+    /** Standard error of number [i], which was fitted, on the scale it is fitted on. */
+    fun standardError(i: Int): Double {
+        val place = (0 until i).count { free[it] }
+        return sqrt(SymmetricSystem.of(jacobian, whitened).inverseDiagonal(place) * variance)
+    }
 
     /** What the model shows, sensor units, length n. */
     val predicted: DoubleArray by lazy {
