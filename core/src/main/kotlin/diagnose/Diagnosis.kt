@@ -6,6 +6,7 @@ import stillwater.diagnose.blind.GivenLag
 import stillwater.diagnose.blind.LongDelay
 import stillwater.diagnose.reference.GivenSensor
 import stillwater.diagnose.reference.ReferenceDiagnosis
+import stillwater.estimate.FailedReference
 
 /**
  * Finds what a simulation gets wrong about a measured log, by name.
@@ -42,10 +43,18 @@ public class Diagnosis(
         val sane = series.withoutWild()
         val truth = sane.reference ?: reference
         val wrong = reference.indices.count { truth[it] != reference[it] }
-        val notes = listOfNotNull(WildNumbers.words(wrong).takeIf { wrong > 0 })
-        val answer = ReferenceDiagnosis(sane, settings, loops, 0.0, progress = progress).answer()
+        val failed = FailedReference.rows(sane.values, truth)
+        val notes = listOfNotNull(
+            WildNumbers.words(wrong).takeIf { wrong > 0 },
+            words(failed.size).takeIf { failed.isNotEmpty() },
+        )
+        val known = sane.withoutFailed(failed)
+        val answer = ReferenceDiagnosis(known, settings, loops, 0.0, progress = progress).answer()
         return answer.ofRead(series.isRead, notes).also { progress(1.0) }
     }
+
+    /** That the reference failed in so many [rows], as a sentence. */
+    private fun words(rows: Int) = FailedReference.words(rows).replaceFirstChar(Char::uppercase) + "."
 
     private fun withoutReference(): DiagnosisResult {
         val given = settings.base ?: return LongDelay(series, settings, loops, progress).answer()

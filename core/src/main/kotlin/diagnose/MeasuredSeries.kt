@@ -188,9 +188,35 @@ public class MeasuredSeries private constructor(
         )
     }
 
+    /** This log with the truth guessed in the rows where its reference [failed], whose readings count no more. */
+    internal fun withoutFailed(failed: List<Int>): MeasuredSeries {
+        if (failed.isEmpty()) return this
+        val truth = checkNotNull(reference) { "a log without a reference has none that failed" }.copyOf()
+        val unread = readRows()
+        val guessed = isGuessed?.copyOf() ?: BooleanArray(size)
+        for (row in failed) {
+            unread[row] = false
+            guessed[row] = true
+        }
+        for (row in failed) {
+            // Straight from the row before to the row behind; where there is one of them alone, as that.
+            val before = (row - 1 downTo 0).firstOrNull { !guessed[it] }
+            val after = (row + 1 until size).firstOrNull { !guessed[it] } ?: before ?: row
+            val from = before ?: after
+            val share = if (from < after) (times[row] - times[from]) / (times[after] - times[from]) else 0.0
+            truth[row] = truth[from] + share * (truth[after] - truth[from])
+        }
+        return MeasuredSeries(times, x, y, values, truth, conditions, isSparse, unread, wild, guessed)
+    }
+
+    /** This log with its reference as it was written; itself where nothing was taken off that. */
+    internal var written: MeasuredSeries = this
+        private set
+
     /** This log with the same [reference] but for its noise. */
     internal fun withQuieter(reference: DoubleArray) =
         MeasuredSeries(times, x, y, values, reference, conditions, isSparse, isRead, wild, isGuessed, this)
+            .also { it.written = written }
 
     /** This log with [reference] as what is known of the truth. */
     internal fun withReference(reference: DoubleArray) =

@@ -49,6 +49,15 @@ public class TrackSeries private constructor(
         if (steps.isEmpty()) Double.NaN else steps[steps.size / 2]
     }
 
+    /** Whether nine in ten readings come whole median steps after the one before, to a twentieth of one. */
+    internal val isEven: Boolean by lazy {
+        val off = (1 until size).count { i ->
+            val steps = (times[i] - times[i - 1]) / medianStep
+            kotlin.math.abs(steps - Math.rint(steps)) > OFF_STEP
+        }
+        off * UNEVEN < size
+    }
+
     /** Silences longer than this end a stretch, s: five median steps. */
     public val gapLimit: Double get() = GAP_STEPS * medianStep
 
@@ -131,6 +140,9 @@ public class TrackSeries private constructor(
     }
 
     private companion object {
+        /** Of a median step: a reading that comes so far off a whole number of them is not even; one in so many may be. */
+        const val OFF_STEP = 0.05
+        const val UNEVEN = 10
         const val GAP_STEPS = 5.0
         const val TAIL = 0.1
         const val LEAST_RANGE = 1.2

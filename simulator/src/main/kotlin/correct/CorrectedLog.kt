@@ -4,6 +4,7 @@ import stillwater.diagnose.ConditionGaps
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnosis.ConditionColumns
 import stillwater.estimate.CorrectedTrack
+import stillwater.estimate.FailedReference
 import stillwater.estimate.LikelyResponse
 import stillwater.estimate.Response
 import stillwater.estimate.ResponseChoice
@@ -136,6 +137,10 @@ class CorrectedLog internal constructor(
 
         private const val FEWEST = 30
 
+        /** Why what a reference seemed to show is not undone. */
+        private const val LOST =
+            "undoing the responses that it leaves open would take the values farther than all that was ever measured"
+
         /** What is said of rows whose condition is not known for long: every row is corrected. */
         private const val BRIDGED_FAR = "guessed in the same way"
 
@@ -164,42 +169,41 @@ class CorrectedLog internal constructor(
             val names = conditions.keys.toList()
             val rows = Rows(names.size)
             val scan = SurveyScan()
-            val pass = log.read(progress) { time, x, y, value, seen ->
-                rows.add(time.seconds, x, y, value, seen[REFERENCE], *DoubleArray(names.size) { seen[names[it]] })
-                scan.take(time, x, y, value, seen)
-            }
-            if (pass.readings < FEWEST) {
-                val expected = "at least $FEWEST readings of ${log.quantity}"
-                throw LogProblem(log.file, null, null, expected, "${pass.readings}")
-            }
+            val pass = read(log, names, rows, scan, progress)
             val plain = rows.series()
             val measured = names.mapIndexed { i, name -> name to rows.condition(i) }.toMap()
             val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
             val series = if (knowsSpeed(log, conditions.keys)) plain.withSpeedOf(others) else plain
             SquareReach.require(log, series.values, rows.references())
+            val failed = if (hasReference) FailedReference.rows(series.values, rows.references()) else emptyList()
+            val references = rows.references().also { all -> failed.forEach { all[it] = Double.NaN } }
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
             val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
-            val learned = when {
+            val tried = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
                     null,
                     listOf(LikelyResponse(listOf(undone.response), 1.0)),
                     given.stages,
                 )
-                hasReference -> SensorLearning.byReference(log, series, rows.references(), unusable)
+                hasReference -> SensorLearning.byReference(log, series, references, unusable)
                 else -> SensorLearning.byRevisits(series, unusable, log.frame != null)
             }
-            val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
-            fun corrected(likely: List<LikelyResponse>) =
+            fun corrected(learned: Learned, likely: List<LikelyResponse> = learned.likely) =
                 corrected(series, likely, learned.calibration, resolution, others, unusable)
-            val narrow = corrected(learned.likely)
+            val first = corrected(tried)
+            val isLost = isLost(tried, first, series, references)
+            val other = if (isLost) SensorLearning.byRevisits(series, unusable, log.frame != null) else null
+            val learned = other?.copy(fault = LOST) ?: tried
+            val narrow = if (isLost) corrected(learned) else first
+            val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
             val agreement = TrackAgreement.of(series, narrow)
             val agreed = learned.agreed(narrow, agreement)
             // A given sensor's intervals are the giver's. All others must hold a reference that is there, learned from or not.
             val isMeasured = hasReference && learned.origin != SensorOrigin.GIVEN
-            val margin = if (isMeasured) ReferenceMargin.of(series, agreed, rows.references()) else null
+            val margin = if (isMeasured) ReferenceMargin.of(series, agreed, references) else null
             val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,
@@ -209,7 +213,8 @@ class CorrectedLog internal constructor(
                 spec,
                 unhinted,
                 // Where a reference says how far intervals have to reach, a hint has nothing to add.
-                learned.hinted?.takeIf { margin?.isEnough != true }?.let { unhinted.holding(corrected(listOf(it))) },
+                learned.hinted?.takeIf { margin?.isEnough != true }
+                    ?.let { unhinted.holding(corrected(learned, listOf(it))) },
                 statistics,
                 legs(series, unusable.bridged(series)),
                 legs(series, unhinted.values),
@@ -218,8 +223,44 @@ class CorrectedLog internal constructor(
                 margin,
                 unusable,
                 others,
-                bridged,
+                bridged + listOfNotNull(FailedReference.words(failed.size).takeIf { failed.isNotEmpty() }),
             )
+        }
+
+        /** Puts all readings of [log] into [rows], with the conditions [names], and [scan]. */
+        private fun read(
+            log: SurveyLog,
+            names: List<String>,
+            rows: Rows,
+            scan: SurveyScan,
+            progress: (Long) -> Unit,
+        ): LogPass {
+            val pass = log.read(progress) { time, x, y, value, seen ->
+                rows.add(time.seconds, x, y, value, seen[REFERENCE], *DoubleArray(names.size) { seen[names[it]] })
+                scan.take(time, x, y, value, seen)
+            }
+            if (pass.readings < FEWEST) {
+                val expected = "at least $FEWEST readings of ${log.quantity}"
+                throw LogProblem(log.file, null, null, expected, "${pass.readings}")
+            }
+            return pass
+        }
+
+        /**
+         * Whether what was [learned] from the [references] takes the values, on average of all rows of the [track], farther off
+         * than these and the [series] reach together: then it is none of a sensor.
+         */
+        private fun isLost(
+            learned: Learned,
+            track: CorrectedTrack,
+            series: TrackSeries,
+            references: DoubleArray,
+        ): Boolean {
+            if (learned.origin != SensorOrigin.REFERENCE) return false
+            val known = references.filter { it.isFinite() }
+            val gain = UndoableSensor.of(SensorSpec("", learned.calibration)).gain
+            val reach = known.max() - known.min() + (series.values.max() - series.values.min()) / abs(gain)
+            return track.meanHalfWidth > reach
         }
 
         /** Whether [log] tells the speed: along a transect in any unit places do not, unless it is one of [conditions]. */

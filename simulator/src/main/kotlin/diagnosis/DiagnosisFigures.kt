@@ -30,6 +30,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
     private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
     private val stride = maxOf(1, n / MOST_POINTS)
+    private val gap = GAP_STEPS * usual((1 until n).map { time[it] - time[it - 1] })
     private val moves = hypot(spread(columns.x), spread(columns.y)) > 1e-9
 
     /**
@@ -61,9 +62,9 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
 
     private fun predicted(): DiagnosisFigure {
         val series = listOfNotNull(
-            Series("measured", time, columns.values),
-            Series("base", time, result.baseline.predicted),
-            result.extended?.takeIf { it !== result.baseline }?.let { Series("extended", time, it.predicted) },
+            curve("measured", columns.values),
+            curve("base", result.baseline.predicted),
+            result.extended?.takeIf { it !== result.baseline }?.let { curve("extended", it.predicted) },
         )
         val plot = LinePlot("Measured and predicted", "", series, "Time since the first row (s)", quantity)
         return DiagnosisFigure(
@@ -71,6 +72,19 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
             plot.draw(),
             "What was measured and what the simulation shows on the same track.",
         )
+    }
+
+    /** [column] over time, interrupted where nothing was logged. */
+    private fun curve(name: String, column: DoubleArray): Series {
+        val gaps = (1 until n).filter { time[it] - time[it - 1] > gap }
+        if (gaps.isEmpty()) return Series(name, time, column)
+        val x = time.toMutableList()
+        val y = column.toMutableList()
+        for (row in gaps.asReversed()) {
+            x.add(row, (time[row - 1] + time[row]) / 2)
+            y.add(row, Double.NaN)
+        }
+        return Series(name, x.toDoubleArray(), y.toDoubleArray())
     }
 
     private fun against(name: String, label: String, x: DoubleArray): DiagnosisFigure {
@@ -177,7 +191,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
 
     private fun cause(candidate: Candidate): DiagnosisFigure {
         val change = DoubleArray(n) { candidate.predicted[it] - result.baseline.predicted[it] }
-        val series = listOf(Series("residual of the base", time, residual), Series("what the cause adds", time, change))
+        val series = listOf(curve("residual of the base", residual), curve("what the cause adds", change))
         val isNamed = candidate.cause in named
         val plot = LinePlot(
             candidate.cause.label,
@@ -254,11 +268,16 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
 
     private fun degrees(radians: DoubleArray) = DoubleArray(radians.size) { Math.toDegrees(radians[it]).mod(360.0) }
 
+    private fun usual(steps: List<Double>) = steps.sorted().getOrElse(steps.size / 2) { 0.0 }
+
     private fun spread(column: DoubleArray) = (column.maxOrNull() ?: 0.0) - (column.minOrNull() ?: 0.0)
 
     companion object {
         private const val MOST_POINTS = 2000
         private const val MOST_LAGS = 60
+
+        /** Usual steps between rows; a line over a longer one would show what was not measured. */
+        private const val GAP_STEPS = 5
         private const val PARTS = 20
 
         /** All names that a figure may have. */

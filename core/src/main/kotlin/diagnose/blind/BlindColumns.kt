@@ -65,33 +65,33 @@ internal class BlindColumns(private val series: MeasuredSeries, private val scal
     @Volatile
     private var bent: Pair<WaterModes, LinearResponse.Bends>? = null
 
-    private class Kept(val design: BlindDesign, val shown: Shown, val hidden: BooleanArray?) {
-        fun isOf(shown: Shown, hidden: BooleanArray?, noise: BlindNoise) =
-            this.shown.isSame(shown) && this.hidden.contentEquals(hidden) && design.noise.isSame(noise)
+    private class Kept(val design: BlindDesign, val shown: Shown, val rows: ShownRows?) {
+        fun isOf(shown: Shown, rows: ShownRows?, noise: BlindNoise) = this.shown.isSame(shown) &&
+            (this.rows?.isSame(rows) ?: (rows == null)) && design.noise.isSame(noise)
     }
 
     /** The newest last. */
     private val kept = ArrayList<Kept>()
 
     /**
-     * The design of [shown], which is kept for those who soon ask for the same; rows that are [hidden] say nothing of
-     * the water.
+     * The design of [shown], which is kept for those who soon ask for the same; [rows] are those whose water is seen, null
+     * where each row shows its own.
      */
-    fun designed(shown: Shown, hidden: BooleanArray?, noise: BlindNoise): BlindDesign {
-        known(shown, hidden, noise)?.let { return it }
+    fun designed(shown: Shown, rows: ShownRows?, noise: BlindNoise): BlindDesign {
+        known(shown, rows, noise)?.let { return it }
         val design = BlindDesign(shown.size, noise, loops, memory) { out ->
             shown.write(out) { from, to ->
-                if (hidden != null) for (k in from until to) for (i in 0 until n) if (hidden[i]) out[k][i] = 0.0
+                if (rows != null) for (k in from until to) rows.showIn(out[k])
                 noise.whiten(out, from, to)
             }
         }
-        keep(Kept(design, shown, hidden))
+        keep(Kept(design, shown, rows))
         return design
     }
 
     @Synchronized
-    private fun known(shown: Shown, hidden: BooleanArray?, noise: BlindNoise): BlindDesign? {
-        val known = kept.indexOfLast { it.isOf(shown, hidden, noise) }
+    private fun known(shown: Shown, rows: ShownRows?, noise: BlindNoise): BlindDesign? {
+        val known = kept.indexOfLast { it.isOf(shown, rows, noise) }
         return if (known < 0) null else kept.removeAt(known).also { kept += it }.design
     }
 

@@ -101,8 +101,8 @@ internal class BlindRound(
             all.filter { it.term?.cause == Cause.DRIFT && changing > CHANGING_TOO }
         fun weighed(trial: BlindTrial): BlindTrial {
             val cause = trial.term?.cause
-            // Responses are begun anew in blurred water, whatever their first steps gain, and so is a slow path anywhere.
-            val isAsked = (isBlurred && cause in BlindSearch.LINEAR) || cause == Cause.TWO_PATH_RESPONSE
+            // Responses are begun anew in blurred water, whatever their first steps gain, and some anywhere.
+            val isAsked = (isBlurred && cause in BlindSearch.LINEAR) || cause in HIDDEN
             val settled = if (isAsked || trial in likely) settled(trial, other(trial)) else trial
             val clear = if (isBlurred) BeyondWaves.of(settled, search) else settled
             val placed = if (mayBeOnArm(trial)) far(clear) else clear
@@ -248,12 +248,14 @@ internal class BlindRound(
         val term = checkNotNull(trial.term)
         if (term.cause == Cause.SATURATION) return search.suited(tries.ended(term, trial, without))
         if (!isFar(term)) return search.suited(search.with(without, trial))
-        val begun = search.improved(tries.begun(trial, without))
+        val first = tries.begun(trial, without)
+        // A dead band takes the water along, step by step.
+        val begun = if (term.cause == Cause.HYSTERESIS) search.climbed(first) else search.improved(first)
         return if (begun.score < without.score + HOPELESS) begun else search.suited(begun)
     }
 
-    /** Whether a fit of [term] may have to begin far from what the water makes of it: a slow path is like long waves. */
-    private fun isFar(term: Term) = isBlurred || term.cause == Cause.TWO_PATH_RESPONSE
+    /** Whether a fit of [term] may have to begin far from what the water makes of it. */
+    private fun isFar(term: Term) = isBlurred || term.cause in HIDDEN
 
     /**
      * The scores of all of [without], by default of [state] and [still], models without what is new in [found], or what is
@@ -369,6 +371,9 @@ internal class BlindRound(
         const val HOPELESS = 3.0
 
         const val MOST_LIKELY = 5
+
+        /** Causes that other water hides: a slow path is like long waves, and a dead band like a longer lag. */
+        val HIDDEN = setOf(Cause.TWO_PATH_RESPONSE, Cause.HYSTERESIS)
 
         /** Causes that are asked before all others where the one that gains most is none. */
         const val NEXT = 2

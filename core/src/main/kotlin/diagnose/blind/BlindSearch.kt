@@ -7,7 +7,6 @@ import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.noise.CorrelatedNoise
 import stillwater.diagnose.noise.Shocks
 import stillwater.diagnose.response.LinearResponse
-import stillwater.diagnose.response.RangeEnd
 import stillwater.diagnose.response.ResponseModel
 import stillwater.diagnose.response.Scales
 import stillwater.diagnose.response.Steps
@@ -269,7 +268,7 @@ internal class BlindSearch private constructor(
         var model = model(terms, waves, designs.along(waves, heights))
         var residuals = residuals(model, at)
         fun fit() =
-            BlindFit(designs.designed(columns, RangeEnd.beyond(model, at), noise), precisions(bands, waves), heights)
+            BlindFit(designs.designed(columns, ShownRows.of(model, at), noise), precisions(bands, waves), heights)
         var fit = fit()
         var was = 0.0
         var left = 0.0

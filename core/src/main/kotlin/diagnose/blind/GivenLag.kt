@@ -19,9 +19,9 @@ internal class GivenLag(
     spec: SensorSpec,
     private val beside: BlindState? = null,
 ) {
-    /** None where one of them is limited, which this does not look at. */
+    /** None beside what shapes the response as well, which this does not look at: the log's own lag makes up for that. */
     private val lags = spec.stages.filterIsInstance<SensorStage.Lag>()
-        .takeIf { spec.stages.none { it is SensorStage.LimitedLag } }.orEmpty()
+        .takeIf { spec.stages.none(::isShaping) }.orEmpty()
 
     /** Its dead time, which was taken off the log, s. */
     val delay: Double = delay(spec)
@@ -65,6 +65,9 @@ internal class GivenLag(
         /** The dead time of [spec], s. */
         fun delay(spec: SensorSpec): Double =
             spec.stages.filterIsInstance<SensorStage.Delay>().sumOf { it.deadTime }
+
+        private fun isShaping(stage: SensorStage) =
+            stage is SensorStage.LimitedLag || stage is SensorStage.Slew || stage is SensorStage.Backlash
 
         private fun isLookedAt(stage: SensorStage) = stage is SensorStage.Lag || stage is SensorStage.Delay ||
             stage is SensorStage.Calibration || stage is SensorStage.Noise || stage is SensorStage.Wander

@@ -61,8 +61,33 @@ internal class ReferenceDiagnosis(
             return UnwrittenMoves(series, unknown.isGap, settings.base).answer(why)
         }
         val quieter = quieter(checkNotNull(series.reference))
-        if (quieter == null) return finer(weighed()).result()
-        return finer(likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, progress = parts.next(HALF)))).result()
+        val first = if (quieter == null) {
+            weighed()
+        } else {
+            likelier(ReferenceDiagnosis(quieter, settings, loops, 0.0, progress = parts.next(HALF)))
+        }
+        return finer(unrounded(first)).result()
+    }
+
+    /**
+     * The weighing with a smooth course within the reference's steps, where these are coarse beside what [first] leaves and that
+     * explains more; else that one. How smooth it is is asked of what was chosen, too: without it nothing fits.
+     */
+    private fun unrounded(first: Weighing): Weighing {
+        val reference = checkNotNull(series.reference)
+        val step = Scales.resolution(reference)
+        val shown = step / sqrt(12.0) * abs(first.last.numbers[ResponseModel.GAIN])
+        if (series.isSparse || !(shown > NOISY * sqrt(first.last.variance))) return first
+        val fits = setOf(first.base, first.last)
+        val (best, gain) = RoundedReference(reference, step, unknown.isGap).courses().map(series::withQuieter)
+            .map { log ->
+                val open = UnknownTruth.of(log)
+                val calm = Scales(log, open)
+                log to fits.maxOf { likelier(it, it.scales(calm, open, isHeld = false)) }
+            }.maxBy { it.second }
+        if (gain < HELD) return first
+        val second = ReferenceDiagnosis(best, settings, loops, 0.0) { }.weighed()
+        return if (second.explained > first.explained + HELD) second else first
     }
 
     /**
@@ -89,9 +114,12 @@ internal class ReferenceDiagnosis(
     }
 
     /** By how much the model of [fit] is likelier in the log of [scales], with its truth between the rows; doubled. */
-    private fun gain(fit: ModelFit, scales: Scales): Double {
-        val own = scales.shaken(unknown, fit.model.scales.shocks, fit.model.scales.doubt)
-        val model = ResponseModel(scales.series, fit.model.terms, Steps.EVEN, own)
+    private fun gain(fit: ModelFit, scales: Scales): Double =
+        likelier(fit, scales.shaken(unknown, fit.model.scales.shocks, fit.model.scales.doubt))
+
+    /** By how much the model of [fit] is likelier in the log of [own]; doubled. */
+    private fun likelier(fit: ModelFit, own: Scales): Double {
+        val model = ResponseModel(own.series, fit.model.terms, Steps.EVEN, own)
         return Fitting.fit(model, fit.numbers, fit.free, fit.noise.used, longest, guess = fit.noise).score - fit.score
     }
 

@@ -91,6 +91,7 @@ internal class Weighing(
     private val warnings = ReferenceWarnings(base, last, settings, late, before)
 
     private val still by lazy { StillReadings(last) }
+    private val coarse by lazy { CoarseTruth(base, last, report) }
 
     /** In words, what the noise goes with; null where it is even. */
     private val uneven by lazy { UnevenNoise(last).words(settings.level / tried) }
@@ -236,10 +237,9 @@ internal class Weighing(
             )
             // A clock that is behind is no lag of a reference, and leaves something that is put right as one.
             all.isEmpty() && late > ReferenceLead.ordinary(base) -> Verdict.Unexplained(ReferenceLead.words(late))
-            structured && isMore(left) && isCoarse() -> Verdict.InsufficientData(
-                "rows are so far apart that how the truth went in between might explain what is left",
-            )
-            structured && isMore(left) -> Verdict.Unexplained(LeftOver(base, chosen).words(left))
+            structured && isMore(left) -> coarse.left()?.let(Verdict::InsufficientData)
+                ?: Verdict.Unexplained(LeftOver(base, chosen).words(left))
+            sets.isNotEmpty() && coarse.chosen() != null -> Verdict.InsufficientData(checkNotNull(coarse.chosen()))
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
@@ -248,10 +248,6 @@ internal class Weighing(
             else -> Verdict.Named(all.map { it.single() })
         }
     }
-
-    /** Whether what is not known of the truth between rows makes much of what the model leaves of the single reading. */
-    private fun isCoarse(): Boolean = scales.unknown?.isSharp != true &&
-        ReferenceGaps.reach(last) > COARSELY * sqrt(series.size.toDouble())
 
     /**
      * Whether the truth moves within a row so often that how the reading follows it is not known. It is known all the same
@@ -384,9 +380,6 @@ internal class Weighing(
 
         /** Of the noise's variance: more of it is told of rounding. */
         const val ROUNDED = 0.25
-
-        /** Of what is left, what is not known between rows may make of it; both as deviations of a reading. */
-        const val COARSELY = 0.2
 
         /** Standard errors by which what is not known of the truth may move a fit before its causes are in doubt. */
         const val MOST_UNKNOWN = 2.0

@@ -78,7 +78,7 @@ internal class Scales private constructor(
     fun white(rows: BooleanArray) = CorrelatedNoise(series.times, 0.0, 1.0, rows, shocks)
 
     /** Speed that counts as ordinary, m/s. */
-    val ordinarySpeed: Double = like?.ordinarySpeed ?: maxOf(median(series.speed), SLOWEST)
+    val ordinarySpeed: Double = like?.ordinarySpeed ?: maxOf(ordinary(series.speed), SLOWEST)
 
     /** Log of speed over the ordinary, as the lag takes it. */
     val logSpeed: DoubleArray =
@@ -123,6 +123,17 @@ internal class Scales private constructor(
 
     companion object {
         private const val SLOWEST = 0.01
+
+        /** Of the speed that only one row in twenty exceeds: a boat that is slower stands. */
+        private const val STANDING = 0.1
+        private const val FAST = 0.95
+
+        /** Median of [speeds], m/s; of a boat that stands most of the time, of when it does not. */
+        private fun ordinary(speeds: DoubleArray): Double {
+            val standing = STANDING * speeds.sortedArray().let { it[(FAST * (it.size - 1)).toInt()] }
+            val usual = median(speeds)
+            return if (usual < standing) median(speeds.filter { it >= standing }.toDoubleArray()) else usual
+        }
 
         /** Part of a step by which the mean of all differs from the smallest for arithmetic alone. */
         private const val SAME = 1e-6

@@ -33,6 +33,10 @@ internal class Starts(
             Cause.DEAD_TIME -> listOf(series.period, tau / 3).map(::late)
             // 195263 is found from there alone, where it gains nothing yet.
             Cause.POSITION_OFFSET -> of(term.cause)
+            // A dead band holds readings back, as a longer lag does.
+            Cause.HYSTERESIS -> listOf(0.05 to 0.7, 0.12 to 0.45).map { (width, share) ->
+                with(width * scales.range).also { it[ResponseModel.TIME_CONSTANT] = share * tau }
+            }
             else -> emptyList()
         },
     )

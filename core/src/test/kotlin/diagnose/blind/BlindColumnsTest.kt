@@ -27,13 +27,14 @@ class BlindColumnsTest {
     /** More than are kept: lags of 1, 2, ... s, by turns under noise that is white and that wanders. */
     private val asked = List(MANY) { k ->
         val noise = CorrelatedNoise(series.times, if (k % 2 == 0) 0.0 else 0.6, 5.0, used)
-        Asked(1.0 + k, waters[k / 2 % 2], if (k % 3 == 0) BooleanArray(n) { it in 40..60 } else null, noise)
+        val rows = IntArray(n) { if (it in 40..60) ShownRows.NONE else it }
+        Asked(1.0 + k, waters[k / 2 % 2], if (k % 3 == 0) ShownRows(rows) else null, noise)
     }
 
     private inner class Asked(
         private val lag: Double,
         private val modes: WaterModes,
-        private val hidden: BooleanArray?,
+        private val rows: ShownRows?,
         noise: CorrelatedNoise,
     ) {
         private val noise = BlindNoise(noise, DoubleArray(n) { 1.0 + it % 2 })
@@ -41,7 +42,7 @@ class BlindColumnsTest {
         fun of(columns: BlindColumns) =
             columns.designed(
                 columns.shown(emptyList(), doubleArrayOf(lag, 1.0, 0.0, 0.0), modes, Steps.EVEN),
-                hidden,
+                rows,
                 noise,
             )
     }
