@@ -14,6 +14,7 @@ import kotlin.random.Random
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
 import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
@@ -163,6 +164,9 @@ class UndoableSensorTest {
             // Half a step, 0.5 s, is what the wrong way would make of it.
             assertEquals(6.0, assertNotNull(learned).parameters.single(), 0.1)
         }
+        // No simulation comes unevenly.
+        val uneven = DoubleArray(rows) { times[it] + 0.2 * noise.nextDouble() }
+        assertFalse(ReferenceLearner.isHeld(TrackSeries(uneven, times, DoubleArray(rows), read(true).values), truth))
     }
 
     private companion object {

@@ -335,8 +335,8 @@ internal class CorrectSummary(
             }
             if (result.learned.held) {
                 add(
-                    "the reference looks held over each step, as a simulation holds it: sensor.json is of such " +
-                        "steps, and half a step less is undone",
+                    "the reference looks held over each step, as a simulation that steps once a row holds it: " +
+                        "sensor.json is for such a simulation; what is undone here is half a step shorter",
                 )
             }
             val without = result.learned.withoutReference

@@ -45,6 +45,14 @@ class GivenLagTest {
     }
 
     @Test
+    fun aTimeConstantBesideADeadBandIsNotBlamedForThat() {
+        val result = diagnosed(SensorStage.Lag(2.0), SensorStage.Backlash(0.3), late = 0)
+        assertTrue(result.warnings.any { "The sensor given was not used" in it }, "${result.warnings}")
+        assertTrue(result.candidates.none { it.cause == Cause.TIME_CONSTANT }, "${result.verdict}")
+        assertTrue(result.verdict.ambiguity.isNotEmpty() || result.verdict == Verdict.Consistent, "${result.verdict}")
+    }
+
+    @Test
     @Tag("long")
     fun aWrongTimeConstantBesideItIsNamedAndTheDeadTimeStays() {
         val result = diagnosed(SensorStage.Delay(3.0), SensorStage.Lag(9.0))
