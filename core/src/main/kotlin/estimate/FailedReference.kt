@@ -4,9 +4,8 @@ import kotlin.math.abs
 
 /**
  * Numbers of a reference that are none of the water: where a fast sensor fails, or its plug is loose, it jumps off and comes
- * back, by far more than it moves otherwise, and the readings beside it show nothing of that.
- *
- * What a slow sensor does not show, because it was over too soon, is left out as well: it says as little of the sensor.
+ * back, by far more than it moves otherwise and, there or near by, beyond all that it shows else, and the readings beside it show
+ * nothing of that.
  */
 public object FailedReference {
     /**
@@ -20,13 +19,21 @@ public object FailedReference {
         }
         val known = reference.indices.filter { reference[it].isFinite() }
         if (known.size < FEWEST) return emptyList()
-        val bends = List(known.size - 2) { i ->
-            abs(reference[known[i + 1]] - (reference[known[i]] + reference[known[i + 2]]) / 2)
-        }
-        val usual = bends.filter { it > 0 }.sorted().let { it.getOrNull(it.size / 2) } ?: return emptyList()
+        val moves = known.zipWithNext { before, after -> abs(reference[after] - reference[before]) }
+        val usual = moves.filter { it > 0 }.sorted().let { it.getOrNull(it.size / 2) } ?: return emptyList()
         val runs = runs(known, reference, FAR * usual)
-        val failed = runs.filterNot { shows(known, it, readings) }.flatMap { run -> run.map { known[it] } }
+        val wild = impossible(known, runs, reference)
+        val failed = runs.filter { run -> wild.any { it in run.first - NEAR..run.last + NEAR } }
+            .filterNot { shows(known, it, readings) }.flatMap { run -> run.map { known[it] } }
         return failed.takeIf { it.size <= MOST * known.size }.orEmpty()
+    }
+
+    /** Those of the [known] rows in [runs] that are farther beyond all others than these reach. */
+    private fun impossible(known: List<Int>, runs: List<IntRange>, reference: DoubleArray): List<Int> {
+        val off = runs.flatten().toSet()
+        val others = known.indices.filter { it !in off }.map { reference[known[it]] }
+        val reach = others.max() - others.min()
+        return off.filter { reference[known[it]] !in others.min() - reach..others.max() + reach }
     }
 
     /** That it failed in [count] rows, for the reader. */
@@ -77,7 +84,10 @@ public object FailedReference {
 
     private const val FEWEST = 30
 
-    /** Times what the reference usually bends by from row to row. */
+    /** Rows about one that no water has, in which a reference that jumps has failed, too. */
+    private const val NEAR = 100
+
+    /** Times what the reference usually moves by from row to row. */
     private const val FAR = 30.0
 
     /** Rows that a stretch has at the most. */

@@ -35,6 +35,12 @@ class FailedReferenceTest {
     }
 
     @Test
+    fun whatIsWithinWhatTheWaterDoesIsWater() {
+        val dips = water.copyOf().also { all -> for (i in 100..500 step 100) all[i] += 1.5 }
+        assertEquals(emptyList(), FailedReference.rows(readings(water), dips))
+    }
+
+    @Test
     fun movesThatStayAreWater() {
         val bench = DoubleArray(n) { (if (it / 100 % 2 == 0) 5.0 else 25.0) + 0.002 * random.nextGaussian() }
         assertEquals(emptyList(), FailedReference.rows(readings(bench), bench))

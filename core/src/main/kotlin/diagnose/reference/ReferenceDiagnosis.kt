@@ -83,7 +83,7 @@ internal class ReferenceDiagnosis(
             .map { log ->
                 val open = UnknownTruth.of(log)
                 val calm = Scales(log, open)
-                log to fits.maxOf { likelier(it, it.scales(calm, open, isHeld = false)) }
+                log to fits.maxOf { gained(it, it.scales(calm, open, isHeld = false)) }
             }.maxBy { it.second }
         if (gain < HELD) return first
         val second = ReferenceDiagnosis(best, settings, loops, 0.0) { }.weighed()
@@ -115,10 +115,10 @@ internal class ReferenceDiagnosis(
 
     /** By how much the model of [fit] is likelier in the log of [scales], with its truth between the rows; doubled. */
     private fun gain(fit: ModelFit, scales: Scales): Double =
-        likelier(fit, scales.shaken(unknown, fit.model.scales.shocks, fit.model.scales.doubt))
+        gained(fit, scales.shaken(unknown, fit.model.scales.shocks, fit.model.scales.doubt))
 
     /** By how much the model of [fit] is likelier in the log of [own]; doubled. */
-    private fun likelier(fit: ModelFit, own: Scales): Double {
+    private fun gained(fit: ModelFit, own: Scales): Double {
         val model = ResponseModel(own.series, fit.model.terms, Steps.EVEN, own)
         return Fitting.fit(model, fit.numbers, fit.free, fit.noise.used, longest, guess = fit.noise).score - fit.score
     }
