@@ -188,7 +188,7 @@ public class MeasuredSeries private constructor(
         )
     }
 
-    /** This log with the truth guessed in the rows where its reference [failed], whose readings count no more. */
+    /** This log with the truth bridged in the rows where its reference [failed], whose readings count no more. */
     internal fun withoutFailed(failed: List<Int>): MeasuredSeries {
         if (failed.isEmpty()) return this
         val truth = checkNotNull(reference) { "a log without a reference has none that failed" }.copyOf()
@@ -198,14 +198,9 @@ public class MeasuredSeries private constructor(
             unread[row] = false
             guessed[row] = true
         }
-        for (row in failed) {
-            // Straight from the row before to the row behind; where there is one of them alone, as that.
-            val before = (row - 1 downTo 0).firstOrNull { !guessed[it] }
-            val after = (row + 1 until size).firstOrNull { !guessed[it] } ?: before ?: row
-            val from = before ?: after
-            val share = if (from < after) (times[row] - times[from]) / (times[after] - times[from]) else 0.0
-            truth[row] = truth[from] + share * (truth[after] - truth[from])
-        }
+        val known = DoubleArray(size) { if (guessed[it]) Double.NaN else truth[it] }
+        val bridged = ConditionGaps(times, known).bridged
+        for (row in failed) truth[row] = bridged[row]
         return MeasuredSeries(times, x, y, values, truth, conditions, isSparse, unread, wild, guessed)
     }
 

@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import kotlin.math.abs
 import kotlin.math.pow
 
 /**
@@ -53,7 +54,7 @@ public class TrackSeries private constructor(
     internal val isEven: Boolean by lazy {
         val off = (1 until size).count { i ->
             val steps = (times[i] - times[i - 1]) / medianStep
-            kotlin.math.abs(steps - Math.rint(steps)) > OFF_STEP
+            abs(steps - Math.rint(steps)) > OFF_STEP
         }
         off * UNEVEN < size
     }

@@ -175,9 +175,9 @@ class CorrectedLog internal constructor(
             val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
             val series = if (knowsSpeed(log, conditions.keys)) plain.withSpeedOf(others) else plain
-            SquareReach.require(log, series.values, rows.references())
-            val failed = if (hasReference) FailedReference.rows(series.values, rows.references()) else emptyList()
-            val references = rows.references().also { all -> failed.forEach { all[it] = Double.NaN } }
+            val references = rows.references()
+            SquareReach.require(log, series.values, references)
+            val failed = FailedReference.rows(series.values, references).onEach { references[it] = Double.NaN }
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
             val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)

@@ -4,6 +4,7 @@ import stillwater.diagnose.Candidate
 import stillwater.diagnose.Cause
 import stillwater.diagnose.Revisits
 import stillwater.diagnose.Verdict
+import stillwater.estimate.TrackSeries
 import stillwater.model.Conditions
 import stillwater.plot.Figure
 import stillwater.plot.LinePlot
@@ -30,7 +31,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
     private val time = DoubleArray(n) { columns.times[it] - columns.times[0] }
     private val residual = DoubleArray(n) { columns.values[it] - result.baseline.predicted[it] }
     private val stride = maxOf(1, n / MOST_POINTS)
-    private val gap = GAP_STEPS * usual((1 until n).map { time[it] - time[it - 1] })
+    private val track by lazy { TrackSeries(columns.times, columns.x, columns.y, columns.values) }
     private val moves = hypot(spread(columns.x), spread(columns.y)) > 1e-9
 
     /**
@@ -76,7 +77,7 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
 
     /** [column] over time, interrupted where nothing was logged. */
     private fun curve(name: String, column: DoubleArray): Series {
-        val gaps = (1 until n).filter { time[it] - time[it - 1] > gap }
+        val gaps = (1 until n).filter(track::isAfterGap)
         if (gaps.isEmpty()) return Series(name, time, column)
         val x = time.toMutableList()
         val y = column.toMutableList()
@@ -268,16 +269,11 @@ internal class DiagnosisFigures(private val diagnosed: Diagnosed) {
 
     private fun degrees(radians: DoubleArray) = DoubleArray(radians.size) { Math.toDegrees(radians[it]).mod(360.0) }
 
-    private fun usual(steps: List<Double>) = steps.sorted().getOrElse(steps.size / 2) { 0.0 }
-
     private fun spread(column: DoubleArray) = (column.maxOrNull() ?: 0.0) - (column.minOrNull() ?: 0.0)
 
     companion object {
         private const val MOST_POINTS = 2000
         private const val MOST_LAGS = 60
-
-        /** Usual steps between rows; a line over a longer one would show what was not measured. */
-        private const val GAP_STEPS = 5
         private const val PARTS = 20
 
         /** All names that a figure may have. */

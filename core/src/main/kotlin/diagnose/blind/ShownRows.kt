@@ -13,8 +13,8 @@ import stillwater.diagnose.response.ResponseModel
 internal class ShownRows(private val rows: IntArray) {
     /** Makes [column], what would be seen of a water in each row, what is seen of it. */
     fun showIn(column: DoubleArray) {
-        val seen = column.copyOf()
-        for (i in rows.indices) column[i] = if (rows[i] < 0) 0.0 else seen[rows[i]]
+        // From the end on: none shows a later row, so that what is seen of an earlier one is still there.
+        for (i in rows.lastIndex downTo 0) column[i] = if (rows[i] == NONE) 0.0 else column[rows[i]]
     }
 
     /** Whether [other] is the same. */

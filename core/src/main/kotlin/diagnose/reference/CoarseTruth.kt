@@ -41,11 +41,11 @@ internal class CoarseTruth(private val base: ModelFit, private val last: ModelFi
     }
 
     /** Why what was chosen may be how the truth went; null where it does more. */
-    fun chosen(): String? {
+    val chosen: String? by lazy {
         val before = report.rmse(base)
         val after = report.rmse(last)
         val gained = before * before - after * after
-        return "the reference is written in steps of ${three(step)}, which might do what a cause would explain"
+        "the reference is written in steps of ${three(step)}, which might do what a cause would explain"
             .takeIf { gained < rounding * rounding && rounding > LEFT * after }
     }
 

@@ -239,7 +239,7 @@ internal class Weighing(
             all.isEmpty() && late > ReferenceLead.ordinary(base) -> Verdict.Unexplained(ReferenceLead.words(late))
             structured && isMore(left) -> coarse.left()?.let(Verdict::InsufficientData)
                 ?: Verdict.Unexplained(LeftOver(base, chosen).words(left))
-            sets.isNotEmpty() && coarse.chosen() != null -> Verdict.InsufficientData(checkNotNull(coarse.chosen()))
+            sets.isNotEmpty() && coarse.chosen != null -> Verdict.InsufficientData(checkNotNull(coarse.chosen))
             all.isEmpty() && isFlat(truth) -> Verdict.InsufficientData(
                 "the truth never changes, so that neither a lag nor a gain can show",
             )
