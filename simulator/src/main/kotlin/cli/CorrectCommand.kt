@@ -13,6 +13,7 @@ import com.github.ajalt.clikt.parameters.options.option
 import stillwater.correct.CorrectFiles
 import stillwater.correct.CorrectOutput
 import stillwater.correct.CorrectedLog
+import stillwater.diagnosis.RowsOfTheirOwn
 import stillwater.io.LogChoice
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
@@ -155,14 +156,15 @@ class CorrectCommand : WorkCommand("correct") {
         val wanted = conditions.toMap() + reference?.let { mapOf(CorrectedLog.REFERENCE to it) }.orEmpty()
         // A sensor that is given or shown by a reference is undone in time: passes alone need places.
         val needsPlace = sensor == null && reference == null
-        val opened = SurveyLog.open(file, choice.copy(conditions = wanted, needsPlace = needsPlace))
+        val own = choice.copy(conditions = wanted, needsPlace = needsPlace)
+        val opened = SurveyLog.open(file, own)
         if (reference != null && opened.format.startsWith("Platypus")) {
             throw failure("--reference: expected a CSV log, found a Platypus log")
         }
         if (reference == opened.quantity) {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
-        return opened
+        return RowsOfTheirOwn.of(opened, own, CorrectedLog.REFERENCE)
     }
 
     private fun corrected(opened: SurveyLog, spec: SensorSpec?): CorrectedLog {

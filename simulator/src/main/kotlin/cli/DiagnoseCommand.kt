@@ -19,6 +19,7 @@ import stillwater.diagnosis.DiagnosisFiles
 import stillwater.diagnosis.DiagnosisJson
 import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
+import stillwater.diagnosis.RowsOfTheirOwn
 import stillwater.io.SurveyLog
 import stillwater.report.OutputDirectory
 import stillwater.sensor.SensorSpec
@@ -85,8 +86,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         val choice = logOptions.choice().copy(
             conditions = wanted,
             needsPlace = reference == null,
-            keepsUnread =
-            reference != null,
+            keepsUnread = reference != null,
         )
         val opened = SurveyLog.open(Path.of(log), choice)
         compare.firstOrNull { it == opened.quantity }?.let {
@@ -97,7 +97,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
         }
         requireNoMission(Path.of(out))
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
-            val read = DiagnosisLog.of(opened, conditions.toMap(), reference, compare.distinct())
+            val own = RowsOfTheirOwn.of(opened, choice, DiagnosisLog.REFERENCE)
+            val read = DiagnosisLog.of(own, conditions.toMap(), reference, compare.distinct())
             val shown = !quiet && !json
             val result = WorkProgress(terminal, "weighing causes", unit = "%", WHOLE, shown).use { progress ->
                 diagnosis(read, given) { progress.advance((it * WHOLE).toLong()) }.run()

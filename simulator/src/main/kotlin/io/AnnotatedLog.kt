@@ -8,20 +8,23 @@ import java.io.OutputStreamWriter
 /**
  * What is added to the rows of a log that hold a reading of one quantity.
  *
- * @property log the log as it yields these readings. @property names the columns added.
+ * @param log the log as it yields these readings. @property names the columns added.
  * @property times times of the readings, s, length n. Not modified. @property xs their places, m, length n. Not
  * modified. @property ys likewise. @property values the readings, sensor units, length n. Not modified.
  * @property cells what is added to reading k, one for each of [names]; null for an empty cell.
  */
 internal class AddedColumns(
-    val log: SurveyLog,
+    log: SurveyLog,
     val names: List<String>,
     val times: DoubleArray,
     val xs: DoubleArray,
     val ys: DoubleArray,
     val values: DoubleArray,
     val cells: (Int) -> List<String?>,
-)
+) {
+    /** The log as it stands in its file. */
+    val log: SurveyLog = log.asWritten
+}
 
 /**
  * Writes a log again as CSV, byte for byte as it is, with some more columns behind its own; a Sea-Bird `.cnv` as
@@ -168,7 +171,7 @@ internal class AnnotatedLog(private val parts: List<AddedColumns>) {
          * @throws LogProblem if so.
          */
         fun requireNewNames(log: SurveyLog, names: List<String>) {
-            val survey = log as? CsvSurvey ?: return
+            val survey = log.asWritten as? CsvSurvey ?: return
             val taken = names.firstOrNull { it in survey.columns.names } ?: return
             throw LogProblem(
                 log.file,

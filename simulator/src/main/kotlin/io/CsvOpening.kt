@@ -58,7 +58,7 @@ internal object CsvOpening {
         }
         val columns = CsvColumns.of(CsvColumns.distinct(header), layout, choice, ::problem)
         CsvUnits(content, layout, columns.names).check(columns, choice.x != null)
-        val times = CsvTimes.of(content, layout, columns, choice).rounded(layout, columns)
+        val times = CsvTimes.of(content, layout, columns, choice).rounded(layout, columns, content.seaBird?.clock)
         return CsvSurvey(content, layout, columns, times, choice.skipBadRows, choice.keepsUnread)
     }
 

@@ -156,8 +156,10 @@ internal class CsvSurvey internal constructor(
 
         private fun passOver(row: CsvRow, reason: String) {
             skips.count(reason)
-            // Where times were cut to units, a row without a reading still shows the time of those around it.
-            if ((!keepsUnread && times.rounding == null) || reason !in UnreadRows.REASONS) return
+            // Where times were cut to units, a row without a reading still shows the time of those around it; where each
+            // sensor has a row of its own, it has what was measured beside the reading.
+            val isOfUse = keepsUnread || times.rounding != null || conditionNames.isNotEmpty()
+            if (!isOfUse || reason !in UnreadRows.REASONS) return
             row.numbers[VALUE] = 0.0
             if (problemOf(row) == null) inTime.missed(placed(row))
         }

@@ -16,8 +16,11 @@ internal class CsvTimes(
     val rounding: TimeRounding? = null,
     val label: String? = null,
 ) {
-    /** The same with its [rounding], or [label], told from the head of the log. */
-    fun rounded(layout: CsvLayout, columns: CsvColumns): CsvTimes {
+    /**
+     * The same with its [rounding], or [label], told from the head of the log; [clock] is what the column of times of a
+     * Sea-Bird file was made of, null for other files.
+     */
+    fun rounded(layout: CsvLayout, columns: CsvColumns, clock: SeaBirdHeader.Clock?): CsvTimes {
         val reader = FieldReader(layout.decimalComma, form)
         val rows = layout.body()
         val times = rows.map { row ->
@@ -26,7 +29,9 @@ internal class CsvTimes(
         }
         val label = RowLabels.column(rows, times, columns)
         if (label != null) return CsvTimes(form, notes, expected, expectedDate, label = columns.names[label])
-        val found = TimeRounding.of(times, form) ?: return this
+        val own = clock?.takeIf { it.name == columns.names[columns.time] }
+        fun isRead(row: Int) = !CellText.isMissing(rows[row].getOrNull(columns.value).orEmpty())
+        val found = TimeRounding.of(times, form, own, ::isRead) ?: return this
         if (RowLabels.areApart(rows, times, columns, FASTEST * maxOf(1.0, found.unit), reader::number)) return this
         return CsvTimes(form, notes + "times in ${found.words}", expected, expectedDate, found)
     }

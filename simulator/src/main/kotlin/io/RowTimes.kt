@@ -28,6 +28,7 @@ internal class RowTimes(
 
     /** Decides on the rows that still wait, after the last. */
     fun end() {
+        unread.end()
         order.end()
         restored?.end()
     }

@@ -15,6 +15,7 @@ import java.util.Locale
  *
  * @param longNames long names of the columns, as `Temperature [ITS-90, deg C]`. @param start when the first scan was
  * taken, or null. @param bins what the scans were averaged by, as `decibars: 1`, or null where nothing says so.
+ * @param counted times from how many scans there were, or null where nothing says how often.
  * @property names short names of the columns, as `t090C`. @property endLine line of `*END*`, from 1.
  * @property badFlag number that stands for none. @property clock what the times are made of, or null where there is
  * nothing to make them of.
@@ -27,6 +28,7 @@ internal class SeaBirdHeader private constructor(
     val clock: Clock?,
     private val start: Start?,
     private val bins: String?,
+    private val counted: Clock?,
 ) {
     /** When the first scan was taken: as written, and seconds since 1970 if that is UTC. */
     class Start(val text: String, val seconds: Double, val year: Int)
@@ -82,8 +84,9 @@ internal class SeaBirdHeader private constructor(
 
     /** The same with times from the column [name]; null where that is no time as Sea-Bird writes it. */
     fun timedBy(name: String): SeaBirdHeader? {
-        val found = clock(names.indexOf(name), names, longNames, start) ?: return null
-        return SeaBirdHeader(names, longNames, endLine, badFlag, found, start, bins)
+        val scans = counted?.takeIf { name == SCAN && it.fromFirst }
+        val found = clock(names.indexOf(name), names, longNames, start) ?: scans ?: return null
+        return SeaBirdHeader(names, longNames, endLine, badFlag, found, start, bins, counted)
     }
 
     /** Column [number] of a file, with its short [name] and its [longName], as they stand there. */
@@ -160,9 +163,9 @@ internal class SeaBirdHeader private constructor(
             val start = entries["start_time"]?.let(::start)
             val interval = entries["interval"].orEmpty()
             val bins = bins(entries)
-            val clock = TIMES.firstNotNullOfOrNull { clock(names.indexOf(it), names, longNames, start) }
-                ?: byCount(interval, start, if (bins == null) names.indexOf(SCAN) else BY_COUNT)
-            return SeaBirdHeader(names, longNames, end + 1, flag, clock, start, bins)
+            val counted = byCount(interval, start, if (bins == null) names.indexOf(SCAN) else BY_COUNT)
+            val clock = TIMES.firstNotNullOfOrNull { clock(names.indexOf(it), names, longNames, start) } ?: counted
+            return SeaBirdHeader(names, longNames, end + 1, flag, clock, start, bins, counted)
         }
 
         /** Times from the column [index]; null where it is no time, or one of days and nothing says of which year. */

@@ -69,6 +69,9 @@ interface SurveyLog {
     /** Frame the positions are in; null before the first [read], and for logs without latitudes. */
     val frame: LocalFrame?
 
+    /** The log as it stands in its file, where this takes it otherwise. */
+    val asWritten: SurveyLog get() = this
+
     /**
      * Hands every reading to [sink].
      *

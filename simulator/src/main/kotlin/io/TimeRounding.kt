@@ -56,6 +56,9 @@ internal class TimeRounding(val unit: Double, val most: Int) {
                 return sizes.sorted()[sizes.size / 2]
             }
 
+        /** Whether nearly all steps are the usual one. */
+        val areEven: Boolean get() = inUnits.count { it != usual } <= MOST_OTHERS * inUnits.size
+
         /**
          * Whether steps are of two lengths, a unit apart, of which the rarer comes much more evenly than by chance:
          * rows that were lost leave longer steps, too, but do not keep time.
@@ -95,24 +98,45 @@ internal class TimeRounding(val unit: Double, val most: Int) {
         private const val MOST_OF_USUAL = 3
         private const val DIGITS = 7
 
-        /** How the times of a log are rounded whose head has [times], s, written as [form]; null where they are not. */
-        fun of(times: List<Double>, form: TimeForm): TimeRounding? {
+        /**
+         * How the times of a log are rounded whose head has [times], s, written as [form]; null where they are not.
+         *
+         * @param clock what they were made of in a Sea-Bird file, whose days or minutes have so many digits; null in others.
+         * @param isRead whether the row with each of [times] has a reading: where these rows keep time, uneven steps between
+         *   them are those from one sensor to the next.
+         */
+        fun of(
+            times: List<Double>,
+            form: TimeForm,
+            clock: SeaBirdHeader.Clock? = null,
+            isRead: (Int) -> Boolean = { true },
+        ): TimeRounding? {
             val known = times.filter { it.isFinite() }
-            val unit = units(form).firstOrNull { unit -> known.all { isMultiple(it - form.zero, unit) } } ?: return null
+            val zero = clock?.zero ?: form.zero
+            val units = (units(form) + digits(clock?.factor)).distinct().sortedDescending()
+            // All of a short log may lie near a whole day.
+            val span = (known.maxOrNull() ?: 0.0) - (known.minOrNull() ?: 0.0)
+            val unit = units.firstOrNull { unit -> unit <= span && known.all { isMultiple(it - zero, unit) } }
+                ?: return null
             val steps = Steps(known, unit)
             // Rows that come at once and then none for several units have waited for the one who wrote the time.
             if (steps.repeats >= FEWEST_REPEATS && steps.usual == 1L) {
                 return TimeRounding(unit, MOST_OF_USUAL * (steps.shared + 1))
             }
-            return if (steps.areRegular()) TimeRounding(unit, MOST_OF_USUAL) else null
+            val ofReadings = Steps(times.filterIndexed { i, time -> isRead(i) && time.isFinite() }, unit)
+            val isOfSensors = ofReadings.areEven && !steps.areEven
+            return if (steps.areRegular() && !isOfSensors) TimeRounding(unit, MOST_OF_USUAL) else null
         }
 
         /** Units that times may be cut to, s, the coarsest first. */
         private fun units(form: TimeForm): List<Double> {
             val ofClock = listOf(MINUTE, 1.0, 0.1, 0.01, 0.001)
             if (form.kind != TimeForm.Kind.NUMBER) return ofClock
-            return generateSequence(form.factor) { it / 10 }.take(DIGITS + 1).toList()
+            return digits(form.factor)
         }
+
+        /** What the digits of a number of units of [factor] s stand for, s. */
+        private fun digits(factor: Double?) = generateSequence(factor) { it / 10 }.take(DIGITS + 1).toList()
 
         private fun isMultiple(time: Double, unit: Double): Boolean {
             val units = time / unit

@@ -1,10 +1,13 @@
 package stillwater.io
 
+import stillwater.model.Conditions
+
 /**
  * Keeps rows that lack the reading alone until the next reading shows that their times are in order: what a sensor has
  * seen there says what it shows later.
  *
- * Where they are not they are dropped: a row without a reading is no reason to refuse one that has one.
+ * Those of the same time as a reading, as of a logger that gives each sensor a row, lend it what it lacks. Where times are
+ * not in order they are dropped: a row without a reading is no reason to refuse one that has one.
  *
  * @param mayShare whether rows may share one time, which is rounded then. @param take takes a row whose turn has come;
  *   without a reading its value is NaN.
@@ -13,22 +16,48 @@ internal class UnreadRows(private val mayShare: Boolean, private val take: (Time
     private val waiting = ArrayList<TimedRow>()
     private var last = Double.NEGATIVE_INFINITY
 
+    /** The last row with a reading, until all rows of its time are there. */
+    private var held: TimedRow? = null
+
     /** Keeps [row], whose reading is missing. */
     fun add(row: TimedRow) {
-        waiting += TimedRow(row.line, row.seconds, row.x, row.y, Double.NaN, row.conditions)
+        val reading = held
+        if (reading != null && !mayShare && row.seconds == reading.seconds) {
+            held = reading.lent(row)
+        } else {
+            waiting += TimedRow(row.line, row.seconds, row.x, row.y, Double.NaN, row.conditions)
+        }
     }
 
     /** Hands [row], which has a reading, on after those that wait and lie before it. */
     fun read(row: TimedRow) {
+        end()
+        var own = row
         for (unread in waiting) {
             if (isBetween(unread.seconds, row.seconds)) {
                 last = unread.seconds
                 take(unread)
+            } else if (unread.seconds == row.seconds) {
+                own = own.lent(unread)
             }
         }
         waiting.clear()
         last = maxOf(last, row.seconds)
-        take(row)
+        held = own
+    }
+
+    /** Hands on the row that still waits for others of its time, after the last. */
+    fun end() {
+        held?.let(take)
+        held = null
+    }
+
+    /** The same row with the conditions of [other] that it has not. */
+    private fun TimedRow.lent(other: TimedRow): TimedRow {
+        val others = other.conditions.names - conditions.names
+        if (others.isEmpty()) return this
+        val all = conditions.names.associateWith { conditions[it] } + others.associateWith { other.conditions[it] }
+        return TimedRow(line, seconds, x, y, value, Conditions(all))
     }
 
     private fun isBetween(seconds: Double, next: Double) =

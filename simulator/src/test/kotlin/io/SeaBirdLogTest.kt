@@ -3,6 +3,7 @@ package stillwater.io
 import org.junit.jupiter.api.assertThrows
 import org.junit.jupiter.api.io.TempDir
 import java.nio.file.Path
+import java.util.Locale
 import kotlin.io.path.readText
 import kotlin.io.path.writeBytes
 import kotlin.test.Test
@@ -143,6 +144,28 @@ class SeaBirdLogTest {
         assertTimes(listOf(begin, begin + 10, begin + 20), binned, choice)
         val format = SurveyLog.open(binned, choice).format
         assertTrue("averaged into bins of seconds: 10" in format, format)
+    }
+
+    @Test
+    fun scansAreCountedWhereThatIsAskedFor() {
+        val names = listOf("scan: Scan Count", "timeJ: Julian Days", "v: Voltage 0")
+        val rows = listOf("11 281.500000 1", "12 281.500001 1", "14 281.500001 1")
+        val counted = LogChoice(time = "scan", value = "v", needsPlace = false)
+        assertTimes(listOf(begin, begin + 0.25, begin + 0.75), file(names, rows, "seconds: 0.25"), counted)
+    }
+
+    /** Six decimals of a day are 0.0864 s: at 24 scans a second most times come twice. */
+    @Test
+    fun daysThatComeTwiceAreSpread() {
+        val rows = (0 until 600).map { "%.6f %d".format(Locale.ROOT, 281 + it / 24.0 / 86_400, it) }
+        val log = SurveyLog.open(
+            file(listOf("timeJ: Julian Days", "v: Voltage 0"), rows),
+            LogChoice(value = "v", needsPlace = false),
+        )
+        assertTrue("times in multiples of 0.0864 s" in log.format, log.format)
+        val steps = times(log).zipWithNext { a, b -> b - a }
+        assertEquals(599, steps.size)
+        assertTrue(steps.all { it > 0.02 && it < 0.07 }, "${steps.min()} to ${steps.max()}")
     }
 
     @Test
