@@ -61,8 +61,8 @@ internal class RowsOfTheirOwn private constructor(
 
     private fun note(name: String, rows: List<Row>): String {
         val own = rows.count { it.value.isNaN() && it.conditions[name].isFinite() }.toLong()
-        return "${columns.getValue(name)} stands in rows of its own (${counted(own, "row")}): at the readings' times " +
-            "it was taken from the numbers before and after, in proportion to time"
+        return "the column ${columns.getValue(name)} stands in rows of its own (${counted(own, "row")}): at the " +
+            "readings' times it was taken from the numbers before and after, in proportion to time"
     }
 
     /** How the rows with a number of one column and those with a reading meet. */

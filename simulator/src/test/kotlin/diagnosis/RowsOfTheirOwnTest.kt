@@ -18,12 +18,12 @@ class RowsOfTheirOwnTest {
     @TempDir
     private lateinit var directory: Path
 
-    private val names = mapOf(REFERENCE to "sample", Conditions.TEMPERATURE to "temp_c", Conditions.HEADING to "heading")
+    private val names = mapOf(REFERENCE to "sample", Conditions.TEMPERATURE to "temp_c")
     private val rows = 200
 
     private fun log(
         text: String,
-        conditions: Map<String, String> = names - Conditions.HEADING,
+        conditions: Map<String, String> = names,
         keepsUnread: Boolean = true,
     ): SurveyLog {
         val file = directory.resolve("log.csv").apply { writeText("time_s,probe,sample,temp_c,heading\n$text") }
@@ -61,8 +61,8 @@ class RowsOfTheirOwnTest {
             assertEquals(rows.toLong(), pass.readings)
             assertContains(
                 pass.warnings,
-                "sample stands in rows of its own (199 rows): at the readings' times it was taken from the numbers " +
-                    "before and after, in proportion to time",
+                "the column sample stands in rows of its own (199 rows): at the readings' times it was taken from " +
+                    "the numbers before and after, in proportion to time",
             )
         }
     }
@@ -92,13 +92,18 @@ class RowsOfTheirOwnTest {
     fun headingsGoTheShorterWayRound() {
         val text = (0 until rows).joinToString("") { "$it,$it,,,\n$it.5,,,,${if (it % 2 == 0) 359 else 3}\n" }
         val (read, _) = read(log(text, mapOf(Conditions.HEADING to "heading")))
-        val turns = read.filter { !it.value.isNaN() }.drop(1).dropLast(1).map { Math.floorMod(Math.round(it.conditions[Conditions.HEADING]), 360L) }
+        // Behind the last reading, and before the first, there is none to turn to.
+        val turns = read.filter { !it.value.isNaN() }.drop(1).dropLast(1).map { row ->
+            Math.floorMod(Math.round(row.conditions[Conditions.HEADING]), 360L)
+        }
         assertEquals(setOf(1L), turns.toSet())
     }
 
     @Test
     fun whatIsTooFarOffIsNotKnown() {
-        val text = (0 until rows).joinToString("") { "$it,$it,,,\n" + if (it in 60..139) "" else "$it.5,,$it.5,,\n" }
+        val text = (0 until rows).joinToString("") {
+            "$it,$it,,,\n" + if (it in 60..139) "" else "$it.5,,$it.5,,\n"
+        }
         val (read, _) = read(log(text, mapOf(REFERENCE to "sample")))
         val unknown = read.filter { it.conditions[REFERENCE].isNaN() }.map { it.time }
         assertEquals(List(21) { 90.0 + it }, unknown)
