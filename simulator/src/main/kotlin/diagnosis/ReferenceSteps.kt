@@ -21,14 +21,15 @@ internal class ReferenceSteps {
         if (isKnown) known += time
     }
 
-    private fun usual(times: List<Double>): Double {
-        val steps = times.zipWithNext { before, after -> after - before }.sorted()
-        return if (steps.isEmpty()) 0.0 else steps[steps.size / 2]
-    }
-
     companion object {
         /** Rows with a reference are this much rarer than rows before what lies between them counts. */
         private const val SPARSE = 1.5
+
+        /** The median of the steps between [times], s, which are in order; 0 where there is none. */
+        fun usual(times: List<Double>): Double {
+            val steps = times.zipWithNext { before, after -> after - before }.sorted()
+            return if (steps.isEmpty()) 0.0 else steps[steps.size / 2]
+        }
 
         /** Whether rows with a reference, usually [known] s apart, are sparse among rows that are usually [all] s apart. */
         fun isSparse(known: Double, all: Double): Boolean = known > SPARSE * all

@@ -5,6 +5,7 @@ import stillwater.io.LogChoice
 import stillwater.io.LogPass
 import stillwater.io.ReadingSink
 import stillwater.io.SurveyLog
+import stillwater.io.completedBy
 import stillwater.model.BoatTime
 import stillwater.model.Conditions
 import stillwater.report.counted
@@ -26,7 +27,7 @@ internal class RowsOfTheirOwn private constructor(
 ) : SurveyLog by log {
     private val columns = choice.conditions
 
-    /** Rows without a reading say what the truth was; not where that stands in no other. */
+    /** Rows without a reading say what the truth was; where it stands in such rows alone the readings have it already. */
     private val keepsUnread = choice.keepsUnread && reference !in apart
 
     private class Row(val time: BoatTime, val x: Double, val y: Double, val value: Double, val conditions: Conditions)
@@ -40,9 +41,9 @@ internal class RowsOfTheirOwn private constructor(
         }
         rows.forEachIndexed { i, row ->
             if (row.value.isNaN() && !keepsUnread) return@forEachIndexed
-            val own = row.conditions.names.associateWith { row.conditions[it] }
             val others = if (row.value.isNaN()) emptyMap() else bridged.mapValues { (_, numbers) -> numbers[i] }
-            sink.take(row.time, row.x, row.y, row.value, Conditions(others.filterValues { it.isFinite() } + own))
+            val conditions = row.conditions.completedBy(Conditions(others.filterValues { it.isFinite() }))
+            sink.take(row.time, row.x, row.y, row.value, conditions)
         }
         return pass.copy(warnings = pass.warnings + apart.map { note(it, rows) }.distinct())
     }
@@ -68,29 +69,24 @@ internal class RowsOfTheirOwn private constructor(
     /** How the rows with a number of one column and those with a reading meet. */
     private class Meeting {
         private var together = 0
-        private var last = Double.NaN
-        private val steps = ArrayList<Double>()
-        private val apart: Int get() = steps.size + 1 - together
+        private val times = ArrayList<Double>()
 
         fun take(time: Double, isRead: Boolean) {
             if (isRead) together++
-            if (!last.isNaN()) steps += time - last
-            last = time
+            times += time
         }
 
-        /** Whether they hardly ever meet, and are about as frequent as the [readings], of which there are usually [step] s. */
-        fun isApart(readings: Int, step: Double, isReference: Boolean): Boolean {
-            if (steps.isEmpty() || readings == 0) return false
-            val isFrequent = !isReference || !ReferenceSteps.isSparse(usual(steps), step)
-            return isFrequent && together < SELDOM * minOf(readings, apart)
+        /** Whether they hardly ever meet the [readings], at times in s, and a reference is about as frequent as these. */
+        fun isApart(readings: List<Double>, isReference: Boolean): Boolean {
+            val isSparse = ReferenceSteps.isSparse(ReferenceSteps.usual(times), ReferenceSteps.usual(readings))
+            if (times.size < 2 || (isReference && isSparse)) return false
+            return together < SELDOM * minOf(readings.size, times.size - together)
         }
     }
 
     companion object {
         /** Share of the rows in which a column that stands in rows of its own may stand beside a reading. */
         private const val SELDOM = 0.1
-
-        private fun usual(steps: List<Double>) = if (steps.isEmpty()) 0.0 else steps.sorted()[steps.size / 2]
 
         /**
          * [log], or the same read as one with such rows where it has some.
@@ -110,8 +106,7 @@ internal class RowsOfTheirOwn private constructor(
                     if (conditions[name].isFinite()) meeting.take(time.seconds, isRead = !value.isNaN())
                 }
             }
-            val step = usual(times.zipWithNext { before, after -> after - before })
-            val apart = meetings.filter { (name, meeting) -> meeting.isApart(times.size, step, name == reference) }.keys
+            val apart = meetings.filter { (name, meeting) -> meeting.isApart(times, name == reference) }.keys
             return if (apart.isEmpty()) log else RowsOfTheirOwn(whole, choice, apart, reference)
         }
     }

@@ -53,12 +53,8 @@ internal class UnreadRows(private val mayShare: Boolean, private val take: (Time
     }
 
     /** The same row with the conditions of [other] that it has not. */
-    private fun TimedRow.lent(other: TimedRow): TimedRow {
-        val others = other.conditions.names - conditions.names
-        if (others.isEmpty()) return this
-        val all = conditions.names.associateWith { conditions[it] } + others.associateWith { other.conditions[it] }
-        return TimedRow(line, seconds, x, y, value, Conditions(all))
-    }
+    private fun TimedRow.lent(other: TimedRow) =
+        TimedRow(line, seconds, x, y, value, conditions.completedBy(other.conditions))
 
     private fun isBetween(seconds: Double, next: Double) =
         (seconds > last && seconds < next) || (mayShare && seconds >= last && seconds <= next)
@@ -69,4 +65,11 @@ internal class UnreadRows(private val mayShare: Boolean, private val take: (Time
         const val CODES = "codes for a missing reading"
         val REASONS = setOf(MISSING, CODES)
     }
+}
+
+/** These conditions, and those of [others] that are not among them. */
+internal fun Conditions.completedBy(others: Conditions): Conditions {
+    val missing = others.names - names
+    if (missing.isEmpty()) return this
+    return Conditions(names.associateWith { this[it] } + missing.associateWith { others[it] })
 }
