@@ -148,8 +148,8 @@ public class ReferenceLearner(
             val starts = listOf(top, top / scale()).filter { it > 0 && it.isFinite() }
             return upright(fit.near(doubleArrayOf(starts.map { ln(it) }.maxBy { total(kind, doubleArrayOf(it)) })))
         }
-        val delays = List(DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble()) }
-        return upright(fit.best(delays.maxBy { plausible(ResponseKind.FIRST_ORDER, doubleArrayOf(ln(it))) }))
+        // From each, for the likeliest single lag may be far from a sensor that is another one.
+        return upright(fit.best(List(DELAYS) { series.medianStep * DELAY_FROM * Math.pow(2.0, it.toDouble()) }))
     }
 
     private fun goesBothWays(): Boolean {
@@ -157,7 +157,7 @@ public class ReferenceLearner(
         return seen.isNotEmpty() && Turns.of(seen) > 0
     }
 
-    /** [found] unless its readings fall with the reference where they rise with it, or its slow path is the faster one. */
+    /** [found] unless its readings fall with the reference where they rise with it, or its two lags have changed places. */
     private fun upright(found: CandidateResponse): CandidateResponse? {
         total(found.kind, DoubleArray(found.parameters.size) { ln(found.parameters[it]) })
         return found.takeUnless { isTurned || isCrossed(it.response) }
@@ -165,7 +165,7 @@ public class ReferenceLearner(
 
     /**
      * [total] less what keeps a search off what no sensor is or no log shows: a lag longer than the log, whatever state that
-     * began in, a slow path that is the faster one, readings that are turned.
+     * began in, two lags that have changed places, readings that are turned.
      */
     private fun plausible(kind: ResponseKind, logs: DoubleArray): Double {
         val sum = total(kind, logs)
@@ -180,9 +180,9 @@ public class ReferenceLearner(
     /** Square of the logarithm by which [time] is beyond [most]. */
     private fun beyond(time: Double, most: Double): Double = ln(maxOf(time, most) / most).let { it * it }
 
-    /** Whether of two paths the slow one is the faster. */
+    /** Whether of two paths the slow one is the faster, or of two lags the longer one the shorter. */
     private fun isCrossed(response: Response) =
-        response.slowShare > 0 && response.lags[1].rising < response.lags[0].rising
+        response.lags.size == 2 && response.lags[1].rising < response.lags[0].rising
 
     /**
      * Whether what was scored last has readings fall with the reference although they rise with it: a longer lag that began

@@ -126,6 +126,9 @@ public enum class ResponseKind(public val label: String, public val parameters: 
     /** Two equal lags in a row. */
     SECOND_ORDER("second-order-lag", listOf("time_constant_s")),
 
+    /** Two lags in a row that are not equal. Which of them acts first does not show. */
+    TWO_LAGS("two-lags-in-a-row", listOf("shorter_time_constant_s", "longer_time_constant_s")),
+
     /** A delay, then a lag. */
     DEAD_TIME_AND_LAG("dead-time-and-lag", listOf("dead_time_s", "time_constant_s")),
 
@@ -161,6 +164,7 @@ public enum class ResponseKind(public val label: String, public val parameters: 
             FIRST_ORDER -> Response(lags = listOf(ResponseLag(parameters[0])))
             DEAD_TIME -> Response(deadTime = parameters[0])
             SECOND_ORDER -> Response(lags = List(2) { ResponseLag(parameters[0]) })
+            TWO_LAGS -> Response(lags = parameters.map { ResponseLag(it) })
             DEAD_TIME_AND_LAG -> Response(parameters[0], listOf(ResponseLag(parameters[1])))
             ASYMMETRIC -> Response(lags = listOf(ResponseLag(parameters[0], parameters[1])))
             TWO_PATH -> beside(0.0, parameters)
@@ -182,6 +186,7 @@ public enum class ResponseKind(public val label: String, public val parameters: 
     /** Whether [other] is this one with a parameter at its limit, so that this one can do no worse on the same data. */
     public fun contains(other: ResponseKind): Boolean = when (this) {
         NONE -> false
+        TWO_LAGS -> other == FIRST_ORDER || other == SECOND_ORDER || other == NONE
         DEAD_TIME_AND_LAG -> other == FIRST_ORDER || other == DEAD_TIME || other == NONE
         DEAD_TIME_AND_TWO_PATH -> other == TWO_PATH || DEAD_TIME_AND_LAG.contains(other) || other == DEAD_TIME_AND_LAG
         ASYMMETRIC, TWO_PATH, FLOW -> other == FIRST_ORDER || other == NONE

@@ -25,10 +25,10 @@ public class CandidateStanding internal constructor(
  * Which responses a log leaves open, by scores on data that they were not fitted to.
  *
  * A candidate is ruled out if it is behind any other by more than [RULED_OUT] standard errors and by more than
- * [SMALLEST_LOSS]. An asymmetric lag and two paths give way to what they contain and is still open: two time constants
- * fit noise better than one, and nothing is lost. But where they are ahead of it by more than [AHEAD] standard errors they
- * stay open beside it, because it alone would be far too sure of itself; two paths only if the log says more of the slow
- * path, which hides from a single lag, than was believed beforehand.
+ * [SMALLEST_LOSS]. An asymmetric lag, two unequal lags and two paths give way to what they contain and is still open: two
+ * time constants fit noise better than one, and nothing is lost. But where they are ahead of it by more than [AHEAD] standard
+ * errors they stay open beside it, because it alone would be far too sure of itself; two paths only if the log says more
+ * of the slow path, which hides from a single lag, than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
  * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is not ruled out,
@@ -66,9 +66,13 @@ public class ResponseChoice private constructor(
 
         private const val DRAWS = 2000
 
+        /** Student's variance is (n − 1) / (n − 3) of that many groups. */
+        private const val FEWEST_GROUPS = 3
+
         /** Kinds that give way to an open one that they contain. */
         private val RICH = setOf(
             ResponseKind.ASYMMETRIC,
+            ResponseKind.TWO_LAGS,
             ResponseKind.TWO_PATH,
             ResponseKind.DEAD_TIME_AND_TWO_PATH,
             ResponseKind.FLOW,
@@ -126,10 +130,11 @@ public class ResponseChoice private constructor(
 
         private fun error(best: CandidateResponse, other: CandidateResponse): Double {
             val n = best.heldOut.size
-            if (n < 2) return Double.POSITIVE_INFINITY
+            if (n <= FEWEST_GROUPS) return Double.POSITIVE_INFINITY
             val differences = DoubleArray(n) { best.heldOut[it] - other.heldOut[it] }
             val mean = differences.average()
-            return sqrt(differences.sumOf { (it - mean) * (it - mean) } / (n - 1) * n)
+            // Of a few groups a standard error is itself uncertain: by so much Student's distribution is wider.
+            return sqrt(differences.sumOf { (it - mean) * (it - mean) } / (n - FEWEST_GROUPS) * n)
         }
 
         /** How often each is the best when the groups are drawn anew. */

@@ -30,12 +30,15 @@ internal class ResponseFit(
 ) {
     private val size = kind.parameters.size
 
-    /** The best parameters, searched from those that have the mean delay [delay], s. */
-    fun best(delay: Double): CandidateResponse {
-        val logs = starts(delay).map { start ->
+    /** The best parameters, searched from those that have one of the mean [delays], s: of each shape the best one. */
+    fun best(delays: List<Double>): CandidateResponse {
+        if (size == 0) return judged(DoubleArray(0))
+        val shapes = delays.map(::starts)
+        val begins = shapes.first().indices.map { shape -> shapes.map { it[shape] }.maxBy(::believed) }
+        val logs = begins.map { start ->
             Search.simplex(start, DoubleArray(size) { STEP }, EVALUATIONS * size, CLOSE, ::believed)
-        }.maxBy { if (size == 0) 0.0 else believed(it) }
-        return judged(logs)
+        }
+        return judged(logs.maxBy(::believed))
     }
 
     private fun believed(logs: DoubleArray) = total(logs) + kind.belief(logs)
@@ -50,6 +53,7 @@ internal class ResponseFit(
             ResponseKind.NONE, ResponseKind.SLEW -> listOf(logs())
             ResponseKind.FIRST_ORDER, ResponseKind.DEAD_TIME -> listOf(logs(delay))
             ResponseKind.SECOND_ORDER -> listOf(logs(delay / 2))
+            ResponseKind.TWO_LAGS -> listOf(0.04, 0.2).map { logs(delay * it, delay * (1 - it)) }
             ResponseKind.DEAD_TIME_AND_LAG -> listOf(logs(delay / 3, delay * 2 / 3), logs(delay * 2 / 3, delay / 3))
             ResponseKind.TWO_PATH -> listOf(logs(delay * FAST, delay * 4, 0.1), logs(delay * FAST, delay * 10, 0.05))
             ResponseKind.DEAD_TIME_AND_TWO_PATH -> listOf(0.2, 0.6).map { early ->

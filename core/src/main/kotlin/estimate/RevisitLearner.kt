@@ -173,10 +173,10 @@ public class RevisitLearner private constructor(
     }
 
     override fun candidate(kind: ResponseKind): CandidateResponse? {
-        if (found.isEmpty() || kind == ResponseKind.SLEW) return null
+        if (found.isEmpty() || kind in NOT_TOLD) return null
         if (kind == ResponseKind.FLOW && !even.hasSpeeds) return null
         val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
-        return fit.best(delay)
+        return fit.best(listOf(delay))
     }
 
     public companion object {
@@ -208,6 +208,9 @@ public class RevisitLearner private constructor(
         private const val BOTH_MOVED = 8.0 / 3
         private const val NODES_A_DELAY = 2.0
         private const val HALF = 0.5
+
+        /** Passes do not tell a rate from the water, nor two lags in a row from a dead time and a lag. */
+        private val NOT_TOLD = setOf(ResponseKind.SLEW, ResponseKind.TWO_LAGS)
 
         private const val TARGET_NODES = 1500
         private const val MOST_BLOCKS = 150

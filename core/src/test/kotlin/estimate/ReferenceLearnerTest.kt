@@ -2,6 +2,7 @@ package stillwater.estimate
 
 import stillwater.model.Conditions
 import stillwater.sensor.SensorSpec
+import kotlin.math.PI
 import kotlin.math.exp
 import kotlin.math.sin
 import kotlin.random.Random
@@ -99,6 +100,46 @@ class ReferenceLearnerTest {
         val found = assertNotNull(ReferenceLearner(series, truth).candidate(ResponseKind.ASYMMETRIC))
         assertEquals(6.0, found.parameters[0], 0.15, "seed $SEED")
         assertEquals(12.0, found.parameters[1], 0.3, "seed $SEED")
+    }
+
+    /** What a sensor of [kind] shows of twelve waves from two to twenty times [time], s, long; the truth each second. */
+    private fun lively(seed: Int, time: Double, kind: ResponseKind, vararg parameters: Double): CandidateResponse? {
+        val random = java.util.Random(seed.toLong())
+        val waves = List(12) {
+            val period = 2 * time * Math.pow(10.0, random.nextDouble())
+            Triple(2 * PI / period, 2 * PI * random.nextDouble(), 0.3 + random.nextDouble())
+        }
+        fun water(t: Double) = waves.sumOf { (pulsation, phase, height) -> height * sin(pulsation * t + phase) }
+        val sensor = SensorSpec("", kind.response(*parameters).stages()).build(water(0.0), Random(seed))
+        val values = DoubleArray(ROWS) { row ->
+            var shown = 0.0
+            for (part in 1..FINE) {
+                shown = sensor.step(water(row - 1 + (part - 0.5) / FINE), 1.0 / FINE, Conditions.NONE)
+            }
+            shown + 0.05 * random.nextGaussian()
+        }
+        val times = DoubleArray(ROWS) { it.toDouble() }
+        val series = TrackSeries(times, times, DoubleArray(ROWS), values)
+        return ReferenceLearner(series, DoubleArray(ROWS) { water(it.toDouble()) }).candidate(kind)
+    }
+
+    /** The likeliest single lag may be five times as long as the sensor's delay, or as long as the log. */
+    @Test
+    fun aResponseIsFoundWhereTheLikeliestSingleLagIsFarFromIt() {
+        for (seed in listOf(1, 2, 14, 28, 42, 47)) {
+            for ((kind, parameters) in listOf(
+                ResponseKind.DEAD_TIME_AND_LAG to doubleArrayOf(4.2, 8.9),
+                ResponseKind.SECOND_ORDER to doubleArrayOf(9.0),
+                ResponseKind.TWO_LAGS to doubleArrayOf(4.0, 12.0),
+                ResponseKind.TWO_PATH to doubleArrayOf(4.0, 40.0, 0.3),
+            )) {
+                val found = assertNotNull(lively(seed, parameters.max(), kind, *parameters), "$kind, seed $seed")
+                // A tenth: the water between rows is taken for straight, and of two paths something is believed beforehand.
+                for (i in parameters.indices) {
+                    assertEquals(parameters[i], found.parameters[i], 0.1 * parameters[i], "$kind, $i, seed $seed")
+                }
+            }
+        }
     }
 
     /** Of a log of one step up, followed by a probe that is not quite of first order: sums of lags as of a thick foil. */

@@ -232,10 +232,10 @@ internal object SensorLearning {
         val held = ReferenceLearner.isHeld(part, reference, out)
         fun another() = ReferenceLearner(part, reference, held, out)
         val learner = another()
-        fault(series, part, learner)?.let {
+        val choice = requireNotNull(choice(learner, ResponseKind.entries, ::another))
+        fault(series, part, learner, choice)?.let {
             return byRevisits(series, unusable, log.frame != null).copy(fault = it)
         }
-        val choice = requireNotNull(choice(learner, ResponseKind.entries, ::another))
 
         // What is undone is a response to water that changes all the time.
         fun undone(open: LikelyResponse) =
@@ -257,12 +257,23 @@ internal object SensorLearning {
         )
     }
 
-    /** Why [learner], of the [part] of [series] with a reference, has nothing to learn from; null where it has. */
-    private fun fault(series: TrackSeries, part: TrackSeries, learner: ReferenceLearner): String? {
+    /**
+     * Why [learner], of the [part] of [series] with a reference, has nothing to learn from; null where it has. How long a
+     * single lag may be says nothing where [choice] knows of another response that none is.
+     */
+    private fun fault(
+        series: TrackSeries,
+        part: TrackSeries,
+        learner: ReferenceLearner,
+        choice: ResponseChoice,
+    ): String? {
         val range = learner.lagRange()
         val length = part.times.last() - part.times.first()
         val least = if (range.start == 0.0) length / FEW_LAGS else ReferenceLearner.MOST_FACTOR * range.start
-        if (range.endInclusive > least) {
+        val isKnown = choice.open.all {
+            it.kind != ResponseKind.NONE && it.kind != ResponseKind.FIRST_ORDER && it.response.meanDelay < length / FEW_LAGS
+        }
+        if (range.endInclusive > least && !isKnown) {
             val begin = if (range.start == 0.0) "none" else duration(range.start)
             val end = if (range.endInclusive.isInfinite()) "more than it is long" else duration(range.endInclusive)
             return "its ${part.size} rows, ${duration(length)} long, fit any lag from $begin to $end"

@@ -67,6 +67,29 @@ class CorrectHonestyTest {
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
     }
 
+    /** Waves shorter than both lags: a single lag would fit as an integrator, and so at any length. */
+    @Test
+    fun twoLagsAreLearnedWhereASingleOneCouldBeOfAnyLength() {
+        fun water(t: Double) = List(6) { sin(t / (4.0 + 2 * it) + it) }.sum()
+        val random = java.util.Random(5)
+        var first = water(0.0)
+        var second = first
+        val log = buildString {
+            appendLine("time_s,slow,fast")
+            for (i in 0 until 600) {
+                repeat(20) { part ->
+                    first += (1 - exp(-0.05 / 12.6)) * (water(i - 1 + (part + 0.5) / 20) - first)
+                    second += (1 - exp(-0.05 / 10.8)) * (first - second)
+                }
+                val shown = second + 0.05 * random.nextGaussian()
+                appendLine("$i,${"%.4f,%.4f".format(Locale.ROOT, shown, water(i.toDouble()))}")
+            }
+        }
+        val result = correct(log, "--reference", "fast")
+        assertContains(result.stdout, "second-order-lag")
+        assertFalse("nothing was learned" in result.stderr, result.stderr)
+    }
+
     @Test
     fun aReferenceThatTeachesNothingStillWidensIntervalsThatItContradicts() {
         val result = correct(ramp(200, reference = 8.5), "--reference", "fast")
