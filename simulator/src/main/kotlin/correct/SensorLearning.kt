@@ -112,6 +112,9 @@ internal object SensorLearning {
     private val BEFORE_LIMIT = ResponseKind.entries.filterNot {
         it == ResponseKind.SLEW || it == ResponseKind.FLOW || it.hasTwoPaths
     }
+
+    /** Of which how long a single lag may be is all that there is to know. */
+    private val SINGLE = setOf(ResponseKind.NONE, ResponseKind.FIRST_ORDER)
     private val NO_LAG = listOf(LikelyResponse(listOf(Response()), 1.0))
 
     /**
@@ -232,9 +235,10 @@ internal object SensorLearning {
         val held = ReferenceLearner.isHeld(part, reference, out)
         fun another() = ReferenceLearner(part, reference, held, out)
         val learner = another()
-        val choice = requireNotNull(choice(learner, ResponseKind.entries, ::another))
-        fault(series, part, learner, choice)?.let {
-            return byRevisits(series, unusable, log.frame != null).copy(fault = it)
+        val choice = choice(learner, ResponseKind.entries, ::another)
+        val fault = fault(series, part, learner, choice)
+        if (choice == null || fault != null) {
+            return byRevisits(series, unusable, log.frame != null).copy(fault = fault)
         }
 
         // What is undone is a response to water that changes all the time.
@@ -265,13 +269,13 @@ internal object SensorLearning {
         series: TrackSeries,
         part: TrackSeries,
         learner: ReferenceLearner,
-        choice: ResponseChoice,
+        choice: ResponseChoice?,
     ): String? {
         val range = learner.lagRange()
         val length = part.times.last() - part.times.first()
         val least = if (range.start == 0.0) length / FEW_LAGS else ReferenceLearner.MOST_FACTOR * range.start
-        val isKnown = choice.open.all {
-            it.kind != ResponseKind.NONE && it.kind != ResponseKind.FIRST_ORDER && it.response.meanDelay < length / FEW_LAGS
+        val isKnown = choice != null && choice.open.all {
+            it.kind !in SINGLE && it.response.meanDelay < length / FEW_LAGS
         }
         if (range.endInclusive > least && !isKnown) {
             val begin = if (range.start == 0.0) "none" else duration(range.start)
@@ -283,7 +287,7 @@ internal object SensorLearning {
             val rows = "it has a row every ${duration(part.medianStep)} only"
             return "$rows, and the water between them is not known well enough"
         }
-        return null
+        return if (choice == null) "its ${part.size} rows are too few" else null
     }
 
     /** All [kinds] on all cores; each task has a learner of its own, the first one [learner]. */

@@ -67,6 +67,20 @@ class CorrectHonestyTest {
         assertContains(result.stderr, "its 30 rows, 29 s long, fit any lag from ")
     }
 
+    /** The first reading tells only where the sensor began, so that 29 are left. */
+    @Test
+    fun aClearLagInThirtyRowsIsNoError() {
+        var shown = 0.0
+        val log = "time_s,slow,fast\n" + (0 until 30).joinToString("") { i ->
+            val water = if (i / 6 % 2 == 0) 0 else 100
+            shown += (1 - exp(-1.0 / 3)) * (water - shown)
+            "$i,${"%.3f".format(Locale.ROOT, shown)},$water\n"
+        }
+        val result = correct(log, "--reference", "fast")
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stderr, "its 30 rows are too few; nothing was learned")
+    }
+
     /** Waves shorter than both lags: a single lag would fit as an integrator, and so at any length. */
     @Test
     fun twoLagsAreLearnedWhereASingleOneCouldBeOfAnyLength() {

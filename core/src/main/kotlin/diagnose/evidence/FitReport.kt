@@ -71,9 +71,11 @@ internal class FitReport(
                     .filter { it !in fit.model.firstStates }
                 if (withBase) own else term.cause.baseNumbers.filter { it != ResponseModel.TIME_CONSTANT } + own
             }
+        val pair = LagPair.of(fit)
         // An end of the range that the sensor does not have is no number.
-        return indices.filter { abs(fit.numbers[it]) < ResponseModel.NO_END }.map { i ->
-            val parameter = fit.model.parameters[i]
+        return indices.filter { abs(fit.numbers[it]) < ResponseModel.NO_END }.map { place ->
+            val i = pair?.inOrder(place) ?: place
+            val parameter = fit.model.parameters[place]
             val value = value(fit, i)
             if (isAnswer && value < fit.numbers[i]) bounded += SLOWEST
             Estimate(parameter.name, parameter.unit, value, interval(fit, i, errors[i], isAnswer))
@@ -96,12 +98,13 @@ internal class FitReport(
             return beside(fit, i)
         }
         val reach = NORMAL_95 * error
+        LagPair.of(fit)?.takeIf { it.isAlike(i, reach) }?.let { return it.interval(i, used) }
         if (!reach.isFinite() || reach == 0.0) return null
         if (!parameter.logarithmic) {
             val open = open(fit, i, parameter)
             return Interval(parameter.possible(value - reach - open.first), value + reach + open.second)
         }
-        // Which of two lags is how long does not show where they are alike, nor what is shorter than rows.
+        // What is shorter than rows does not show.
         return if (reach < FAR) Interval(value * exp(-reach), value * exp(reach)) else null
     }
 

@@ -9,6 +9,7 @@ import stillwater.diagnose.evidence.HeldOut
 import stillwater.diagnose.evidence.HeldOutScore
 import stillwater.diagnose.evidence.JumpPlaces
 import stillwater.diagnose.evidence.JumpScan
+import stillwater.diagnose.evidence.LagPair
 import stillwater.diagnose.evidence.LocalSpread
 import stillwater.diagnose.evidence.SmallShifts
 import stillwater.diagnose.evidence.Trial
@@ -201,12 +202,8 @@ internal class CauseSearch(
 
     /** [fit] with the longer of two lags in a row first, where the order does not matter otherwise. */
     private fun inOrder(fit: ModelFit): ModelFit {
-        val term = fit.model.terms.firstOrNull { it.cause == Cause.SECOND_ORDER_RESPONSE } ?: return fit
-        val second = fit.model.slot(term)
-        val isPlain = fit.model.terms.none { it.cause in LAG_CHANGES || it.isWithin }
-        if (!isPlain || !fit.free[ResponseModel.TIME_CONSTANT]) return fit
+        val second = LagPair.of(fit)?.takeIf { it.isTurned }?.second ?: return fit
         val numbers = fit.numbers.copyOf()
-        if (numbers[second] <= numbers[ResponseModel.TIME_CONSTANT]) return fit
         numbers[second] = fit.numbers[ResponseModel.TIME_CONSTANT]
         numbers[ResponseModel.TIME_CONSTANT] = fit.numbers[second]
         return Fitting.fit(fit.model, numbers, fit.free, used, longest, noise = fit.noise)
@@ -348,11 +345,5 @@ internal class CauseSearch(
 
         /** What makes two lags of one. */
         private val LAG_PARTS = setOf(Cause.TWO_PATH_RESPONSE, Cause.SECOND_ORDER_RESPONSE)
-        private val LAG_CHANGES = setOf(
-            Cause.ASYMMETRIC_RESPONSE,
-            Cause.FLOW_DEPENDENT_RESPONSE,
-            Cause.TEMPERATURE_DEPENDENT_RESPONSE,
-            Cause.TWO_PATH_RESPONSE,
-        )
     }
 }
