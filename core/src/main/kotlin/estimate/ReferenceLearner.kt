@@ -39,7 +39,7 @@ public class ReferenceLearner(
         require(reference.all { it.isFinite() }) { "reference must be finite" }
     }
 
-    override val groups: Int = (series.size / GROUP).coerceIn(2, MOST_GROUPS)
+    override val groups: Int = (series.size / GROUP).coerceIn(minOf(MOST_GROUPS / 2, series.size / LEAST_GROUP), MOST_GROUPS)
     private val groupOf = IntArray(series.size) { (it.toLong() * groups / series.size).toInt() }
     private val usable = BooleanArray(series.size) { unusable.isUsable(it) }
     private val starts = StretchStarts(series, usable)
@@ -160,7 +160,7 @@ public class ReferenceLearner(
     /** [found] unless its readings fall with the reference where they rise with it, or its two lags have changed places. */
     private fun upright(found: CandidateResponse): CandidateResponse? {
         total(found.kind, DoubleArray(found.parameters.size) { ln(found.parameters[it]) })
-        return found.takeUnless { isTurned || isCrossed(it.response) }
+        return found.takeUnless { isTurned || it.response.isCrossed }
     }
 
     /**
@@ -173,7 +173,7 @@ public class ReferenceLearner(
         val turned = if (isTurned) TURNED else 0.0
         val response = kind.response(*DoubleArray(logs.size) { exp(logs[it]) })
         val longer = response.lags.sumOf { beyond(maxOf(it.rising, it.falling), duration) }
-        val crossed = if (isCrossed(response)) beyond(response.lags[0].rising, response.lags[1].rising) else 0.0
+        val crossed = if (response.isCrossed) beyond(response.lags[0].rising, response.lags[1].rising) else 0.0
         return sum - turned - OFF * (longer + crossed)
     }
 
@@ -181,8 +181,7 @@ public class ReferenceLearner(
     private fun beyond(time: Double, most: Double): Double = ln(maxOf(time, most) / most).let { it * it }
 
     /** Whether of two paths the slow one is the faster, or of two lags the longer one the shorter. */
-    private fun isCrossed(response: Response) =
-        response.lags.size == 2 && response.lags[1].rising < response.lags[0].rising
+    private val Response.isCrossed: Boolean get() = lags.size == 2 && lags[1].rising < lags[0].rising
 
     /**
      * Whether what was scored last has readings fall with the reference although they rise with it: a longer lag that began
@@ -378,6 +377,7 @@ public class ReferenceLearner(
         private const val CLOSE = 1e-4
         private const val FEWEST = 30
         private const val GROUP = 60
+        private const val LEAST_GROUP = 5
         private const val MOST_GROUPS = 20
         private const val TOP = 0.99
         private const val DELAYS = 14

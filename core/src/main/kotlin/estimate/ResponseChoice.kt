@@ -31,8 +31,8 @@ public class CandidateStanding internal constructor(
  * of the slow path, which hides from a single lag, than was believed beforehand.
  *
  * @property standings all candidates, the most likely first.
- * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is not ruled out,
- *   and its share is known better than it was believed beforehand. Null without one, or where two paths are open.
+ * @property hinted a response with two paths that the log hints at, too weakly to leave it open: it is no less likely
+ *   than what is open, and its share is known better than it was believed beforehand. Null without one, or where two paths are open.
  */
 public class ResponseChoice private constructor(
     public val standings: List<CandidateStanding>,
@@ -112,7 +112,7 @@ public class ResponseChoice private constructor(
         private fun hinted(open: List<CandidateResponse>, notRuledOut: List<CandidateResponse>): CandidateResponse? =
             notRuledOut.filter { it.kind.hasTwoPaths && it.relativeErrors.last() < ResponseKind.BELIEVED }
                 .maxByOrNull { it.heldOutScore }
-                .takeIf { open.none { it.kind.hasTwoPaths } }
+                ?.takeIf { hint -> open.none { it.kind.hasTwoPaths || it.heldOutScore > hint.heldOutScore } }
 
         /** Not the best alone: how far it is behind that may be told less well than how far behind another. */
         private fun rulesOut(better: CandidateResponse, other: CandidateResponse): Boolean =

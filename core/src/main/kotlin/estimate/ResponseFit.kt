@@ -54,7 +54,7 @@ internal class ResponseFit(
             ResponseKind.FIRST_ORDER, ResponseKind.DEAD_TIME -> listOf(logs(delay))
             ResponseKind.SECOND_ORDER -> listOf(logs(delay / 2))
             ResponseKind.TWO_LAGS -> listOf(0.04, 0.2).map { logs(delay * it, delay * (1 - it)) }
-            ResponseKind.DEAD_TIME_AND_LAG -> listOf(logs(delay / 3, delay * 2 / 3), logs(delay * 2 / 3, delay / 3))
+            ResponseKind.DEAD_TIME_AND_LAG -> listOf(0.04, 1 / 3.0, 2 / 3.0).map { logs(delay * it, delay * (1 - it)) }
             ResponseKind.TWO_PATH -> listOf(logs(delay * FAST, delay * 4, 0.1), logs(delay * FAST, delay * 10, 0.05))
             ResponseKind.DEAD_TIME_AND_TWO_PATH -> listOf(0.2, 0.6).map { early ->
                 logs(delay * early, delay * (FAST - early).coerceAtLeast(0.1), delay * 6, 0.07)

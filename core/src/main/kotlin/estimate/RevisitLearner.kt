@@ -176,7 +176,8 @@ public class RevisitLearner private constructor(
         if (found.isEmpty() || kind in NOT_TOLD) return null
         if (kind == ResponseKind.FLOW && !even.hasSpeeds) return null
         val fit = ResponseFit(kind, groupOf, groups, { total(kind, it) }, { scores(kind, it) })
-        return fit.best(listOf(delay))
+        // The delay is that of the likeliest single lag, in water that was guessed.
+        return fit.best(List(BEGINS) { delay * Math.pow(2.0, it - BEGINS + 2.0) })
     }
 
     public companion object {
@@ -212,6 +213,8 @@ public class RevisitLearner private constructor(
         /** Passes do not tell a rate from the water, nor two lags in a row from a dead time and a lag. */
         private val NOT_TOLD = setOf(ResponseKind.SLEW, ResponseKind.TWO_LAGS)
 
+        /** Delays from which responses are searched: down to an eighth and up to twice the single lag's. */
+        private const val BEGINS = 5
         private const val TARGET_NODES = 1500
         private const val MOST_BLOCKS = 150
         private const val FEWEST_BLOCKS = 8

@@ -1,5 +1,6 @@
 package stillwater.estimate
 
+import kotlin.math.abs
 import kotlin.math.sqrt
 
 /**
@@ -27,6 +28,7 @@ public class TrackAgreement private constructor(
     public val lateness: Double,
     public val spread: Double,
     private val slopes: DoubleArray,
+    private val times: DoubleArray,
 ) {
     /** Whether the passes differ by more than chance and the intervals explain. */
     public val isContradicted: Boolean get() = ratio > 1 + SURE * error && (lateness > 0 || spread > 0)
@@ -35,11 +37,17 @@ public class TrackAgreement private constructor(
     public fun widened(track: CorrectedTrack): CorrectedTrack =
         if (isContradicted) widened(track, lateness, spread) else track
 
-    /** [track] with intervals that hold times wrong by [late], s, and values wrong by [wide], sensor units, as well. */
+    /**
+     * [track] with intervals that hold times wrong by [late], s, and values wrong by [wide], sensor units, as well: not
+     * beyond what the track shows within 1.96 times [late] either way.
+     */
     public fun widened(track: CorrectedTrack, late: Double, wide: Double = 0.0): CorrectedTrack {
+        val reach = TWO_SIDED * late
+        val most = changes(track.values, reach)
+
         fun wider(half: Double, row: Int): Double {
-            val more = late * late * slopes[row] * slopes[row] + wide * wide
-            return sqrt(half * half + TWO_SIDED * TWO_SIDED * more)
+            val shifted = minOf(reach * abs(slopes[row]), most[row])
+            return sqrt(half * half + shifted * shifted + TWO_SIDED * TWO_SIDED * wide * wide)
         }
         val n = track.values.size
         return CorrectedTrack(
@@ -50,6 +58,25 @@ public class TrackAgreement private constructor(
             track.outlying,
             track.clipped,
         )
+    }
+
+    /** By how much [values] differ at the most from each within [reach], s, of it; linear in their number. */
+    private fun changes(values: DoubleArray, reach: Double): DoubleArray {
+        val most = DoubleArray(values.size)
+        for (sign in listOf(1, -1)) {
+            // Rows that may yet be the largest within reach, in falling order of their values.
+            val rows = ArrayDeque<Int>()
+            var next = 0
+            for (row in values.indices) {
+                while (next < values.size && times[next] <= times[row] + reach) {
+                    while (rows.isNotEmpty() && sign * values[rows.last()] <= sign * values[next]) rows.removeLast()
+                    rows.addLast(next++)
+                }
+                while (times[rows.first()] < times[row] - reach) rows.removeFirst()
+                most[row] = maxOf(most[row], sign * (values[rows.first()] - values[row]))
+            }
+        }
+        return most
     }
 
     public companion object {
@@ -70,11 +97,12 @@ public class TrackAgreement private constructor(
         public fun of(series: TrackSeries, track: CorrectedTrack): TrackAgreement {
             val slopes = slopes(series, track.values)
             val found = TrackCrossings(series.withFreshPositions())
-            if (found.size < FEWEST) return TrackAgreement(found.size, Double.NaN, Double.NaN, 0.0, 0.0, slopes)
+            if (found.size < FEWEST) return TrackAgreement(found.size, Double.NaN, Double.NaN, 0.0, 0.0, slopes, series.times)
             val pairs = Pairs(found, track, slopes)
             val ratio = pairs.ratio()
             val (late, wide) = pairs.fit()
-            return TrackAgreement(found.size, ratio, pairs.error(ratio), sqrt(late), sqrt(wide), slopes)
+            val error = pairs.error(ratio)
+            return TrackAgreement(found.size, ratio, error, sqrt(late), sqrt(wide), slopes, series.times)
         }
 
         /** Rates of change of [values], 1/s: over two rows either way, none over a gap. */

@@ -71,14 +71,18 @@ public class CorrectedTrack internal constructor(
  * @param resolution step in which readings are rounded, sensor units, at least 0; 0 for none.
  * @param unusable readings that are known to say nothing, or one side only, of what the sensor is at; more wild ones
  *   may be found. @param wander noise of the readings that wanders, sensor units; null where none is known.
+ * @param noise standard deviation of the readings' white noise, sensor units, at least 0; 0 where it is not known and
+ *   learned from the readings, which in rough water do not tell it from the water.
  */
 public class TrackCorrector(
     private val series: TrackSeries,
     private val resolution: Double = 0.0,
     private val unusable: UnusableReadings = UnusableReadings.none(series.size),
     private val wander: SensorStage.Wander? = null,
+    private val noise: Double = 0.0,
 ) {
     init {
+        require(noise >= 0 && noise.isFinite()) { "noise ($noise) must be at least 0 and finite" }
         require(unusable.wild.size == series.size) {
             "unusable (${unusable.wild.size}) must be as long as series (${series.size})"
         }
@@ -228,9 +232,11 @@ public class TrackCorrector(
         val calm = DoubleArray(stretch.size) { 1.0 }
         val tame = stretch.values.filterIndexed { i, _ -> !stretch.outlying[i] }
         val spread = sqrt(tame.sumOf { it * it } / maxOf(1, tame.size)).coerceAtLeast(LEAST + resolution)
-        val least = ln(maxOf(resolution / sqrt(12.0), spread * SMALLEST_NOISE))
+        val rounding = resolution / sqrt(12.0)
+        val known = if (noise > 0) hypot(noise, rounding) else null
+        val least = ln(maxOf(rounding, spread * SMALLEST_NOISE))
         fun at(logs: DoubleArray, smoothness: Smoothness) =
-            AlongTrack(exp(logs[0]), exp(logs[1]), exp(maxOf(logs[2], least)), smoothness)
+            AlongTrack(exp(logs[0]), exp(logs[1]), known ?: exp(maxOf(logs[2], least)), smoothness)
 
         fun total(logs: DoubleArray, smoothness: Smoothness): Double {
             // A weak belief keeps what the readings leave open within the log's own scales.

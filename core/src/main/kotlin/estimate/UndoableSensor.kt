@@ -19,7 +19,8 @@ import kotlin.math.sqrt
  * @property range between which readings are shown, sensor units; infinite where it has no end. Readings at an end say
  * one side only.
  * @property wander noise that wanders, sensor units of the readings before all gains; null for none.
- * @property play width of the dead band within which the truth may move unseen, sensor units; 0 for none.
+ * @property noise standard deviation of its white noise, sensor units of the readings before all gains; 0 where none is
+ *   stated. @property play width of the dead band within which the truth may move unseen, sensor units; 0 for none.
  */
 public class UndoableSensor private constructor(
     public val response: Response,
@@ -29,6 +30,7 @@ public class UndoableSensor private constructor(
     public val range: ClosedFloatingPointRange<Double> = ENDLESS,
     public val play: Double = 0.0,
     public val wander: SensorStage.Wander? = null,
+    public val noise: Double = 0.0,
 ) {
     public val gain: Double = gainOf(shown)
 
@@ -89,6 +91,7 @@ public class UndoableSensor private constructor(
         var range = ENDLESS
         var play = 0.0
         var wander: SensorStage.Wander? = null
+        var noise = 0.0
         val needs = LinkedHashSet<String>()
 
         /** The gains so far, dimensionless. */
@@ -106,6 +109,10 @@ public class UndoableSensor private constructor(
             } ?: own
         }
 
+        fun sounds(stage: SensorStage.Noise) {
+            noise = hypot(noise, stage.standardDeviation / abs(gain))
+        }
+
         fun follows(change: Response) {
             require(shown.isEmpty()) {
                 "a stage that takes time after a gain, an offset or what else is added cannot be undone"
@@ -115,6 +122,8 @@ public class UndoableSensor private constructor(
                     "at its end"
             }
             response = change
+            // A lag smooths what noise comes before it.
+            noise = 0.0
         }
 
         fun changes(timeConstant: TimeConstant, vararg conditions: String) {
@@ -202,6 +211,7 @@ public class UndoableSensor private constructor(
                 range,
                 found.play,
                 found.wander,
+                found.noise,
             )
         }
 
@@ -219,7 +229,8 @@ public class UndoableSensor private constructor(
             }
             when (stage) {
                 // Outliers are found in the readings one by one.
-                is SensorStage.Noise, is SensorStage.Quantum, is SensorStage.Outlying -> Unit
+                is SensorStage.Quantum, is SensorStage.Outlying -> Unit
+                is SensorStage.Noise -> found.sounds(stage)
                 is SensorStage.Wander -> found.wanders(stage)
                 is SensorStage.Delay -> found.follows(response.copy(deadTime = response.deadTime + stage.deadTime))
                 is SensorStage.Lag -> lag(ResponseLag(stage.timeConstant))

@@ -100,7 +100,7 @@ class CorrectedLog internal constructor(
         val sensor = UndoableSensor.of(SensorSpec("", learned.calibration))
         val scaled = sensor.calibrated(series, conditions)
         val out = if (sensor.gain < 0) unusable.mirrored() else unusable
-        TrackCorrector(scaled, resolution / abs(sensor.gain), out, sensor.wander).correct(NO_LAG).values
+        TrackCorrector(scaled, resolution / abs(sensor.gain), out, sensor.wander, sensor.noise).correct(NO_LAG).values
     }
 
     /**
@@ -288,8 +288,8 @@ class CorrectedLog internal constructor(
             val sensor = UndoableSensor.of(SensorSpec("", stages))
             val scaled = sensor.calibrated(series, conditions)
             val out = if (sensor.gain < 0) unusable.mirrored() else unusable
-            return TrackCorrector(scaled, resolution / abs(sensor.gain), out, sensor.wander).correct(likely)
-                .widenedBy(sensor.play / 2)
+            return TrackCorrector(scaled, resolution / abs(sensor.gain), out, sensor.wander, sensor.noise)
+                .correct(likely).widenedBy(sensor.play / 2)
         }
 
         /**
