@@ -38,12 +38,13 @@ public class TrackAgreement private constructor(
         if (isContradicted) widened(track, lateness, spread) else track
 
     /**
-     * [track] with intervals that hold times wrong by [late], s, and values wrong by [wide], sensor units, as well: not
-     * beyond what the track shows within 1.96 times [late] either way.
+     * [track] with intervals that hold times wrong by [late], s, and values wrong by [wide], sensor units, as well: for
+     * times not farther than the track goes within [CAP] times 1.96 [late] either way, which of a track that is still
+     * smoothed is less than the water does.
      */
     public fun widened(track: CorrectedTrack, late: Double, wide: Double = 0.0): CorrectedTrack {
         val reach = TWO_SIDED * late
-        val most = changes(track.values, reach)
+        val most = changes(track.values, CAP * reach)
 
         fun wider(half: Double, row: Int): Double {
             val shifted = minOf(reach * abs(slopes[row]), most[row])
@@ -86,6 +87,8 @@ public class TrackAgreement private constructor(
         /** Squares beyond so many times what is expected count as that: one place is not to widen all intervals. */
         public const val LARGEST: Double = 25.0
 
+        /** Times the reach within which what the track does caps what wrong times may do. */
+        private const val CAP = 2.0
         private const val TWO_SIDED = 1.96
         private const val SURE = 2.0
         private const val GROUPS = 20

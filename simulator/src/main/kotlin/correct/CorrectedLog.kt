@@ -175,12 +175,11 @@ class CorrectedLog internal constructor(
             val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
             val series = if (knowsSpeed(log, conditions.keys)) plain.withSpeedOf(others) else plain
-            val references = rows.references()
-            SquareReach.require(log, series.values, references)
-            val failed = FailedReference.rows(series.values, references).onEach { references[it] = Double.NaN }
+            SquareReach.require(log, series.values, rows.references())
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
             val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
+            val (references, faults) = references(series, rows, unusable, isLearned = hasReference && undone == null)
             val tried = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
@@ -223,8 +222,28 @@ class CorrectedLog internal constructor(
                 margin,
                 unusable,
                 others,
-                bridged + listOfNotNull(FailedReference.words(failed.size).takeIf { failed.isNotEmpty() }),
+                bridged + faults,
             )
+        }
+
+        /**
+         * The references of [rows] without those that failed, and earlier where they are late and a sensor [isLearned] from
+         * them; what is to be said of that.
+         */
+        private fun references(
+            series: TrackSeries,
+            rows: Rows,
+            unusable: UnusableReadings,
+            isLearned: Boolean,
+        ): Pair<DoubleArray, List<String>> {
+            val found = rows.references()
+            val failed = FailedReference.rows(series.values, found).onEach { found[it] = Double.NaN }
+            val late = if (isLearned) LateReference.seconds(series, found, unusable) else 0.0
+            val faults = listOfNotNull(
+                FailedReference.words(failed.size).takeIf { failed.isNotEmpty() },
+                LateReference.words(late).takeIf { late > 0 },
+            )
+            return LateReference.earlier(series, found, late) to faults
         }
 
         /** Puts all readings of [log] into [rows], with the conditions [names], and [scan]. */
