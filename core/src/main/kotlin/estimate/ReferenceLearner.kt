@@ -39,7 +39,7 @@ public class ReferenceLearner(
         require(reference.all { it.isFinite() }) { "reference must be finite" }
     }
 
-    override val groups: Int = (series.size / GROUP).coerceIn(minOf(MOST_GROUPS / 2, series.size / LEAST_GROUP), MOST_GROUPS)
+    override val groups: Int = (series.size / GROUP).coerceIn(minOf(MOST_GROUPS / 2, series.size / ROWS), MOST_GROUPS)
     private val groupOf = IntArray(series.size) { (it.toLong() * groups / series.size).toInt() }
     private val usable = BooleanArray(series.size) { unusable.isUsable(it) }
     private val starts = StretchStarts(series, usable)
@@ -377,7 +377,7 @@ public class ReferenceLearner(
         private const val CLOSE = 1e-4
         private const val FEWEST = 30
         private const val GROUP = 60
-        private const val LEAST_GROUP = 5
+        private const val ROWS = 5
         private const val MOST_GROUPS = 20
         private const val TOP = 0.99
         private const val DELAYS = 14

@@ -100,7 +100,9 @@ public class TrackAgreement private constructor(
         public fun of(series: TrackSeries, track: CorrectedTrack): TrackAgreement {
             val slopes = slopes(series, track.values)
             val found = TrackCrossings(series.withFreshPositions())
-            if (found.size < FEWEST) return TrackAgreement(found.size, Double.NaN, Double.NaN, 0.0, 0.0, slopes, series.times)
+            if (found.size < FEWEST) {
+                return TrackAgreement(found.size, Double.NaN, Double.NaN, 0.0, 0.0, slopes, series.times)
+            }
             val pairs = Pairs(found, track, slopes)
             val ratio = pairs.ratio()
             val (late, wide) = pairs.fit()
