@@ -97,8 +97,8 @@ internal object LateReference {
 
     /** What is said of references that were taken [late], s, earlier. */
     fun words(late: Double): String =
-        "the readings are ahead of the reference by ${duration(late)}: its clock is behind, or it has a lag of its own; " +
-            "it was taken that much earlier"
+        "the readings are ahead of the reference by ${duration(late)}: its clock is behind, or it has a lag of its " +
+            "own; it was taken that much earlier"
 
     /** [references] of [series] as they are [late], s, after each row: NaN where that is beside none. */
     fun earlier(series: TrackSeries, references: DoubleArray, late: Double): DoubleArray {
