@@ -41,6 +41,10 @@ internal class CorrectInShort(
         val delays = open.map { it.response.meanDelay }
         val least = digits(delays.min(), DIGITS)
         val most = digits(delays.max(), DIGITS)
+        if (delays.max() < result.series.medianStep / 2) {
+            return "The readings trail the water by some $most s, less than half a row: the values are hardly more " +
+                "than smoothed."
+        }
         val others = when {
             open.any { it.kind == ResponseKind.NONE } -> ", or not at all: this log does not tell"
             least != most -> " ($least to $most s by the ${open.size} kinds of response that this log leaves open)"

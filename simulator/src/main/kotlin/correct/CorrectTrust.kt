@@ -1,6 +1,7 @@
 package stillwater.correct
 
 import stillwater.estimate.TrackAgreement
+import stillwater.sensor.SensorStage
 import stillwater.survey.Wording.Companion.digits
 import stillwater.survey.Wording.Companion.percent
 import kotlin.math.sqrt
@@ -46,7 +47,16 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
 
     /** What the user should know, one line each. */
     val warnings: List<String>
-        get() = listOfNotNull(misfit(), contradicted(), uneven(), wandered(), unchecked(), limited())
+        get() = listOfNotNull(calibrated(), misfit(), contradicted(), uneven(), wandered(), unchecked(), limited())
+
+    /** The reference is in another unit, or the sensor is far out. */
+    private fun calibrated(): String? {
+        if (result.origin != SensorOrigin.REFERENCE) return null
+        val found = result.learned.stages.filterIsInstance<SensorStage.Calibration>().singleOrNull() ?: return null
+        if (found.gain in USUAL_GAIN) return null
+        return "the readings are ${digits(found.gain, 3)} times the reference plus ${digits(found.offset, 3)}: the " +
+            "corrected values are in the reference's unit"
+    }
 
     /** The reference knows better than the intervals. */
     private fun misfit(): String? {
@@ -126,6 +136,8 @@ internal class CorrectTrust(private val result: CorrectedLog, private val unitAf
     }
 
     private companion object {
+        /** Gains of a sensor in the unit of its reference, dimensionless: one that is farther out is told all the same. */
+        val USUAL_GAIN = 0.8..1.25
         val LEARNED = setOf(SensorOrigin.REVISITS, SensorOrigin.RATE)
     }
 }

@@ -215,7 +215,7 @@ class CorrectedLog internal constructor(
                 learned.hinted?.takeIf { margin?.isEnough != true }
                     ?.let { unhinted.holding(corrected(learned, listOf(it))) },
                 statistics,
-                legs(series, unusable.bridged(series)),
+                legs(series, measured(series, learned.calibration, others, unusable)),
                 legs(series, unhinted.values),
                 agreement,
                 learned.wander(series, narrow, agreement),
@@ -294,6 +294,15 @@ class CorrectedLog internal constructor(
                 "undoing it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}"
             }
         }
+
+        /** Readings of [series] with the calibration of [stages] undone, in the unit of what is corrected. */
+        private fun measured(
+            series: TrackSeries,
+            stages: List<SensorStage>,
+            conditions: Map<String, DoubleArray>,
+            unusable: UnusableReadings,
+        ): DoubleArray = UndoableSensor.of(SensorSpec("", stages))
+            .calibrated(series.withValues(unusable.bridged(series)), conditions).values
 
         /** [series] with the calibration of [stages] undone, and the response that is one of [likely]. */
         private fun corrected(

@@ -72,9 +72,9 @@ class CorrectHonestyTest {
     fun aClearLagInThirtyRowsIsNoError() {
         var shown = 0.0
         val log = "time_s,slow,fast\n" + (0 until 30).joinToString("") { i ->
-            val water = if (i / 6 % 2 == 0) 0 else 100
+            val water = 3 * sin(i / 2.5)
             shown += (1 - exp(-1.0 / 3)) * (water - shown)
-            "$i,${"%.3f".format(Locale.ROOT, shown)},$water\n"
+            "$i,${"%.3f,%.3f".format(Locale.ROOT, shown, water)}\n"
         }
         val result = correct(log, "--reference", "fast")
         assertEquals(0, result.statusCode, result.output)
@@ -133,6 +133,27 @@ class CorrectHonestyTest {
         assertContains(few.stdout, "; too few legs to tell, 5\n")
         // A share would be read as a judgement all the same.
         assertFalse("than measured" in few.stdout, few.stdout)
+    }
+
+    /** Legs as measured are taken in the unit of the reference too, or they would differ by 1.8 times as much. */
+    @Test
+    fun aReferenceInAnotherUnitIsSaid() {
+        fun differ(text: String): Pair<String, CliktCommandTestResult> {
+            val result = correct(text, "--reference", "fast")
+            val measured = Regex("""legs: differ by (\S+) as measured""").find(result.stdout)
+            return assertNotNull(measured).groupValues[1] to result
+        }
+        val celsius = pond(700, referenceEvery = 1)
+        val fahrenheit = celsius.lines().filter { it.isNotEmpty() }.map { line ->
+            val reference = line.substringAfterLast(',').toDoubleOrNull()
+            val other = reference?.let { "%.4f".format(Locale.ROOT, 32 + 1.8 * it) } ?: "fast"
+            "${line.substringBeforeLast(',')},$other"
+        }.joinToString("\n")
+        val (same, plain) = differ(celsius)
+        val (other, told) = differ(fahrenheit)
+        assertFalse("in the reference's unit" in plain.stderr, plain.stderr)
+        assertContains(told.stderr, "the readings are 0.556 times the reference plus -17.8: the corrected")
+        assertEquals(1.8 * same.toDouble(), other.toDouble(), 0.01 * other.toDouble())
     }
 
     @Test
