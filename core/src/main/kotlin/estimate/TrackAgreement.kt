@@ -61,7 +61,7 @@ public class TrackAgreement private constructor(
         )
     }
 
-    /** By how much [values] differ at the most from each within [reach], s, of it; linear in their number. */
+    /** By how much [values] differ at the most from each within [reach], s, or two rows of it; linear in their number. */
     private fun changes(values: DoubleArray, reach: Double): DoubleArray {
         val most = DoubleArray(values.size)
         for (sign in listOf(1, -1)) {
@@ -69,11 +69,11 @@ public class TrackAgreement private constructor(
             val rows = ArrayDeque<Int>()
             var next = 0
             for (row in values.indices) {
-                while (next < values.size && times[next] <= times[row] + reach) {
+                while (next < values.size && (next <= row + SLOPE_ROWS || times[next] <= times[row] + reach)) {
                     while (rows.isNotEmpty() && sign * values[rows.last()] <= sign * values[next]) rows.removeLast()
                     rows.addLast(next++)
                 }
-                while (times[rows.first()] < times[row] - reach) rows.removeFirst()
+                while (rows.first() < row - SLOPE_ROWS && times[rows.first()] < times[row] - reach) rows.removeFirst()
                 most[row] = maxOf(most[row], sign * (values[rows.first()] - values[row]))
             }
         }

@@ -142,6 +142,26 @@ class ReferenceLearnerTest {
         }
     }
 
+    /** In two groups of rows nothing is ruled out, however far it is behind. */
+    @Test
+    fun aShortReferenceIsJudgedInGroupsEnoughToRuleOut() {
+        val times = DoubleArray(150) { it.toDouble() }
+        val truth = DoubleArray(150) { sin(it / 8.0) + sin(it / 3.1) }
+        val weights = LagWeights().also { it.set(6.0, 1.0) }
+        val random = java.util.Random(7)
+        var state = truth[0]
+        val values = DoubleArray(150) {
+            if (it > 0) state = weights.keep * state + weights.before * truth[it - 1] + weights.now * truth[it]
+            state + 0.02 * random.nextGaussian()
+        }
+        val learner = ReferenceLearner(TrackSeries(times, times, DoubleArray(150), values), truth)
+        assertEquals(10, learner.groups)
+        val choice = ResponseChoice.of(ResponseKind.entries.mapNotNull(learner::candidate), Random(1))
+        assertTrue(choice.open.any { it.kind == ResponseKind.FIRST_ORDER }, "${choice.open.map { it.kind }}, seed 7")
+        val impossible = listOf(ResponseKind.NONE, ResponseKind.DEAD_TIME, ResponseKind.SLEW)
+        assertTrue(choice.open.none { it.kind in impossible }, "${choice.open.map { it.kind }}, seed 7")
+    }
+
     /** Of a log of one step up, followed by a probe that is not quite of first order: sums of lags as of a thick foil. */
     @Test
     fun noResponseIsTurnedNorLongerThanTheLog() {

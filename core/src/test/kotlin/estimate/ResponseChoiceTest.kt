@@ -57,6 +57,7 @@ class ResponseChoiceTest {
         fun hinted(vararg of: CandidateResponse) = ResponseChoice.of(of.toList(), Random(1)).hinted?.kind
         val level = candidate(ResponseKind.TWO_PATH, 100.1, 0.0)
         assertEquals(ResponseKind.TWO_PATH, hinted(lag, level))
+        assertEquals(null, hinted(lag, candidate(ResponseKind.TWO_PATH, 99.9, 0.0)), "behind what is open")
         val better = candidate(ResponseKind.DEAD_TIME_AND_TWO_PATH, 100.15, 0.0)
         assertEquals(ResponseKind.DEAD_TIME_AND_TWO_PATH, hinted(lag, level, better))
         // Not where its share is as open as beforehand, where it is ruled out, or where it is open anyway.

@@ -121,6 +121,23 @@ class TrackAgreementTest {
         assertTrue(wider.values === track.values)
     }
 
+    /** A slope goes on for as long as the water does, and not for as long as times may be wrong. */
+    @Test
+    fun wrongTimesWidenIntervalsNoFartherThanTheTrackGoes() {
+        val series = wound()
+        val track = corrected(series, late = 0.0)
+        val agreement = TrackAgreement.of(series, track)
+        val range = track.values.max() - track.values.min()
+        val far = agreement.widened(track, late = 1000.0)
+        val half = track.upper.indices.maxOf { track.upper[it] - track.values[it] }
+        for (row in far.values.indices) {
+            assertTrue(far.upper[row] - far.values[row] <= range + half, "row $row: ${far.upper[row]}")
+        }
+        // Of times that are hardly wrong the slope says it all.
+        val near = agreement.widened(track, late = 0.1)
+        assertTrue(near.meanHalfWidth > track.meanHalfWidth && near.meanHalfWidth < far.meanHalfWidth)
+    }
+
     @Test
     fun intervalsOfNoWidthAreContradictedByPassesThatDiffer() {
         val series = wound()

@@ -360,20 +360,6 @@ class TrackCorrectionTest {
     }
 
     @Test
-    fun twoUnequalLagsInARowAreLearnedAndUndone() {
-        for ((seed, lags) in listOf(17 to listOf(3.0, 10.0), 18 to listOf(10.0, 3.0), 19 to listOf(2.0, 40.0))) {
-            val log = LawnmowerLog(seed, lags.map { SensorStage.Lag(it) }, legs = 8)
-            val reference = ReferenceLearner(log.series, log.truth)
-            val found = ResponseChoice.of(ResponseKind.entries.mapNotNull(reference::candidate), Random(1))
-            assertEquals(ResponseKind.TWO_LAGS, found.first.kind, "lags $lags, seed $seed")
-            val (shorter, longer) = found.first.parameters
-            // As for two paths.
-            assertEquals(lags.min(), shorter, 0.1 * lags.min(), "lags $lags, seed $seed")
-            assertEquals(lags.max(), longer, 0.1 * lags.max(), "lags $lags, seed $seed")
-        }
-    }
-
-    @Test
     fun phaseOfTwoPathsIsThatOfTheirSum() {
         val omega = 0.05
         val response = Response(2.0, listOf(ResponseLag(8.0), ResponseLag(70.0)), slowShare = 0.2)
