@@ -175,11 +175,12 @@ class CorrectedLog internal constructor(
             val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
             val series = if (knowsSpeed(log, conditions.keys)) plain.withSpeedOf(others) else plain
-            SquareReach.require(log, series.values, rows.references())
+            val shown = rows.references()
+            SquareReach.require(log, series.values, shown)
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
             val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
-            val (references, faults) = references(series, rows, unusable, isLearned = hasReference && undone == null)
+            val (references, faults) = references(series, shown, unusable, isLearned = hasReference && undone == null)
             val tried = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
@@ -227,16 +228,16 @@ class CorrectedLog internal constructor(
         }
 
         /**
-         * The references of [rows] without those that failed, and earlier where they are late and a sensor [isLearned] from
+         * The references [shown] without those that failed, and earlier where they are late and a sensor [isLearned] from
          * them; what is to be said of that.
          */
         private fun references(
             series: TrackSeries,
-            rows: Rows,
+            shown: DoubleArray,
             unusable: UnusableReadings,
             isLearned: Boolean,
         ): Pair<DoubleArray, List<String>> {
-            val found = rows.references()
+            val found = shown.copyOf()
             val failed = FailedReference.rows(series.values, found).onEach { found[it] = Double.NaN }
             val late = if (isLearned) LateReference.seconds(series, found, unusable) else 0.0
             val faults = listOfNotNull(

@@ -55,8 +55,8 @@ internal object LateReference {
         if (late == 0.0) return 0.0
         var width = late / 2
         repeat(HALVINGS) {
-            val near = listOf(late - width, late + width).filter { it in 0.0..longest }.maxBy(::score)
-            val found = score(near)
+            val (near, found) = listOf(late - width, late + width).filter { it in 0.0..longest }
+                .map { it to score(it) }.maxBy { it.second }
             if (found > best) {
                 late = near
                 best = found

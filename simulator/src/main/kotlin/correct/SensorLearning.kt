@@ -235,11 +235,11 @@ internal object SensorLearning {
         val held = ReferenceLearner.isHeld(part, reference, out)
         fun another() = ReferenceLearner(part, reference, held, out)
         val learner = another()
-        val choice = choice(learner, ResponseKind.entries, ::another)
-        val fault = fault(series, part, learner, choice)
-        if (choice == null || fault != null) {
-            return byRevisits(series, unusable, log.frame != null).copy(fault = fault)
-        }
+        // Made only where it is asked for: it takes most of the time.
+        val made = lazy { choice(learner, ResponseKind.entries, ::another) }
+        val fault = fault(series, part, learner, made)
+        val choice = if (fault == null) made.value else null
+        if (choice == null) return byRevisits(series, unusable, log.frame != null).copy(fault = fault)
 
         // What is undone is a response to water that changes all the time.
         fun undone(open: LikelyResponse) =
@@ -269,15 +269,15 @@ internal object SensorLearning {
         series: TrackSeries,
         part: TrackSeries,
         learner: ReferenceLearner,
-        choice: ResponseChoice?,
+        choice: Lazy<ResponseChoice?>,
     ): String? {
         val range = learner.lagRange()
         val length = part.times.last() - part.times.first()
         val least = if (range.start == 0.0) length / FEW_LAGS else ReferenceLearner.MOST_FACTOR * range.start
-        val isKnown = choice != null && choice.open.all {
+        fun isKnown() = choice.value?.open?.all {
             it.kind !in SINGLE && it.response.meanDelay < length / FEW_LAGS
-        }
-        if (range.endInclusive > least && !isKnown) {
+        } == true
+        if (range.endInclusive > least && !isKnown()) {
             val begin = if (range.start == 0.0) "none" else duration(range.start)
             val end = if (range.endInclusive.isInfinite()) "more than it is long" else duration(range.endInclusive)
             return "its ${part.size} rows, ${duration(length)} long, fit any lag from $begin to $end"
@@ -287,7 +287,7 @@ internal object SensorLearning {
             val rows = "it has a row every ${duration(part.medianStep)} only"
             return "$rows, and the water between them is not known well enough"
         }
-        return if (choice == null) "its ${part.size} rows are too few" else null
+        return if (choice.value == null) "its ${part.size} rows are too few" else null
     }
 
     /** All [kinds] on all cores; each task has a learner of its own, the first one [learner]. */

@@ -78,7 +78,7 @@ internal class FitReport(
             val parameter = fit.model.parameters[place]
             val value = value(fit, i)
             if (isAnswer && value < fit.numbers[i]) bounded += SLOWEST
-            Estimate(parameter.name, parameter.unit, value, interval(fit, i, errors[i], isAnswer))
+            Estimate(parameter.name, parameter.unit, value, interval(fit, i, errors[i], pair, isAnswer))
         }
     }
 
@@ -86,7 +86,7 @@ internal class FitReport(
     private fun value(fit: ModelFit, i: Int) =
         if (fit.model.parameters[i].name == SLOW_RATIO) fit.model.slowRatio(fit.numbers) else fit.numbers[i]
 
-    private fun interval(fit: ModelFit, i: Int, error: Double, isAnswer: Boolean): Interval? {
+    private fun interval(fit: ModelFit, i: Int, error: Double, pair: LagPair?, isAnswer: Boolean): Interval? {
         val parameter = fit.model.parameters[i]
         val value = fit.numbers[i]
         if (!fit.free[i]) return null
@@ -98,7 +98,7 @@ internal class FitReport(
             return beside(fit, i)
         }
         val reach = NORMAL_95 * error
-        LagPair.of(fit)?.takeIf { it.isAlike(i, reach) }?.let { return it.interval(i, used) }
+        pair?.takeIf { it.isAlike(i, reach) }?.let { return it.interval(i, used) }
         if (!reach.isFinite() || reach == 0.0) return null
         if (!parameter.logarithmic) {
             val open = open(fit, i, parameter)
