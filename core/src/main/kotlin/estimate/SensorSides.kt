@@ -8,31 +8,49 @@ import kotlin.math.sqrt
  * At which readings the sensor rises, and at which it runs at its rate limit.
  *
  * @property rising length n. @property silent length n; never without a limit.
- * @property looseness how far the sensor may have gone between a silent reading and the run that it touches, sensor
- * units, length n; 0 in a run.
+ * @property looseness how far a silent reading may be beyond the bound that it sets, sensor units, length n: where a limit
+ * stands behind the lags as far as the sensor may have gone between it and the run that it touches, 0 in a run.
+ * @property ahead how far the field is ahead of a silent reading of a single lag that is held at its own limit, at the least,
+ * sensor units, at least 0, length n; NaN at all others.
  */
 internal class SensorSides(series: TrackSeries, response: Response, resolution: Double) {
     val rising: BooleanArray
     val silent: BooleanArray
     val looseness: DoubleArray
+    val ahead: DoubleArray
 
     init {
         val reach = reach(series, response.slewRate, resolution)
         val slopes = slopes(series, reach)
         rising = BooleanArray(series.size) { slopes[it] > 0 }
         val running = BooleanArray(series.size) { abs(slopes[it]) > AT_LIMIT * response.slewRate }
+        silent = running.copyOf()
         // A slope reaches over its neighbours: what touches a run may be at the limit, too.
-        silent = BooleanArray(series.size) { i ->
-            (maxOf(0, i - reach)..minOf(series.size - 1, i + reach)).any { running[it] }
+        for (step in listOf(1, -1)) touching(series, response.slewRate, running, reach, resolution, step)
+        val held = response.lags.singleOrNull()?.takeIf { response.isLimitWithin && response.slewRate.isFinite() }
+        if (held == null) {
+            if (response.isLimitWithin) {
+                linger(series.times, running, LINGERS * (response.meanDelay - response.deadTime))
+            }
+            val touched = if (response.slewRate.isFinite()) reach * series.medianStep * response.slewRate else 0.0
+            looseness = DoubleArray(series.size) { if (running[it]) 0.0 else touched }
+            ahead = DoubleArray(series.size) { Double.NaN }
+        } else {
+            // τ ds/dt = ψ − s, and ψ is farther than that where ds/dt is at its limit.
+            val lags = DoubleArray(series.size) { if (rising[it]) held.rising else held.falling }
+            val noise = roughness(series) / (sqrt(2.0) * reach * series.medianStep)
+            ahead = DoubleArray(series.size) {
+                if (silent[it]) lags[it] * minOf(abs(slopes[it]), response.slewRate) else Double.NaN
+            }
+            looseness = DoubleArray(series.size) {
+                if (silent[it]) lags[it] * maxOf(response.slewRate - abs(slopes[it]), noise) else 0.0
+            }
         }
-        if (response.isLimitWithin) linger(series.times, running, LINGERS * (response.meanDelay - response.deadTime))
-        val touched = if (response.slewRate.isFinite()) reach * series.medianStep * response.slewRate else 0.0
-        looseness = DoubleArray(series.size) { if (running[it]) 0.0 else touched }
     }
 
     /**
-     * A lag that was held back itself shows after a run what a lag without a limit would have shown before, which is beyond
-     * it on the run's side until that has faded: for [seconds] after each run of rows that are [running].
+     * The first of two lags that was held back itself shows after a run what one without a limit would have shown before,
+     * which is beyond it on the run's side until that has faded: for [seconds] after each run of rows that are [running].
      */
     private fun linger(times: DoubleArray, running: BooleanArray, seconds: Double) {
         var last = -1
@@ -46,9 +64,47 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         }
     }
 
+    /**
+     * Marks the rows next to each run, up to [reach] of them, as long as readings are on the line of slope [rate] through
+     * the run's end: a sensor that has left its limit falls behind that.
+     *
+     * @param step 1 for rows after runs, −1 for rows before.
+     */
+    private fun touching(
+        series: TrackSeries,
+        rate: Double,
+        running: BooleanArray,
+        reach: Int,
+        resolution: Double,
+        step: Int,
+    ) {
+        val scatter = BEHIND * (roughness(series) + resolution / 2)
+        for (end in running.indices) {
+            val isEnd = running[end] && running.getOrNull(end + step) == false
+            if (!isEnd) continue
+            val slope = if (rising[end]) rate else -rate
+            val within = (0..reach).map { end - step * it }.takeWhile { it in running.indices && running[it] }
+            val level = within.sumOf { series.values[it] - slope * (series.times[it] - series.times[end]) } / within.size
+            fun isOff(row: Int): Boolean {
+                val line = level + slope * (series.times[row] - series.times[end])
+                return (line - series.values[row]) * step * (if (rising[end]) 1 else -1) > scatter
+            }
+            for (k in 1..reach) {
+                val row = end + step * k
+                if (row !in running.indices || running[row]) break
+                // One alone may be noise.
+                if (isOff(row) && (row + step !in running.indices || isOff(row + step))) break
+                silent[row] = true
+            }
+        }
+    }
+
     companion object {
         /** Time constants after which nothing is left of what a limit held back. */
         private const val LINGERS = 4.0
+
+        /** A reading so many deviations of its noise behind what a sensor at its limit shows is off it. */
+        private const val BEHIND = 2.5
         private const val AT_LIMIT = 0.85
         private const val FEWEST = 2
         private const val MOST = 8

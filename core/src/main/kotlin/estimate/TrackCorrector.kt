@@ -151,6 +151,7 @@ public class TrackCorrector(
             sides.silent.copyOfRange(rows.first, rows.last + 1),
             sides.rising.copyOfRange(rows.first, rows.last + 1),
             sides.looseness.copyOfRange(rows.first, rows.last + 1),
+            sides.ahead.copyOfRange(rows.first, rows.last + 1),
         )
         for (row in rows) {
             val i = row - rows.first
@@ -161,6 +162,7 @@ public class TrackCorrector(
             stretch.silent[i] = true
             stretch.rising[i] = end > 0
             stretch.looseness[i] = 0.0
+            stretch.ahead[i] = Double.NaN
         }
         return stretch
     }
@@ -188,7 +190,8 @@ public class TrackCorrector(
                 -1
             }
             if (stretch.outlying[i]) outlying[row] = true
-            val limit = series.values[row] - side * BEYOND * hypot(part.along.noise, stretch.looseness[i])
+            val ahead = stretch.ahead[i].takeUnless { it.isNaN() } ?: 0.0
+            val limit = series.values[row] + side * (ahead - BEYOND * hypot(part.along.noise, stretch.looseness[i]))
             mixture.add(row - from, part.weight, mean[i] + level, variance[i], side, limit)
         }
     }

@@ -11,7 +11,8 @@ import kotlin.math.ln
  * @property times s, growing, length n. @property values readings about their level, sensor units, length n.
  * @property silent readings that show the field from one side only (the sensor is at its limit), length n.
  * @property rising whether the sensor rises, length n. @property looseness how far a silent reading may be beyond the
- * field besides its noise, sensor units, length n.
+ * field besides its noise, sensor units, length n. @property ahead how far the field is at the least ahead of a silent
+ * reading of a lag that is held at its own limit, sensor units, length n; NaN at all others.
  */
 internal class Stretch(
     val times: DoubleArray,
@@ -19,6 +20,7 @@ internal class Stretch(
     val silent: BooleanArray,
     val rising: BooleanArray,
     val looseness: DoubleArray,
+    val ahead: DoubleArray,
 ) {
     /** Readings that are left out as outliers, length n. Modified. */
     val outlying = BooleanArray(times.size)
@@ -40,7 +42,7 @@ internal class TrackSmoother(
     private val along: AlongTrack,
     private val agitation: DoubleArray,
     usual: Double,
-    wander: SensorStage.Wander? = null,
+    private val wander: SensorStage.Wander? = null,
 ) {
     private val motion = FieldMotion(along, response.lags, usual, response.slowShare, wander)
     private val size = motion.size
@@ -84,6 +86,7 @@ internal class TrackSmoother(
     private class Tape(events: Int, size: Int) {
         val moves = arrayOfNulls<Transition>(events)
         val gains = DoubleArray(events * size)
+        val seen = IntArray(events)
         val rows = DoubleArray(events * size)
         val means = DoubleArray(events)
     }
@@ -133,31 +136,38 @@ internal class TrackSmoother(
 
     private fun see(reading: Int, tape: Tape?, event: Int) {
         if (stretch.outlying[reading]) return pass(reading)
-        val spread = p[shown * size + shown]
-        val bound = stretch.values[reading]
+        val isHeld = !stretch.ahead[reading].isNaN()
+        if (isHeld) hold(stretch.values[reading], tape, event)
+        // Of a lag that is held back the reading is the state; what it tells is told of the field.
+        val seen = if (isHeld) 0 else shown
+        val spread = p[seen * size + seen]
         if (stretch.silent[reading]) {
+            val isRising = stretch.rising[reading]
+            val ahead = if (isHeld) stretch.ahead[reading] else 0.0
+            val bound = stretch.values[reading] + if (isRising) ahead else -ahead
             // What is on the right side already is not told again: neighbours say the same thing, and each would be
             // taken for more evidence.
-            if (stretch.rising[reading] == x[shown] > bound) return pass(reading)
+            if (isRising == x[seen] > bound) return pass(reading)
             val looseness = hypot(along.noise, stretch.looseness[reading])
-            oneSided.tell(x[shown], spread, bound, stretch.rising[reading], looseness)
+            oneSided.tell(x[seen], spread, bound, isRising, looseness)
             logDensities[reading] = oneSided.logProbability
-            val moved = oneSided.mean - x[shown]
+            val moved = oneSided.mean - x[seen]
             surprises[reading] = (oneSided.variance + moved * moved) / spread
             // A reading of variance v²/(v − v̂) − v would leave the same mean and variance.
             val share = 1 - oneSided.variance / spread
             innovations[reading] = moved / share
             variances[reading] = spread / share
         } else {
-            innovations[reading] = bound - x[shown]
+            innovations[reading] = stretch.values[reading] - x[shown]
             variances[reading] = spread + along.noise * along.noise
             surprises[reading] = innovations[reading] * innovations[reading] / variances[reading]
             logDensities[reading] = -(ln(2 * PI * variances[reading]) + surprises[reading]) / 2
         }
         val innovation = innovations[reading]
         val variance = variances[reading]
+        tape?.seen?.set(event, seen)
         for (i in 0 until size) {
-            val gain = p[i * size + shown] / variance
+            val gain = p[i * size + seen] / variance
             x[i] += gain * innovation
             work[i] = gain
             tape?.gains?.set(event * size + i, gain)
@@ -168,6 +178,24 @@ internal class TrackSmoother(
                 p[j * size + i] = p[i * size + j]
             }
         }
+    }
+
+    /** A lag that is held back is at [value], give or take the noise, whatever it was before. */
+    private fun hold(value: Double, tape: Tape?, event: Int) {
+        val own = along.states until size
+        for (i in own) {
+            x[i] = value
+            for (j in 0 until size) {
+                p[i * size + j] = 0.0
+                p[j * size + i] = 0.0
+            }
+        }
+        for (i in own) for (j in own) p[i * size + j] = along.noise * along.noise
+        if (wander != null) p[along.states * (size + 1)] += wander.standardDeviation * wander.standardDeviation
+        if (tape == null) return
+        val move = tape.moves[event]?.move?.copyOf() ?: DoubleArray(size * size) { if (it % (size + 1) == 0) 1.0 else 0.0 }
+        move.fill(0.0, own.first * size, size * size)
+        tape.moves[event] = Transition(move, move)
     }
 
     private fun pass(reading: Int) {
@@ -219,12 +247,13 @@ internal class TrackSmoother(
         }
         var twice = 0.0
         for (b in 0 until size) twice += row[b] * tape.gains[event * size + b]
-        lambda[shown] -= along + innovations[reading] / variances[reading]
+        val seen = tape.seen[event]
+        lambda[seen] -= along + innovations[reading] / variances[reading]
         for (b in 0 until size) {
-            big[shown * size + b] -= row[b]
-            big[b * size + shown] -= row[b]
+            big[seen * size + b] -= row[b]
+            big[b * size + seen] -= row[b]
         }
-        big[shown * size + shown] += twice + 1 / variances[reading]
+        big[seen * size + seen] += twice + 1 / variances[reading]
     }
 
     /** λ ← Fᵀλ, Λ ← FᵀΛF. */

@@ -172,10 +172,14 @@ class TrackCorrectionTest {
         val stage = SensorStage.LimitedLag(8.0, 0.03)
         val n = 2400
         val times = DoubleArray(n) { it.toDouble() }
-        val truth = DoubleArray(n) { abs(it % 120 - 60) * 0.05 + 0.4 * sin(it / 53.0) }
+        fun water(time: Double) = abs(time % 120 - 60) * 0.05 + 0.4 * sin(time / 53)
+        val truth = DoubleArray(n) { water(times[it]) }
         val sensor = stage.build(truth[0], kotlin.random.Random(1))
-        val values =
-            DoubleArray(n) { sensor.step(truth[it], 1.0, Conditions.NONE) + 0.01 * (random.nextDouble() - 0.5) }
+        val values = DoubleArray(n) { row ->
+            var shown = 0.0
+            for (part in 1..10) shown = sensor.step(water(row - 1 + (part - 0.5) / 10), 0.1, Conditions.NONE)
+            shown + 0.01 * (random.nextDouble() - 0.5)
+        }
         val series = TrackSeries(times, DoubleArray(n) { 0.5 * it }, DoubleArray(n), values)
         val response = UndoableSensor.of(SensorSpec("given", listOf(stage))).response
         val track = TrackCorrector(series, 0.0).correct(listOf(LikelyResponse(listOf(response), 1.0)))
