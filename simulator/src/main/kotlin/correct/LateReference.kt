@@ -4,6 +4,7 @@ import stillwater.estimate.ReferenceLearner
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.TrackSeries
 import stillwater.estimate.UnusableReadings
+import stillwater.estimate.rateLimit
 import stillwater.survey.Wording.Companion.duration
 
 /**
@@ -24,6 +25,9 @@ internal object LateReference {
     private const val MOST_STEPS = 64
     private const val HALVINGS = 5
 
+    /** A lag and a delay that differ by less than this factor may be the same. */
+    private const val ALIKE = 2.0
+
     /** Rows to either side over which noise of the reference is taken off. */
     private val SMOOTHED = listOf(1, 2, 4)
 
@@ -34,7 +38,8 @@ internal object LateReference {
     fun seconds(series: TrackSeries, references: DoubleArray, unusable: UnusableReadings): Double {
         val known = (0 until series.size).filter { references[it].isFinite() && unusable.isUsable(it) }
         val middle = known.drop(maxOf(0, (known.size - MOST) / 2)).take(MOST)
-        if (middle.size < FEWEST) return 0.0
+        // Behind a rate limit the water is not told by any of the responses that it is held against.
+        if (middle.size < FEWEST || !series.rateLimit().isNaN()) return 0.0
         val length = series.times[middle.last()] - series.times[middle.first()]
         val longest = minOf(length / PARTS, MOST_STEPS * series.medianStep)
         // The same rows for all delays.
@@ -43,9 +48,11 @@ internal object LateReference {
         if (rows.size < FEWEST) return 0.0
         val part = series.at(rows)
 
+        fun candidate(taken: DoubleArray, kind: ResponseKind, held: Boolean = false) =
+            ReferenceLearner(part, DoubleArray(rows.size) { taken[rows[it]] }, held).candidate(kind)
+
         fun score(taken: DoubleArray, kind: ResponseKind, held: Boolean = false): Double =
-            ReferenceLearner(part, DoubleArray(rows.size) { taken[rows[it]] }, held).candidate(kind)?.score
-                ?: Double.NEGATIVE_INFINITY
+            candidate(taken, kind, held)?.score ?: Double.NEGATIVE_INFINITY
 
         fun score(late: Double) = score(earlier(series, references, late), ResponseKind.FIRST_ORDER)
 
@@ -63,8 +70,6 @@ internal object LateReference {
             }
             width /= 2
         }
-        // Between two rows noise of the reference is averaged, which would be counted for the delay.
-        val whole = score(Math.rint(late / part.medianStep) * part.medianStep)
         val isHeld = ReferenceLearner.isHeld(part, DoubleArray(rows.size) { references[rows[it]] })
         val asItIs = ResponseKind.entries.maxOf { score(references, it, isHeld) }
         // Taken earlier, and then behind a lag, it is smoothed to both sides: where it is noise, that alone is better.
@@ -72,7 +77,12 @@ internal object LateReference {
             smoothed(references, reach).let { taken -> ResponseKind.entries.maxOf { score(taken, it) } }
         }
         val otherwise = maxOf(asItIs, smoothed)
-        return if (2 * (whole - otherwise) > CLEARLY) late else 0.0
+        val lag = candidate(earlier(series, references, late), ResponseKind.FIRST_ORDER)?.response?.meanDelay ?: 0.0
+        // Where the lag takes back what the reference was taken earlier, only noise of the reference may ask for both, and
+        // between two rows that is averaged.
+        val isTakenBack = lag in late / ALIKE..late * ALIKE
+        val judged = if (isTakenBack) score(Math.rint(late / part.medianStep) * part.medianStep) else best
+        return if (2 * (judged - otherwise) > CLEARLY) late else 0.0
     }
 
     /** Means of [references] over up to [reach] rows to either side; NaN where there is none. */

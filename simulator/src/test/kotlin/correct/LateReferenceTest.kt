@@ -44,7 +44,7 @@ class LateReferenceTest {
 
     @Test
     fun aClockThatIsBehindIsFound() {
-        for ((seed, behind) in listOf(1L to 2.0, 2L to 2.0, 3L to 6.0, 4L to 20.0)) {
+        for ((seed, behind) in listOf(1L to 2.0, 2L to 2.0, 3L to 6.0, 4L to 20.0, 5L to 1.6, 6L to 2.5)) {
             val found = late(seed, behind, 0.0, SensorStage.Lag(8.0))
             // A tenth of a row: the water between rows is taken for straight.
             assertEquals(behind, found, 0.1, "seed $seed")
@@ -69,6 +69,17 @@ class LateReferenceTest {
                 assertEquals(0.0, late(seed, 0.0, noise, *stages.toTypedArray()), "$stages, noise $noise, seed $seed")
             }
         }
+    }
+
+    @Test
+    fun aSensorAtItsRateLimitIsNoLateReference() {
+        for (seed in 3511L..3515L) assertEquals(0.0, late(seed, 0.0, 0.01, SensorStage.Slew(0.05)), "seed $seed")
+    }
+
+    /** The mean of two rows is better than each where the reference is noise, and a lag of half a row puts it right. */
+    @Test
+    fun noiseOfAReferenceBesideNoLagIsNotLate() {
+        for (seed in 3911L..3920L) assertEquals(0.0, late(seed, 0.0, 0.1), "seed $seed")
     }
 
     @Test
