@@ -84,11 +84,12 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
             if (!isEnd) continue
             val slope = if (rising[end]) rate else -rate
             val within = (0..reach).map { end - step * it }.takeWhile { it in running.indices && running[it] }
-            val level = within.sumOf { series.values[it] - slope * (series.times[it] - series.times[end]) } / within.size
-            fun isOff(row: Int): Boolean {
-                val line = level + slope * (series.times[row] - series.times[end])
-                return (line - series.values[row]) * step * (if (rising[end]) 1 else -1) > scatter
-            }
+
+            fun beyond(row: Int) = series.values[row] - slope * (series.times[row] - series.times[end])
+            val level = within.sumOf(::beyond) / within.size
+            val side = if (rising[end]) step else -step
+
+            fun isOff(row: Int) = (level - beyond(row)) * side > scatter
             for (k in 1..reach) {
                 val row = end + step * k
                 if (row !in running.indices || running[row]) break

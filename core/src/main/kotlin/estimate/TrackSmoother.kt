@@ -193,7 +193,8 @@ internal class TrackSmoother(
         for (i in own) for (j in own) p[i * size + j] = along.noise * along.noise
         if (wander != null) p[along.states * (size + 1)] += wander.standardDeviation * wander.standardDeviation
         if (tape == null) return
-        val move = tape.moves[event]?.move?.copyOf() ?: DoubleArray(size * size) { if (it % (size + 1) == 0) 1.0 else 0.0 }
+        val still = DoubleArray(size * size) { if (it % (size + 1) == 0) 1.0 else 0.0 }
+        val move = tape.moves[event]?.move?.copyOf() ?: still
         move.fill(0.0, own.first * size, size * size)
         tape.moves[event] = Transition(move, move)
     }

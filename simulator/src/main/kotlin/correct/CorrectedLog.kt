@@ -4,7 +4,6 @@ import stillwater.diagnose.ConditionGaps
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnosis.ConditionColumns
 import stillwater.estimate.CorrectedTrack
-import stillwater.estimate.FailedReference
 import stillwater.estimate.LikelyResponse
 import stillwater.estimate.Response
 import stillwater.estimate.ResponseChoice
@@ -180,7 +179,7 @@ class CorrectedLog internal constructor(
             val statistics = scan.statistics()
             val resolution = resolution(statistics, series)
             val unusable = UnusableReadings.of(series, resolution, undone?.range ?: UndoableSensor.ENDLESS)
-            val (references, faults) = references(series, shown, unusable, isLearned = hasReference && undone == null)
+            val references = References.of(series, shown, unusable, isLearned = hasReference && undone == null)
             val tried = when {
                 undone != null -> Learned(
                     SensorOrigin.GIVEN,
@@ -194,7 +193,7 @@ class CorrectedLog internal constructor(
             fun corrected(learned: Learned, likely: List<LikelyResponse> = learned.likely) =
                 corrected(series, likely, learned.calibration, resolution, others, unusable)
             val first = corrected(tried)
-            val isLost = isLost(tried, first, series, references)
+            val isLost = isLost(tried, first, series, references.measured)
             val other = if (isLost) SensorLearning.byRevisits(series, unusable, log.frame != null) else null
             val learned = other?.copy(fault = LOST) ?: tried
             val narrow = if (isLost) corrected(learned) else first
@@ -203,7 +202,7 @@ class CorrectedLog internal constructor(
             val agreed = learned.agreed(narrow, agreement)
             // A given sensor's intervals are the giver's. All others must hold a reference that is there, learned from or not.
             val isMeasured = hasReference && learned.origin != SensorOrigin.GIVEN
-            val margin = if (isMeasured) ReferenceMargin.of(series, agreed, references) else null
+            val margin = if (isMeasured) ReferenceMargin.of(series, agreed, references.measured) else null
             val unhinted = margin?.widened(agreed) ?: agreed
             return CorrectedLog(
                 log,
@@ -223,28 +222,8 @@ class CorrectedLog internal constructor(
                 margin,
                 unusable,
                 others,
-                bridged + faults,
+                bridged + references.faults,
             )
-        }
-
-        /**
-         * The references [shown] without those that failed, and earlier where they are late and a sensor [isLearned] from
-         * them; what is to be said of that.
-         */
-        private fun references(
-            series: TrackSeries,
-            shown: DoubleArray,
-            unusable: UnusableReadings,
-            isLearned: Boolean,
-        ): Pair<DoubleArray, List<String>> {
-            val found = shown.copyOf()
-            val failed = FailedReference.rows(series.values, found).onEach { found[it] = Double.NaN }
-            val late = if (isLearned) LateReference.seconds(series, found, unusable) else 0.0
-            val faults = listOfNotNull(
-                FailedReference.words(failed.size).takeIf { failed.isNotEmpty() },
-                LateReference.words(late).takeIf { late > 0 },
-            )
-            return LateReference.earlier(series, found, late) to faults
         }
 
         /** Puts all readings of [log] into [rows], with the conditions [names], and [scan]. */

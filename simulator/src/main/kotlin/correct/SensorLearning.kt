@@ -210,13 +210,14 @@ internal object SensorLearning {
 
     private fun nothing(readings: Int) = Learned(SensorOrigin.NOTHING, null, NO_LAG, emptyList(), readings)
 
-    /** What [references], NaN where there is none, say of the readings of [series] but for the [unusable]. */
+    /** What [all] references say of the readings of [series] but for the [unusable]. */
     fun byReference(
         log: SurveyLog,
         series: TrackSeries,
-        references: DoubleArray,
+        all: References,
         unusable: UnusableReadings,
     ): Learned {
+        val references = all.water
         val known = (0 until series.size).filter { references[it].isFinite() }
         val rows = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
         val telling = rows.filter(unusable::isUsable)
@@ -232,7 +233,8 @@ internal object SensorLearning {
         val part = series.at(rows)
         val reference = DoubleArray(rows.size) { references[rows[it]] }
         val out = unusable.at(rows)
-        val held = ReferenceLearner.isHeld(part, reference, out)
+        // A held reference has no noise, and one without its noise is as round as one that is held.
+        val held = !all.isSmoothed && ReferenceLearner.isHeld(part, reference, out)
         fun another() = ReferenceLearner(part, reference, held, out)
         val learner = another()
         // Made only where it is asked for: it takes most of the time.

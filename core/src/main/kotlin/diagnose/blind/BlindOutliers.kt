@@ -120,13 +120,16 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
      */
     private val isTailed = both[1].ratio < Spikes.student(columns[1], noise.noise).ratio + TAILED
 
+    /** Whether the farthest reading is off by more than noise that is somewhat uneven brings about, as with a reference. */
+    private val isFar = both[1].size > FARTHEST
+
     /**
-     * The two in one; null where the noise has heavy tails, as that of coarse rounding, where the far ones are gathered
-     * where it is larger, or where the water lacks waves, which leave much in few rows.
+     * The two in one; null where the noise has heavy tails, as that of coarse rounding, where no reading is far off, where
+     * the far ones are gathered where it is larger, or where the water lacks waves, which leave much in few rows.
      * The rows beside say less of each reading, what the model leaves holds what the model gets wrong: the ratio is the
      * geometric mean of both, and half as much again as the less at most.
      */
-    private val mixture: Mixture? = if (isTailed || resolution > spread || isGathered(state)) {
+    private val mixture: Mixture? = if (isTailed || !isFar || resolution > spread || isGathered(state)) {
         null
     } else {
         val (less, more) = both.sortedBy { it.ratio }
@@ -169,6 +172,9 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
         /** Rows about one that tell how far readings scatter there. */
         const val FEWEST = 10
         const val FAR = 5.0
+
+        /** See [LooseReadings], in robust deviations of what the model leaves. */
+        const val FARTHEST = 4.5
         const val NORMAL = 1.4826
         const val ROUNDED = 12.0
 
