@@ -8,8 +8,8 @@ import stillwater.estimate.UnusableReadings
  * The references of a log, NaN where there is none.
  *
  * @property measured as they were measured, without those that failed and, where they are late, earlier; length n.
- * @property water what they say of the water: [measured], or without their noise; length n. @property isSmoothed whether
- *   [water] is without noise. @property faults what is to be said of them.
+ * @property water what they say of the water: [measured], or without their noise, or with the rows between them filled in;
+ *   length n. @property isSmoothed whether [water] is not [measured]. @property faults what is to be said of them.
  */
 internal class References private constructor(
     val measured: DoubleArray,
@@ -27,17 +27,19 @@ internal class References private constructor(
         ): References {
             val found = shown.copyOf()
             val failed = FailedReference.rows(series.values, found).onEach { found[it] = Double.NaN }
-            val smoothed = if (isLearned) NoisyReference.smoothed(series, found, unusable) else null
-            val water = smoothed ?: found
+            val filled = if (isLearned) ReferenceWater.filled(series, found) else null
+            val smoothed = if (isLearned && filled == null) ReferenceWater.smoothed(series, found, unusable) else null
+            val water = filled ?: smoothed ?: found
             val late = if (isLearned) LateReference.seconds(series, water, unusable) else 0.0
             val faults = listOfNotNull(
                 FailedReference.words(failed.size).takeIf { failed.isNotEmpty() },
-                smoothed?.let { NoisyReference.words(found, it) },
+                filled?.let { ReferenceWater.filledWords(series, found) },
+                smoothed?.let { ReferenceWater.words(found, it) },
                 LateReference.words(late).takeIf { late > 0 },
             )
             val measured = LateReference.earlier(series, found, late)
-            val told = if (smoothed == null) measured else LateReference.earlier(series, smoothed, late)
-            return References(measured, told, smoothed != null, faults)
+            val told = if (water === found) measured else LateReference.earlier(series, water, late)
+            return References(measured, told, water !== found, faults)
         }
     }
 }

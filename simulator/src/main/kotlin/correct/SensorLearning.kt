@@ -106,7 +106,7 @@ internal object SensorLearning {
     private const val FEW_LAGS = 10
 
     /** The water between rows with a reference is not known where it bends by half of what is left of the readings. */
-    private const val MOST_ROUGHNESS = 0.5
+    const val MOST_ROUGHNESS = 0.5
 
     /** Responses before a rate limit: of a slow path what is left of the readings says too little. */
     private val BEFORE_LIMIT = ResponseKind.entries.filterNot {
@@ -257,7 +257,7 @@ internal object SensorLearning {
             stages,
             part.size,
             learner.groups,
-            series.size - known.size,
+            all.measured.count { it.isNaN() },
             held,
             hinted = choice.likelyHint()?.let(::undone),
         )

@@ -17,7 +17,7 @@ import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 /** A noisy or coarse reference is smoothed before a sensor is learned from it, which else looks too slow. */
-class NoisyReferenceTest {
+class ReferenceWaterTest {
     private val n = 900
     private val times = DoubleArray(n) { it.toDouble() }
 
@@ -49,7 +49,7 @@ class NoisyReferenceTest {
         return assertNotNull(learner.candidate(ResponseKind.FIRST_ORDER)).response.meanDelay
     }
 
-    private fun smoothed(log: Log) = NoisyReference.smoothed(log.series, log.reference, UnusableReadings.none(n))
+    private fun smoothed(log: Log) = ReferenceWater.smoothed(log.series, log.reference, UnusableReadings.none(n))
 
     @Test
     fun noiseOfTheReferenceMakesNoLag() {
@@ -76,7 +76,7 @@ class NoisyReferenceTest {
         assertEquals(rows, (0 until n).filter { water[it].isFinite() })
         fun off(values: DoubleArray) = sqrt(rows.sumOf { (values[it] - log.water[it]).let { d -> d * d } } / rows.size)
         assertTrue(off(water) < off(log.reference) / 2, "${off(water)} for ${off(log.reference)}")
-        val words = NoisyReference.words(log.reference, water)
+        val words = ReferenceWater.words(log.reference, water)
         val said = Regex("scatters by ([0-9.]+) ").find(words)?.groupValues?.get(1)?.toDouble()
         // Some of the noise is in what the water is taken for.
         assertEquals(0.2, said ?: 0.0, 0.03, words)
@@ -98,9 +98,38 @@ class NoisyReferenceTest {
         val sensor = SensorStage.Lag(8.0).build(moved[0], kotlin.random.Random(1))
         val random = java.util.Random(40)
         val values = DoubleArray(n) { sensor.step(moved[it], 1.0, Conditions.NONE) + 0.01 * random.nextGaussian() }
-        assertNull(NoisyReference.smoothed(TrackSeries(times, times, times, values), moved, UnusableReadings.none(n)))
+        assertNull(ReferenceWater.smoothed(TrackSeries(times, times, times, values), moved, UnusableReadings.none(n)))
         // Nor is anything said of few rows, or of a reference that stands still.
         val still = DoubleArray(n) { 1.0 }
-        assertNull(NoisyReference.smoothed(TrackSeries(times, times, times, values), still, UnusableReadings.none(n)))
+        assertNull(ReferenceWater.smoothed(TrackSeries(times, times, times, values), still, UnusableReadings.none(n)))
+    }
+
+    @Test
+    fun waterBetweenRowsOfARareReferenceIsFilledIn() {
+        for (stages in listOf(listOf(SensorStage.Lag(8.0)), listOf(SensorStage.Lag(3.0)))) {
+            val log = log(51, stages) { truth, _ -> truth }
+            val rare = DoubleArray(n) { if (it % 5 == 0) log.reference[it] else Double.NaN }
+            val water = assertNotNull(ReferenceWater.filled(log.series, rare), "$stages")
+            val rows = (0 until n).filter { water[it].isFinite() }
+            // From the first row to the last one with a reference, but for the gap.
+            assertEquals((0..895).filter { it !in 396..424 || it == 425 }, rows, "$stages")
+            val off = sqrt(rows.sumOf { (water[it] - log.water[it]).let { d -> d * d } } / rows.size)
+            val deviation = sqrt(log.water.sumOf { it * it } / n)
+            assertTrue(off < 0.1 * deviation, "$stages: $off of $deviation")
+            val lag = lag(log, log.reference)
+            assertEquals(lag, lag(log, water), 0.1 * lag, "$stages")
+            assertTrue("every 5 s" in ReferenceWater.filledWords(log.series, rare))
+        }
+    }
+
+    @Test
+    fun nothingIsFilledInWhereTheReferenceIsInEachRowOrSaysTooLittle() {
+        val log = log(52, listOf(SensorStage.Lag(8.0))) { truth, _ -> truth }
+        assertNull(ReferenceWater.filled(log.series, log.reference))
+        // Waves are 30 s and longer: a row in 60 s says nothing of them.
+        val seldom = DoubleArray(n) { if (it % 60 == 0) log.water[it] else Double.NaN }
+        assertNull(ReferenceWater.filled(log.series, seldom))
+        val few = DoubleArray(n) { if (it % 14 == 0) log.water[it] + 3 * sin(it * 0.9) else Double.NaN }
+        assertNull(ReferenceWater.filled(log.series, few))
     }
 }
