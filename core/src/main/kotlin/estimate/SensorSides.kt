@@ -20,30 +20,35 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
     val ahead: DoubleArray
 
     init {
-        val reach = reach(series, response.slewRate, resolution)
+        val isLimited = response.slewRate.isFinite()
+        val noise = if (isLimited) roughness(series) else 0.0
+        val scatter = noise + resolution / 2
+        val reach = if (isLimited) reach(series, response.slewRate, scatter) else FEWEST + 1
         val slopes = slopes(series, reach)
         rising = BooleanArray(series.size) { slopes[it] > 0 }
         val running = BooleanArray(series.size) { abs(slopes[it]) > AT_LIMIT * response.slewRate }
         silent = running.copyOf()
         // A slope reaches over its neighbours: what touches a run may be at the limit, too.
-        for (step in listOf(1, -1)) touching(series, response.slewRate, running, reach, resolution, step)
-        val held = response.lags.singleOrNull()?.takeIf { response.isLimitWithin && response.slewRate.isFinite() }
+        if (isLimited) {
+            for (step in listOf(1, -1)) touching(series, response.slewRate, running, reach, BEHIND * scatter, step)
+        }
+        val held = response.lags.singleOrNull()?.takeIf { response.isLimitWithin && isLimited }
         if (held == null) {
             if (response.isLimitWithin) {
                 linger(series.times, running, LINGERS * (response.meanDelay - response.deadTime))
             }
-            val touched = if (response.slewRate.isFinite()) reach * series.medianStep * response.slewRate else 0.0
+            val touched = if (isLimited) reach * series.medianStep * response.slewRate else 0.0
             looseness = DoubleArray(series.size) { if (running[it]) 0.0 else touched }
             ahead = DoubleArray(series.size) { Double.NaN }
         } else {
             // τ ds/dt = ψ − s, and ψ is farther than that where ds/dt is at its limit.
             val lags = DoubleArray(series.size) { if (rising[it]) held.rising else held.falling }
-            val noise = roughness(series) / (sqrt(2.0) * reach * series.medianStep)
+            val error = noise / (sqrt(2.0) * reach * series.medianStep)
             ahead = DoubleArray(series.size) {
                 if (silent[it]) lags[it] * minOf(abs(slopes[it]), response.slewRate) else Double.NaN
             }
             looseness = DoubleArray(series.size) {
-                if (silent[it]) lags[it] * maxOf(response.slewRate - abs(slopes[it]), noise) else 0.0
+                if (silent[it]) lags[it] * maxOf(response.slewRate - abs(slopes[it]), error) else 0.0
             }
         }
     }
@@ -68,17 +73,17 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
      * Marks the rows next to each run, up to [reach] of them, as long as readings are on the line of slope [rate] through
      * the run's end: a sensor that has left its limit falls behind that.
      *
-     * @param step 1 for rows after runs, −1 for rows before.
+     * @param scatter how far behind it the noise of readings brings them, sensor units. @param step 1 for rows after runs, −1
+     * for rows before.
      */
     private fun touching(
         series: TrackSeries,
         rate: Double,
         running: BooleanArray,
         reach: Int,
-        resolution: Double,
+        scatter: Double,
         step: Int,
     ) {
-        val scatter = BEHIND * (roughness(series) + resolution / 2)
         for (end in running.indices) {
             val isEnd = running[end] && running.getOrNull(end + step) == false
             if (!isEnd) continue
@@ -132,11 +137,8 @@ internal class SensorSides(series: TrackSeries, response: Response, resolution: 
         private val REACHES = listOf(1, 2, 3, 4, 6, 8, 10, 12, 16, 24, 36)
 
         /** Slopes over so many rows either way that noise hardly bears on them. */
-        private fun reach(series: TrackSeries, rate: Double, resolution: Double): Int {
-            if (rate.isInfinite()) return FEWEST + 1
-            val noise = roughness(series) + resolution / 2
-            return (noise / (NOISE_SHARE * rate * series.medianStep)).toInt().coerceIn(1, MOST)
-        }
+        private fun reach(series: TrackSeries, rate: Double, scatter: Double): Int =
+            (scatter / (NOISE_SHARE * rate * series.medianStep)).toInt().coerceIn(1, MOST)
 
         /** Standard deviation of what changes from one reading to the next but one, by its median. */
         private fun roughness(series: TrackSeries): Double {

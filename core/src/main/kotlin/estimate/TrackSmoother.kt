@@ -84,7 +84,7 @@ internal class TrackSmoother(
 
     /** What the backward pass needs of each event. */
     private class Tape(events: Int, size: Int) {
-        val moves = arrayOfNulls<Transition>(events)
+        val moves = arrayOfNulls<DoubleArray>(events)
         val gains = DoubleArray(events * size)
         val seen = IntArray(events)
         val rows = DoubleArray(events * size)
@@ -101,7 +101,7 @@ internal class TrackSmoother(
             if (next > time) {
                 val transition = motion.over(next - time, stretch.rising[event / 2])
                 predict(transition, agitation[event / 2])
-                tape?.moves?.set(i, transition)
+                tape?.moves?.set(i, transition.move)
                 time = next
             }
             if (event % 2 == 0) see(event / 2, tape, i) else note(tape, i)
@@ -194,9 +194,9 @@ internal class TrackSmoother(
         if (wander != null) p[along.states * (size + 1)] += wander.standardDeviation * wander.standardDeviation
         if (tape == null) return
         val still = DoubleArray(size * size) { if (it % (size + 1) == 0) 1.0 else 0.0 }
-        val move = tape.moves[event]?.move?.copyOf() ?: still
+        val move = tape.moves[event]?.copyOf() ?: still
         move.fill(0.0, own.first * size, size * size)
-        tape.moves[event] = Transition(move, move)
+        tape.moves[event] = move
     }
 
     private fun pass(reading: Int) {
@@ -233,7 +233,7 @@ internal class TrackSmoother(
             } else if (!innovations[event / 2].isNaN()) {
                 forget(tape, i, event / 2, lambda, big)
             }
-            tape.moves[i]?.let { back(it.move, lambda, big, half) }
+            tape.moves[i]?.let { back(it, lambda, big, half) }
         }
     }
 

@@ -1,5 +1,6 @@
 package stillwater.correct
 
+import stillwater.estimate.CandidateResponse
 import stillwater.estimate.ReferenceLearner
 import stillwater.estimate.ResponseKind
 import stillwater.estimate.TrackSeries
@@ -37,7 +38,7 @@ internal object LateReference {
      */
     fun seconds(series: TrackSeries, references: DoubleArray, unusable: UnusableReadings): Double {
         val known = (0 until series.size).filter { references[it].isFinite() && unusable.isUsable(it) }
-        val middle = known.drop(maxOf(0, (known.size - MOST) / 2)).take(MOST)
+        val middle = known.middle(MOST)
         // Behind a rate limit the water is not told by any of the responses that it is held against.
         if (middle.size < FEWEST || !series.rateLimit().isNaN()) return 0.0
         val length = series.times[middle.last()] - series.times[middle.first()]
@@ -48,42 +49,38 @@ internal object LateReference {
         if (rows.size < FEWEST) return 0.0
         val part = series.at(rows)
 
-        fun candidate(taken: DoubleArray, kind: ResponseKind, held: Boolean = false) =
-            ReferenceLearner(part, DoubleArray(rows.size) { taken[rows[it]] }, held).candidate(kind)
+        fun taken(all: DoubleArray) = DoubleArray(rows.size) { all[rows[it]] }
 
-        fun score(taken: DoubleArray, kind: ResponseKind, held: Boolean = false): Double =
-            candidate(taken, kind, held)?.score ?: Double.NEGATIVE_INFINITY
-
-        fun score(late: Double) = score(earlier(series, references, late), ResponseKind.FIRST_ORDER)
+        fun lag(late: Double): CandidateResponse? =
+            ReferenceLearner(part, taken(earlier(series, references, late))).candidate(ResponseKind.FIRST_ORDER)
 
         // Not one after the other: as late as the reference is, a lag far too long may be likelier than a little less late.
         val delays = generateSequence(part.medianStep) { 2 * it }.takeWhile { it <= longest }
-        var (late, best) = (sequenceOf(0.0) + delays).map { it to score(it) }.maxBy { it.second }
+        var (late, best) = (sequenceOf(0.0) + delays).map { it to lag(it) }.maxBy { it.second.score() }
         if (late == 0.0) return 0.0
         var width = late / 2
         repeat(HALVINGS) {
             val (near, found) = listOf(late - width, late + width).filter { it in 0.0..longest }
-                .map { it to score(it) }.maxBy { it.second }
-            if (found > best) {
+                .map { it to lag(it) }.maxBy { it.second.score() }
+            if (found.score() > best.score()) {
                 late = near
                 best = found
             }
             width /= 2
         }
-        val isHeld = ReferenceLearner.isHeld(part, DoubleArray(rows.size) { references[rows[it]] })
-        val asItIs = ResponseKind.entries.maxOf { score(references, it, isHeld) }
+        val plain = taken(references)
+        val asItIs = ReferenceWater.likeliest(part, plain, ReferenceLearner.isHeld(part, plain))
         // Taken earlier, and then behind a lag, it is smoothed to both sides: where it is noise, that alone is better.
-        val smoothed = SMOOTHED.maxOf { reach ->
-            smoothed(references, reach).let { taken -> ResponseKind.entries.maxOf { score(taken, it) } }
-        }
+        val smoothed = SMOOTHED.maxOf { ReferenceWater.likeliest(part, taken(smoothed(references, it))) }
         val otherwise = maxOf(asItIs, smoothed)
-        val lag = candidate(earlier(series, references, late), ResponseKind.FIRST_ORDER)?.response?.meanDelay ?: 0.0
         // Where the lag takes back what the reference was taken earlier, only noise of the reference may ask for both, and
         // between two rows that is averaged.
-        val isTakenBack = lag in late / ALIKE..late * ALIKE
-        val judged = if (isTakenBack) score(Math.rint(late / part.medianStep) * part.medianStep) else best
-        return if (2 * (judged - otherwise) > CLEARLY) late else 0.0
+        val isTakenBack = (best?.response?.meanDelay ?: 0.0) in late / ALIKE..late * ALIKE
+        val judged = if (isTakenBack) lag(Math.rint(late / part.medianStep) * part.medianStep) else best
+        return if (2 * (judged.score() - otherwise) > CLEARLY) late else 0.0
     }
+
+    private fun CandidateResponse?.score(): Double = this?.score ?: Double.NEGATIVE_INFINITY
 
     /** Means of [references] over up to [reach] rows to either side; NaN where there is none. */
     private fun smoothed(references: DoubleArray, reach: Int) = DoubleArray(references.size) { row ->

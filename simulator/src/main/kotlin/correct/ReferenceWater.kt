@@ -38,13 +38,13 @@ internal object ReferenceWater {
     fun smoothed(series: TrackSeries, references: DoubleArray, unusable: UnusableReadings): DoubleArray? {
         val known = (0 until series.size).filter { references[it].isFinite() }
         val usable = known.filter(unusable::isUsable)
-        val middle = usable.drop(maxOf(0, (usable.size - MOST) / 2)).take(MOST)
+        val middle = usable.middle(MOST)
         if (middle.size < FEWEST || middle.all { references[it] == references[middle[0]] }) return null
         val part = series.at(middle)
         val plain = DoubleArray(middle.size) { references[middle[it]] }
         if (ReferenceLearner.isHeld(part, plain)) return null
         val water = water(part, plain)
-        val gain = 2 * (score(part, water) - score(part, plain))
+        val gain = 2 * (likeliest(part, water) - likeliest(part, plain))
         if (!(gain > CLEARLY)) return null
         val all = if (middle.size == known.size) {
             water
@@ -89,7 +89,8 @@ internal object ReferenceWater {
 
     /** What is said of references of which the water between was [filled] in. */
     fun filledWords(series: TrackSeries, references: DoubleArray): String {
-        val step = series.at((0 until series.size).filter { references[it].isFinite() }).medianStep
+        val known = (0 until series.size).filter { references[it].isFinite() }
+        val step = ReferenceSteps.usual(known.map(series.times::get))
         return "the reference has a row every ${duration(step)} only: the sensor was learned from the water between " +
             "them as the reference's own course tells it"
     }
@@ -97,9 +98,14 @@ internal object ReferenceWater {
     private fun water(series: TrackSeries, references: DoubleArray) =
         TrackCorrector(series.withValues(references)).correct(AS_IT_IS).values
 
-    private fun score(series: TrackSeries, references: DoubleArray): Double = ResponseKind.entries.maxOf {
-        ReferenceLearner(series, references).candidate(it)?.score ?: Double.NEGATIVE_INFINITY
-    }
+    /**
+     * Log-likelihood of the readings of [series] by the response to [references], [held] over each step or not, that explains
+     * them best.
+     */
+    fun likeliest(series: TrackSeries, references: DoubleArray, held: Boolean = false): Double =
+        ResponseKind.entries.maxOf {
+            ReferenceLearner(series, references, held).candidate(it)?.score ?: Double.NEGATIVE_INFINITY
+        }
 
     /** What is said of references that were [smoothed] from what they were [before]. */
     fun words(before: DoubleArray, smoothed: DoubleArray): String {

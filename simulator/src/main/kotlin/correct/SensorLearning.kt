@@ -219,7 +219,7 @@ internal object SensorLearning {
     ): Learned {
         val references = all.water
         val known = (0 until series.size).filter { references[it].isFinite() }
-        val rows = known.drop(maxOf(0, (known.size - MOST_LEARNED) / 2)).take(MOST_LEARNED)
+        val rows = known.middle(MOST_LEARNED)
         val telling = rows.filter(unusable::isUsable)
         if (telling.size < FEWEST) {
             val but = if (telling.size < rows.size) " that are neither wild nor at an end of the range" else ""
@@ -315,8 +315,8 @@ private fun UnusableReadings.at(rows: List<Int>) = UnusableReadings(
     ByteArray(rows.size) { ends[rows[it]] },
 )
 
-private fun TrackSeries.middle(most: Int): TrackSeries {
-    if (size <= most) return this
-    val from = (size - most) / 2
-    return at((from until from + most).toList())
-}
+private fun TrackSeries.middle(most: Int): TrackSeries =
+    if (size <= most) this else at((0 until size).toList().middle(most))
+
+/** Those in the middle, [most] of them or all. */
+internal fun <T> List<T>.middle(most: Int): List<T> = drop(maxOf(0, (size - most) / 2)).take(most)

@@ -121,7 +121,7 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
     private val isTailed = both[1].ratio < Spikes.student(columns[1], noise.noise).ratio + TAILED
 
     /** Whether the farthest reading is off by more than noise that is somewhat uneven brings about, as with a reference. */
-    private val isFar = both[1].size > FARTHEST
+    private val isFar = both[1].size > LooseReadings.FARTHEST
 
     /**
      * The two in one; null where the noise has heavy tails, as that of coarse rounding, where no reading is far off, where
@@ -172,9 +172,6 @@ internal class BlindOutliers(search: BlindSearch, state: BlindState) {
         /** Rows about one that tell how far readings scatter there. */
         const val FEWEST = 10
         const val FAR = 5.0
-
-        /** See [LooseReadings], in robust deviations of what the model leaves. */
-        const val FARTHEST = 4.5
         const val NORMAL = 1.4826
         const val ROUNDED = 12.0
 

@@ -88,19 +88,20 @@ internal class LooseReadings(private val fit: ModelFit) {
     fun size(): SpikeSize =
         SpikeSize.of((spikes + series.wild.keys).sorted(), off(), spread) ?: SpikeSize(mixture.share, mixture.size)
 
-    private companion object {
-        const val BEYOND = 4e-5
-        const val ROUNDING = 1e-9
-        const val FARTHEST = 4.5
+    companion object {
+        /** Deviations beyond which a reading is far off. */
+        const val FARTHEST: Double = 4.5
+        private const val BEYOND = 4e-5
+        private const val ROUNDING = 1e-9
 
         /**
          * Twice a log-likelihood ratio that is no evidence. Of noises of 1100 rows, half normal and half with tails of five
          * degrees, one in seven is then taken for outliers, of outliers of 1.3 times the detectable size one in six for
          * tails; with 0 one in four and one in eight (120 of each; a script that is not in the repository).
          */
-        const val TAILED = 4.0
+        private const val TAILED = 4.0
 
         /** Of these only one in two thousand is no outlier. */
-        const val TAIL = 3.5
+        private const val TAIL = 3.5
     }
 }
