@@ -68,6 +68,18 @@ class HiddenEffectsTest {
     }
 
     /**
+     * Seeds of the work on it: fixes that wander by half a metre and more, and foretell each other. A course that follows
+     * them looks like a second lag.
+     */
+    @Test
+    @Tag("long")
+    fun fixesThatWanderAreNoSecondLag() {
+        val seeds = listOf(309_194L, 309_257L, 309_272L, 309_671L)
+        val cases = HiddenCampaign.run(seeds, Regime.BLIND_FIELD, directory, withGain = false)
+        assertTrue(cases.all { it.isEmpty && !it.alarmed }, Scores(cases).markdown())
+    }
+
+    /**
      * Seeds of the work on it: a jump and water that changes, each held against the other on a base of its own; and two
      * lags that no step led to while a fit did not know how tightly the water is bound.
      */

@@ -28,7 +28,7 @@ internal class BlindSearch private constructor(
     private val series: MeasuredSeries,
     val loops: Loops,
     private val progress: (Double) -> Unit,
-    private val ground: BlindGround,
+    private var ground: BlindGround,
 ) {
     constructor(series: MeasuredSeries, loops: Loops = Loops.IN_TURN, progress: (Double) -> Unit = {}) :
         this(series, loops, progress, BlindGround(series, loops))
@@ -40,7 +40,7 @@ internal class BlindSearch private constructor(
 
     /** How far fixes scatter. */
     val fixes: FixScatter get() = ground.fixes
-    val steep = SteepNoise(ground.fixes)
+    val steep get() = SteepNoise(ground.fixes)
 
     /** Quantities of the log. */
     val scales: Scales get() = ground.scales
@@ -83,7 +83,12 @@ internal class BlindSearch private constructor(
     }
 
     /** The same search in [readings]; what is found there changes nothing here. */
-    fun copy(readings: MeasuredSeries = series): BlindSearch {
+    fun copy(readings: MeasuredSeries = series): BlindSearch = copy(readings, ground)
+
+    /** The same search where the boat was on [course]. */
+    fun on(course: SmoothTrack): BlindSearch = copy(series, BlindGround(series, loops, course))
+
+    private fun copy(readings: MeasuredSeries, ground: BlindGround): BlindSearch {
         val other = BlindSearch(readings, loops, {}, ground)
         used.copyInto(other.used)
         other.fine = fine
@@ -93,8 +98,23 @@ internal class BlindSearch private constructor(
         return other
     }
 
-    /** The likeliest model with a lag alone. */
+    /** The likeliest model with a lag alone, on the course that it is likeliest on. */
     fun best(): BlindState {
+        var best = bestOnTrack()
+        if (!fixes.isWide(best)) return best
+        repeat(COURSES) {
+            val course = BlindCourse(this).likelier(best, series) ?: return best
+            val other = BlindSearch(series, loops, {}, BlindGround(series, loops, course))
+            val next = other.bestOnTrack()
+            if (next.score < best.score + BlindCourse.CLEARLY) return best
+            ground = other.ground
+            shocks = other.shocks
+            best = begun(next)
+        }
+        return best
+    }
+
+    private fun bestOnTrack(): BlindState {
         val guess = BlindNoise(noise(FIRST_SHARE, FIRST_STEPS), DoubleArray(n) { 1.0 })
         var variances = DoubleArray(0)
         val coarse = LAGS.map { steps ->
@@ -331,6 +351,9 @@ internal class BlindSearch private constructor(
             Cause.POSITION_OFFSET,
         )
         const val MOST_WAVES = 450
+
+        /** Times that a likelier course is looked for. */
+        const val COURSES = 3
 
         /** Share of the search that one of its parts is. */
         const val ROUGH = 0.25

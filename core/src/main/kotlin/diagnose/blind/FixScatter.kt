@@ -7,6 +7,7 @@ import stillwater.diagnose.three
 import stillwater.diagnose.track.FixErrors
 import stillwater.diagnose.track.SmoothTrack
 import kotlin.math.abs
+import kotlin.math.ln
 import kotlin.math.sqrt
 
 /**
@@ -18,6 +19,7 @@ internal class FixScatter(private val series: MeasuredSeries, track: SmoothTrack
     private val n = series.size
 
     private val scatter = track.fixes.scatter
+    private val isCourseWide = track.fixes.isWide
 
     /** What errors of fixes may be left in the track. */
     val errors: List<FixErrors.Likely> = track.fixes.likely
@@ -31,8 +33,11 @@ internal class FixScatter(private val series: MeasuredSeries, track: SmoothTrack
         maxOf(NORMAL_MEDIAN * median(third) / sqrt(THIRD), resolution / sqrt(ROUNDING))
     }
 
-    /** What the scatter is in what the sensor of [state] shows, sensor units. */
-    private fun error(state: BlindState) = scatter * steepness(state)
+    /** What is left of the scatter in the course is in what the sensor of [state] shows, sensor units. */
+    private fun error(state: BlindState) = left * steepness(state)
+
+    /** What may be left in the course of errors of fixes, m: a wide one follows less of them than they scatter about it. */
+    private val left = minOf(scatter, sqrt(errors.maxOfOrNull { it.variance } ?: 0.0))
 
     /** Root mean square of how steep what the sensor of [state] shows is along the way, sensor units/m. */
     private fun steepness(state: BlindState) = sqrt(squares(state.modes.steepness(state.shown)) / n)
@@ -51,26 +56,32 @@ internal class FixScatter(private val series: MeasuredSeries, track: SmoothTrack
 
     /**
      * Whether fixes are so far off in [state] that what is left says nothing of the response: the water along the fixes has
-     * quick changes that the boat did not see, and a response that shows less of these looks likelier than the true one.
+     * quick changes that the boat did not see, and a response that shows less of these looks likelier than the true one. A wide
+     * course has none.
      */
-    fun areFar(state: BlindState): Boolean = shift(state) > FAR * own
+    fun areFar(state: BlindState): Boolean = !isCourseWide && shift(state) > FAR * own
 
     /** In words, where it is more than what readings scatter by themselves, and a part of what is left; null where not. */
     fun words(state: BlindState): String? {
         val places = state.fit.design.noise.places ?: return scattered(state)
-        val by = "${three(sqrt(places.variance * state.variance))} ${series.placeUnit} for ${three(places.time)} s"
+        val left = sqrt(places.variance * state.variance)
+        val likely = errors.minBy { abs(ln(it.time / places.time)) }
+        val fixes = likely.fixes * left / sqrt(likely.variance)
+        val by = "${metres(fixes)} for ${three(likely.fixTime)} s"
         val more = if (areFar(state)) " Of a response of another shape such a log says little." else ""
-        return "The fixes are off by some $by at a time, which in water as steep as here is ${said(shift(state))}: " +
-            "the answer allows for that.$more"
+        return "The fixes are off by some $by at a time, and the course through them by ${metres(left)}, which in " +
+            "water as steep as here is ${said(shift(state))}: the answer allows for that.$more"
     }
 
     private fun scattered(state: BlindState): String? {
         val error = error(state)
         if (!(error > maxOf(own, PART * sqrt(state.variance)))) return null
-        val by = "${three(scatter)} ${series.placeUnit}"
-        return "The fixes scatter by $by about the boat's way, which in water as steep as here is ${said(error)}: " +
-            "a small effect, or a response of another shape, may come of that alone."
+        val more = if (left < scatter) ", and up to ${metres(left)} of that may be left in it" else ""
+        return "The fixes scatter by ${metres(scatter)} about the boat's way$more, which in water as steep as here " +
+            "is ${said(error)}: a small effect, or a response of another shape, may come of that alone."
     }
+
+    private fun metres(way: Double) = "${three(way)} ${series.placeUnit}"
 
     private fun said(error: Double) = "${three(error)} sensor units" +
         if (own > 0) ", ${three(error / own)} times what readings scatter by themselves" else ""

@@ -18,6 +18,9 @@ internal object Spikes {
     /** Of the variance: with more than that of white noise all is as good as white. */
     private const val MOSTLY_FRESH = 0.95
     private val FREEDOMS = listOf(3, 5, 8, 15, 30)
+
+    /** Degrees of freedom of tails so heavy that a fourth moment is infinite, and that is no noise beside normal one. */
+    private const val HEAVIEST = 4
     private val WIDTHS = listOf(0.85, 0.9, 0.95, 1.0, 1.05)
 
     /** How far a row is off the middle of those beside it, over the longer of the ways there: 1 of a single row, else ½. */
@@ -98,17 +101,22 @@ internal object Spikes {
     fun student(residuals: DoubleArray, noise: CorrelatedNoise): StudentTails {
         val all = student(residuals)
         if (noise.freshShare > MOSTLY_FRESH) return all
-        return student(residuals, noise.freshShare).takeIf { it.ratio > all.ratio } ?: all
+        // Much that is normal and a little with the heaviest tails is what single wrong readings in normal noise look like.
+        val part = student(residuals, noise.freshShare, FREEDOMS.filter { it > HEAVIEST })
+        return part.takeIf { it.ratio > all.ratio } ?: all
     }
 
-    /** The likeliest noise with Student's tails for white [residuals], of whose squares [share] has them ([TailedNoise]). */
-    fun student(residuals: DoubleArray, share: Double = 1.0): StudentTails {
+    /**
+     * The likeliest noise with Student's tails, of as many degrees of freedom as [freedoms], for white [residuals], of whose
+     * squares [share] has them ([TailedNoise]).
+     */
+    fun student(residuals: DoubleArray, share: Double = 1.0, freedoms: List<Int> = FREEDOMS): StudentTails {
         val n = residuals.size
         val alone = sqrt(squares(residuals) / maxOf(n, 1))
         val robust = NORMAL * median(DoubleArray(n) { abs(residuals[it]) })
         if (!(robust > 0)) return StudentTails(0.0, TailedNoise(1, 1.0), Double.POSITIVE_INFINITY)
         val plain = -n * ln(alone) - n / 2.0
-        return FREEDOMS.flatMap { freedom ->
+        return freedoms.flatMap { freedom ->
             val noise = TailedNoise(freedom, share)
             WIDTHS.map { width ->
                 val spread = width * robust

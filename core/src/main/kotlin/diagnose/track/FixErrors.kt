@@ -2,6 +2,7 @@ package stillwater.diagnose.track
 
 import kotlin.math.abs
 import kotlin.math.exp
+import kotlin.math.sqrt
 
 /**
  * How far fixes may be off after smoothing, from how they scatter: an error that keeps to itself for T fixes, an
@@ -11,30 +12,63 @@ import kotlin.math.exp
  * How much parabolas through seven fixes miss over what those through five do is more for such an error than for one that
  * is new with each fix, and still more where the boat turns: what would be more than was found cannot be.
  *
- * @param reach fixes on either side. @property scatter standard deviation of a fix about them on either axis, m. @param
- *   ratio that about seven fixes over that about five. @param period from fix to fix, s.
+ * Fixes jitter and wander at once. Where those about parabolas through five and about far wider ones are both known, each time
+ * has a variance of both kinds.
+ *
+ * @property reach fixes on either side. @property scatter standard deviation of a fix about them on either axis, m. @param
+ *   ratio that about seven fixes over that about five. @param period from fix to fix, s. @param near that about five, m, beside
+ *   which [scatter] is about far more; null where only how these follow each other is asked.
  */
-internal class FixErrors(private val reach: Int, val scatter: Double, ratio: Double, private val period: Double) {
-    /** An error on either axis of [variance], m², that keeps to itself for [time], s. */
-    class Likely(val variance: Double, val time: Double)
+internal class FixErrors(
+    val reach: Int,
+    val scatter: Double,
+    ratio: Double,
+    private val period: Double,
+    private val near: Double? = null,
+) {
+    /**
+     * An error on either axis of [variance], m², that keeps to itself for [time], s: what is left in the course of an error of
+     * the fixes themselves of [fixes], m, that does for [fixTime], s, a fix at the least.
+     */
+    class Likely(val variance: Double, val time: Double, val fixes: Double, val fixTime: Double)
 
+    /** Whether the course leaves more of the errors than fixes say by themselves: nothing quick of them is left in it. */
+    val isWide: Boolean = near != null
     private val narrow = Parabola(NARROW)
     private val wide = Parabola(WIDE)
     private val used = Parabola(reach)
 
     /** What is left of the errors of fixes that explain how these scatter, those that are soon others first. */
-    val likely: List<Likely> = if (scatter > 0) {
-        TIMES.filter { it == TIMES[0] || wide.left(it) / narrow.left(it) < SLACK * ratio * ratio }.map(::likely)
-    } else {
-        emptyList()
+    val likely: List<Likely> by lazy {
+        val two = if (near != null) LONG_TIMES.mapNotNull { beside(it, near * near) } else emptyList()
+        val times = if (near != null) TIMES.take(1) else TIMES
+        val keep = times.filter { it == TIMES[0] || wide.left(it) / narrow.left(it) < SLACK * ratio * ratio }
+        if (scatter > 0) two.ifEmpty { keep.map { likely(it, alone(it)) } } else emptyList()
     }
 
-    private fun likely(time: Double): Likely {
+    /** The variance of errors that keep to themselves for [time] fixes, where there are no others, m². */
+    private fun alone(time: Double) = scatter * scatter / used.left(time)
+
+    /**
+     * The same beside errors that are new with each fix, which with them scatter by the variance [close], m², about parabolas
+     * through five fixes; null where no such two explain both scatters.
+     */
+    private fun beside(time: Double, close: Double): Likely? {
+        val fresh = TIMES[0]
+        val far = scatter * scatter
+        val whole = narrow.left(fresh) * used.left(time) - narrow.left(time) * used.left(fresh)
+        val variance = (narrow.left(fresh) * far - used.left(fresh) * close) / whole
+        val new = (used.left(time) * close - narrow.left(time) * far) / whole
+        val isPossible = whole > 0 && variance > 0 && new * narrow.left(fresh) > (1 - SLACK) * close
+        return if (isPossible) likely(time, variance) else null
+    }
+
+    private fun likely(time: Double, variance: Double): Likely {
         val own = used.followed(time, 0)
         // As long as an Ornstein-Uhlenbeck process whose correlations have the same sum.
         val lags = (LONGEST * (time + reach)).toInt()
         val sum = 0.5 + (1..lags).sumOf { used.followed(time, it) } / own
-        return Likely(scatter * scatter / used.left(time) * own, sum * period)
+        return Likely(variance * own, sum * period, sqrt(variance), maxOf(time, 1.0) * period)
     }
 
     /**
@@ -75,6 +109,9 @@ internal class FixErrors(private val reach: Int, val scatter: Double, ratio: Dou
 
         /** Times that errors may keep to themselves, fixes. */
         val TIMES = listOf(0.2, 0.6, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
+
+        /** The same that only far wider parabolas show. */
+        val LONG_TIMES = listOf(4.0, 8.0, 16.0, 32.0, 64.0, 128.0)
 
         /** How much more than the ratio of variances found one may be that is expected. */
         const val SLACK = 1.15

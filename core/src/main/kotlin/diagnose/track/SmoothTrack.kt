@@ -63,39 +63,73 @@ internal class SmoothTrack private constructor(
     companion object {
         /** Share of the mean way between rows that tells no course. */
         private const val LEAST_WAY = 0.2
-        private val REACHES = intArrayOf(2, 3, 5, 8, 12)
-        private val LONG_REACHES = intArrayOf(5, 12, 25, 50, 100)
+        private val REACHES = listOf(2, 3, 5, 8, 12)
+        private val LONG_REACHES = listOf(5, 12, 25, 50, 100)
+
+        /** Reaches that fixes, which are off together for long, never choose by themselves. */
+        private const val WIDER = 25
+        private val LONGEST = listOf(200, 400, 800)
 
         /** The smoothed way of [series]. */
-        fun of(series: MeasuredSeries): SmoothTrack {
-            val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
-            val known = RepeatedFixes.known(series)
-            val fits = REACHES.map { Parabolas(series, fresh.xs, fresh.ys, known, it) }
-            val best = fits.minBy { it.missed }
-            fun errors(used: Parabolas) =
-                FixErrors(used.reach, used.scatter, fits[1].scatter / fits[0].scatter, used.period)
-            val reckoned = DeadReckoning.of(series, fresh.xs, fresh.ys)
-                ?: return SmoothTrack(series, best.x, best.y, errors(best))
-            val east = DoubleArray(series.size) { fresh.xs[it] - reckoned.x[it] }
-            val north = DoubleArray(series.size) { fresh.ys[it] - reckoned.y[it] }
-            val other = LONG_REACHES.map { Parabolas(series, east, north, known, it) }.minBy { it.missed }
-            if (other.missed > best.missed) return SmoothTrack(series, best.x, best.y, errors(best))
-            return SmoothTrack(
-                series,
-                DoubleArray(series.size) { other.x[it] + reckoned.x[it] },
-                DoubleArray(series.size) { other.y[it] + reckoned.y[it] },
-                errors(other),
-            )
+        fun of(series: MeasuredSeries): SmoothTrack = Ways(series).run { track(best) }
+
+        /**
+         * Ways of [series] that follow its fixes less closely than these say by themselves: those that are off together for
+         * long foretell each other, whatever the boat did.
+         */
+        fun wider(series: MeasuredSeries): List<SmoothTrack> = Ways(series).run { wider.map(::track) }
+    }
+
+    /** Ways through the fixes of [series]. */
+    private class Ways(private val series: MeasuredSeries) {
+        private val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
+        private val known = RepeatedFixes.known(series)
+        private val way = DeadReckoning.of(series, fresh.xs, fresh.ys)
+        private val offEast = way?.let { way -> DoubleArray(series.size) { fresh.xs[it] - way.x[it] } }
+        private val offNorth = way?.let { way -> DoubleArray(series.size) { fresh.ys[it] - way.y[it] } }
+        private val plain = REACHES.map(::through)
+        private val ratio = plain[1].scatter / plain[0].scatter
+
+        /** The way that foretells the fixes left out best. */
+        val best: Parabolas by lazy {
+            val least = plain.minBy { it.missed }
+            val other = LONG_REACHES.mapNotNull(::offWay).minByOrNull { it.missed }
+            if (other == null || other.missed > least.missed) least else other
+        }
+
+        /** Those wider than [best]; reckoned ones of any reach where that is not. */
+        val wider: List<Parabolas> by lazy {
+            val long = LONG_REACHES + LONGEST.filter { 2 * it < series.size }
+            val reckoned = long.filter { best.reckoned == null || it > best.reach }
+            (REACHES + WIDER).filter { it > best.reach }.map(::through) + reckoned.mapNotNull(::offWay)
+        }
+
+        private fun through(reach: Int) = Parabolas(series, fresh.xs, fresh.ys, known, reach)
+
+        /** Through what fixes are off the way reckoned from speed and heading; null where the log has no such. */
+        private fun offWay(reach: Int): Parabolas? =
+            way?.let { Parabolas(series, checkNotNull(offEast), checkNotNull(offNorth), known, reach, it) }
+
+        fun track(way: Parabolas): SmoothTrack {
+            val from = way.reckoned
+            // What fixes are off wide parabolas of the way itself is its turns as well.
+            val near = if (from != null && way !== best) plain[0].scatter else null
+            val errors = FixErrors(way.reach, way.scatter, ratio, way.period, near)
+            if (from == null) return SmoothTrack(series, way.x, way.y, errors)
+            val east = DoubleArray(series.size) { from.x[it] + way.x[it] }
+            val north = DoubleArray(series.size) { from.y[it] + way.y[it] }
+            return SmoothTrack(series, east, north, errors)
         }
     }
 
-    /** Parabolas through [reach] rows either side of those whose fix is [known]. */
+    /** Parabolas through [reach] rows either side of those whose fix is [known]; of what these are off a way [reckoned]. */
     private class Parabolas(
         private val series: MeasuredSeries,
         private val from: DoubleArray,
         private val north: DoubleArray,
         private val known: BooleanArray,
         val reach: Int,
+        val reckoned: DeadReckoning? = null,
     ) {
         val x = from.copyOf()
         val y = north.copyOf()

@@ -140,10 +140,11 @@ internal class WaterModes private constructor(
      * These at the end of a rigid arm, [behind] m behind the fixes, as strong as [variances] of their processes have been
      * found to be; null where the track is a line, which the arm never leaves.
      */
-    fun onArm(behind: Double, variances: DoubleArray): WaterModes? {
-        val moved = track.onArm(behind)
-        return rings?.let { refined(variances, most, emptySet(), moved, it.at(moved.x, moved.y)) }
-    }
+    fun onArm(behind: Double, variances: DoubleArray): WaterModes? = at(track.onArm(behind), variances)
+
+    /** The same for another way of the boat, [moved]. */
+    fun at(moved: SmoothTrack, variances: DoubleArray): WaterModes? =
+        rings?.let { refined(variances, most, emptySet(), moved, it.at(moved.x, moved.y)) }
 
     /** Processes of ever longer lengths. The shortest takes what it needs first; those above it need ever fewer. */
     private fun ladder(most: Int): List<List<DoubleArray>> {

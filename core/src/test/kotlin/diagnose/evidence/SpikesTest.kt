@@ -1,6 +1,8 @@
 package stillwater.diagnose.evidence
 
+import stillwater.diagnose.noise.CorrelatedNoise
 import kotlin.math.abs
+import kotlin.math.exp
 import kotlin.math.sqrt
 import kotlin.random.Random
 import kotlin.test.Test
@@ -42,6 +44,23 @@ class SpikesTest {
         val noise = DoubleArray(n) { random.normal() }
         // One in two hundred of χ² with three degrees.
         assertTrue(Spikes.ratio(noise).ratio < 12.8 && Spikes.student(noise).ratio < 6.6)
+    }
+
+    /** Noise that wanders has little that comes anew with each row: a little with the heaviest tails is what outliers are. */
+    @Test
+    fun outliersAreFarLikelierThanTailsOfALittleOfTheNoise() {
+        val random = Random(8)
+        val keep = exp(-0.1)
+        var wander = random.normal()
+        val residuals = DoubleArray(n) {
+            wander = keep * wander + sqrt(1 - keep * keep) * random.normal()
+            wander
+        }
+        for (i in 50 until n step 100) residuals[i] += random.nextDouble(-7.0, 7.0)
+        val noise = CorrelatedNoise(DoubleArray(n) { it.toDouble() }, 0.8, 10.0, BooleanArray(n) { true })
+        val z = DoubleArray(n).also { noise.whiten(residuals, it) }
+        val (outliers, tails) = Spikes.ratio(z).ratio to Spikes.student(z, noise).ratio
+        assertTrue(outliers > tails + 50, "$outliers against $tails")
     }
 
     /** What wanders and is normal, and as much again with tails of four degrees, as a wandering noise leaves once whitened. */

@@ -2,6 +2,7 @@ package stillwater.diagnose.track
 
 import stillwater.diagnose.MeasuredSeries
 import stillwater.diagnose.algebra.squares
+import stillwater.model.Conditions
 import kotlin.math.abs
 import kotlin.math.exp
 import kotlin.math.sqrt
@@ -53,6 +54,26 @@ class FixErrorsTest {
         }
     }
 
+    /** Fixes jitter by 0.3 m and wander by 0.5: a wide course tells the two apart, and what is left in it. */
+    @Test
+    fun jitterBesideErrorsThatKeepToThemselvesIsTakenApart() {
+        fun both(seed: Long): DoubleArray {
+            val wander = errors(0.5, 2 * WANDER, seed)
+            val jitter = errors(0.3, 0.0, seed + 7)
+            return DoubleArray(n) { wander[it] + jitter[it] }
+        }
+        val east = both(SEED + 4)
+        val ahead = mapOf(Conditions.SPEED to DoubleArray(n) { 0.5 }, Conditions.HEADING to DoubleArray(n))
+        val fixes = DoubleArray(n) { it + east[it] }
+        val series = MeasuredSeries(times, fixes, both(SEED + 5), DoubleArray(n), null, ahead)
+        val course = SmoothTrack.wider(series).last { it.fixes.reach == 25 }
+        val nearest = course.fixes.likely.minBy { abs(it.fixTime - 2 * WANDER) }
+        assertTrue(course.fixes.isWide && nearest.fixTime == 2 * WANDER, "seed $SEED")
+        assertEquals(0.5, nearest.fixes, 0.1, "m, seed $SEED")
+        val left = sqrt(squares(course.y) / n)
+        assertEquals(left, sqrt(nearest.variance), 0.2 * left, "m, seed $SEED")
+    }
+
     @Test
     fun fixesThatAreRightAreOffByNothing() {
         assertEquals(emptyList(), smoothed(DoubleArray(n), DoubleArray(n)).fixes.likely.map { it.variance })
@@ -60,5 +81,8 @@ class FixErrorsTest {
 
     private companion object {
         const val SEED = 83L
+
+        /** Fixes for which errors keep to themselves. */
+        const val WANDER = 16.0
     }
 }
