@@ -2,6 +2,7 @@ package stillwater.diagnose.blind
 
 import stillwater.diagnose.Cause
 import stillwater.diagnose.response.Term
+import stillwater.diagnose.water.WaterModes
 import kotlin.math.abs
 
 /** Steps in which the end of the arm is found. */
@@ -82,5 +83,13 @@ internal fun BlindSearch.begunAt(
     numbers: DoubleArray,
 ): BlindState? {
     val modes = state.modes.onArm(behind, state.variances) ?: return null
-    return settled(terms, numbers, state.fit.design.noise, modes.first, BlindSearch.FIRST_ROUNDS, modes)
+    return begunIn(modes, state, terms, numbers)
 }
+
+/** [state], begun with other [terms] and [numbers], in the water of [modes], found anew. */
+internal fun BlindSearch.begunIn(
+    modes: WaterModes,
+    state: BlindState,
+    terms: List<Term> = state.model.terms,
+    numbers: DoubleArray = state.numbers,
+): BlindState = settled(terms, numbers, state.fit.design.noise, modes.first, BlindSearch.FIRST_ROUNDS, modes)

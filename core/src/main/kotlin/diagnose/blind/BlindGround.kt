@@ -14,7 +14,8 @@ internal class BlindGround(
 ) {
     val scales = Scales(series)
     val fixes = FixScatter(series, track, scales.resolution)
+    val steep = SteepNoise(fixes)
     val designs = BlindColumns(series, scales, loops)
     private val few = (series.size / 5).coerceIn(BlindSearch.FEWEST_WAVES, BlindSearch.MOST_WAVES / 2)
-    val rough by lazy { WaterModes.flat(series, track, few, loops = loops) }
+    val rough = WaterModes.flat(series, track, few, loops = loops)
 }

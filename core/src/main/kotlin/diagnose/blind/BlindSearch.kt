@@ -40,7 +40,7 @@ internal class BlindSearch private constructor(
 
     /** How far fixes scatter. */
     val fixes: FixScatter get() = ground.fixes
-    val steep get() = SteepNoise(ground.fixes)
+    val steep: SteepNoise get() = ground.steep
 
     /** Quantities of the log. */
     val scales: Scales get() = ground.scales
@@ -83,12 +83,7 @@ internal class BlindSearch private constructor(
     }
 
     /** The same search in [readings]; what is found there changes nothing here. */
-    fun copy(readings: MeasuredSeries = series): BlindSearch = copy(readings, ground)
-
-    /** The same search where the boat was on [course]. */
-    fun on(course: SmoothTrack): BlindSearch = copy(series, BlindGround(series, loops, course))
-
-    private fun copy(readings: MeasuredSeries, ground: BlindGround): BlindSearch {
+    fun copy(readings: MeasuredSeries = series): BlindSearch {
         val other = BlindSearch(readings, loops, {}, ground)
         used.copyInto(other.used)
         other.fine = fine
@@ -102,11 +97,12 @@ internal class BlindSearch private constructor(
     fun best(): BlindState {
         var best = bestOnTrack()
         if (!fixes.isWide(best)) return best
+        val courses = SmoothTrack.wider(series)
         repeat(COURSES) {
-            val course = BlindCourse(this).likelier(best, series) ?: return best
+            val course = likelierCourse(courses, best) ?: return best
             val other = BlindSearch(series, loops, {}, BlindGround(series, loops, course))
             val next = other.bestOnTrack()
-            if (next.score < best.score + BlindCourse.CLEARLY) return best
+            if (next.score < best.score + CLEARLY) return best
             ground = other.ground
             shocks = other.shocks
             best = begun(next)
@@ -354,6 +350,9 @@ internal class BlindSearch private constructor(
 
         /** Times that a likelier course is looked for. */
         const val COURSES = 3
+
+        /** Twice a log-likelihood by which all is likelier along another course than by chance of the search. */
+        const val CLEARLY = 30.0
 
         /** Share of the search that one of its parts is. */
         const val ROUGH = 0.25

@@ -33,20 +33,17 @@ internal class FixScatter(private val series: MeasuredSeries, track: SmoothTrack
         maxOf(NORMAL_MEDIAN * median(third) / sqrt(THIRD), resolution / sqrt(ROUNDING))
     }
 
-    /** What is left of the scatter in the course is in what the sensor of [state] shows, sensor units. */
-    private fun error(state: BlindState) = left * steepness(state)
+    /** The largest deviation that errors of fixes may have in the course, m; 0 where fixes do not scatter. */
+    private val most = sqrt(errors.maxOfOrNull { it.variance } ?: 0.0)
 
-    /** What may be left in the course of errors of fixes, m: a wide one follows less of them than they scatter about it. */
-    private val left = minOf(scatter, sqrt(errors.maxOfOrNull { it.variance } ?: 0.0))
+    /** What of the scatter may be left in the course, m: a wide one follows less of the errors than they scatter about it. */
+    private val left = minOf(scatter, most)
 
     /** Root mean square of how steep what the sensor of [state] shows is along the way, sensor units/m. */
     private fun steepness(state: BlindState) = sqrt(squares(state.modes.steepness(state.shown)) / n)
 
     /** Whether fixes may be off by enough for readings to show it in [state]. */
-    fun isWide(state: BlindState): Boolean {
-        val most = errors.maxOfOrNull { it.variance } ?: return false
-        return sqrt(most) * steepness(state) > SOME * own
-    }
+    fun isWide(state: BlindState): Boolean = most * steepness(state) > SOME * own
 
     /** What errors of places are in what the sensor of [state] shows, sensor units; 0 where its noise has none. */
     private fun shift(state: BlindState): Double {
@@ -64,17 +61,17 @@ internal class FixScatter(private val series: MeasuredSeries, track: SmoothTrack
     /** In words, where it is more than what readings scatter by themselves, and a part of what is left; null where not. */
     fun words(state: BlindState): String? {
         val places = state.fit.design.noise.places ?: return scattered(state)
-        val left = sqrt(places.variance * state.variance)
+        val course = sqrt(places.variance * state.variance)
         val likely = errors.minBy { abs(ln(it.time / places.time)) }
-        val fixes = likely.fixes * left / sqrt(likely.variance)
+        val fixes = likely.fixes * course / sqrt(likely.variance)
         val by = "${metres(fixes)} for ${three(likely.fixTime)} s"
         val more = if (areFar(state)) " Of a response of another shape such a log says little." else ""
-        return "The fixes are off by some $by at a time, and the course through them by ${metres(left)}, which in " +
+        return "The fixes are off by some $by at a time, and the course through them by ${metres(course)}, which in " +
             "water as steep as here is ${said(shift(state))}: the answer allows for that.$more"
     }
 
     private fun scattered(state: BlindState): String? {
-        val error = error(state)
+        val error = left * steepness(state)
         if (!(error > maxOf(own, PART * sqrt(state.variance)))) return null
         val more = if (left < scatter) ", and up to ${metres(left)} of that may be left in it" else ""
         return "The fixes scatter by ${metres(scatter)} about the boat's way$more, which in water as steep as here " +

@@ -85,13 +85,11 @@ internal class SmoothTrack private constructor(
         private val fresh = TrackSeries(series.times, series.x, series.y, series.values).withFreshPositions()
         private val known = RepeatedFixes.known(series)
         private val way = DeadReckoning.of(series, fresh.xs, fresh.ys)
-        private val offEast = way?.let { way -> DoubleArray(series.size) { fresh.xs[it] - way.x[it] } }
-        private val offNorth = way?.let { way -> DoubleArray(series.size) { fresh.ys[it] - way.y[it] } }
         private val plain = REACHES.map(::through)
         private val ratio = plain[1].scatter / plain[0].scatter
 
         /** The way that foretells the fixes left out best. */
-        val best: Parabolas by lazy {
+        val best: Parabolas = run {
             val least = plain.minBy { it.missed }
             val other = LONG_REACHES.mapNotNull(::offWay).minByOrNull { it.missed }
             if (other == null || other.missed > least.missed) least else other
@@ -107,8 +105,10 @@ internal class SmoothTrack private constructor(
         private fun through(reach: Int) = Parabolas(series, fresh.xs, fresh.ys, known, reach)
 
         /** Through what fixes are off the way reckoned from speed and heading; null where the log has no such. */
-        private fun offWay(reach: Int): Parabolas? =
-            way?.let { Parabolas(series, checkNotNull(offEast), checkNotNull(offNorth), known, reach, it) }
+        private fun offWay(reach: Int): Parabolas? {
+            fun off(fixes: DoubleArray, reckoned: DoubleArray) = DoubleArray(series.size) { fixes[it] - reckoned[it] }
+            return way?.let { Parabolas(series, off(fresh.xs, it.x), off(fresh.ys, it.y), known, reach, it) }
+        }
 
         fun track(way: Parabolas): SmoothTrack {
             val from = way.reckoned

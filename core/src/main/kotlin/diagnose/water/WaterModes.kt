@@ -142,7 +142,7 @@ internal class WaterModes private constructor(
      */
     fun onArm(behind: Double, variances: DoubleArray): WaterModes? = at(track.onArm(behind), variances)
 
-    /** The same for another way of the boat, [moved]. */
+    /** The same where the boat was on [moved]; null where its own track is a line. */
     fun at(moved: SmoothTrack, variances: DoubleArray): WaterModes? =
         rings?.let { refined(variances, most, emptySet(), moved, it.at(moved.x, moved.y)) }
 
