@@ -17,6 +17,7 @@ import stillwater.benchmark.ReportClaims
 import stillwater.model.Grid
 import stillwater.model.WaterArea
 import stillwater.plan.Lawnmower
+import stillwater.report.EarlierResults
 import stillwater.report.OutputDirectory
 import stillwater.report.toTerminal
 import stillwater.run.BudgetKind
@@ -144,7 +145,7 @@ class BenchmarkCommand : WorkCommand("benchmark") {
         val settings = settings()
         // Opened first: where results cannot be written, nobody wants to wait for them.
         requireNoMission(Path.of(out))
-        OutputDirectory(Path.of(out)).use { directory ->
+        OutputDirectory(Path.of(out), earlier = EarlierResults(commandName)).use { directory ->
             val result = measure(experiment(settings))
             val warnings = BenchmarkFiles(result, commandLine()).write(directory)
             val written = directory.commit()

@@ -16,6 +16,7 @@ import stillwater.correct.CorrectedLog
 import stillwater.diagnosis.RowsOfTheirOwn
 import stillwater.io.LogChoice
 import stillwater.io.SurveyLog
+import stillwater.report.EarlierResults
 import stillwater.report.OutputDirectory
 import stillwater.sensor.SensorSpec
 import java.nio.file.Files
@@ -108,7 +109,11 @@ class CorrectCommand : WorkCommand("correct") {
         }
         for (opened in logs) CorrectFiles.requireNewColumns(opened, logs.size == 1)
         requireNoMission(Path.of(out))
-        OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
+        OutputDirectory(
+            Path.of(out),
+            listOfNotNull(file, sensor?.let(Path::of)),
+            EarlierResults(commandName),
+        ).use { directory ->
             val places = CorrectFiles.places(logs.map { it.quantity })
             val files = CorrectOutput(
                 logs.mapIndexed { i, opened ->

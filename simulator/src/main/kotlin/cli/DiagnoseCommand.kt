@@ -21,6 +21,7 @@ import stillwater.diagnosis.DiagnosisLog
 import stillwater.diagnosis.MapWorth
 import stillwater.diagnosis.RowsOfTheirOwn
 import stillwater.io.SurveyLog
+import stillwater.report.EarlierResults
 import stillwater.report.OutputDirectory
 import stillwater.sensor.SensorSpec
 import java.nio.file.Path
@@ -96,7 +97,8 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
         requireNoMission(Path.of(out))
-        OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }).use { directory ->
+        val earlier = EarlierResults(commandName, mark = "diagnosis.json")
+        OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }, earlier).use { directory ->
             val own = RowsOfTheirOwn.of(opened, choice, DiagnosisLog.REFERENCE)
             val read = DiagnosisLog.of(own, conditions.toMap(), reference, compare.distinct())
             val shown = !quiet && !json

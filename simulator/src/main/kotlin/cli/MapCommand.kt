@@ -11,11 +11,13 @@ import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
 import stillwater.correct.CorrectCautions
 import stillwater.correct.CorrectedLog
+import stillwater.correct.SensorStages
 import stillwater.io.DecimalText
 import stillwater.io.SurveyLog
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.plot.Rehearsal
+import stillwater.report.EarlierResults
 import stillwater.report.OutputDirectory
 import stillwater.run.FilterKind
 import stillwater.run.LagFilterSettings
@@ -51,7 +53,8 @@ class MapCommand : WorkCommand("map") {
     private val filters by option(
         "--filter",
         metavar = "NAMES",
-        help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}; averaging,bounded unless given",
+        help = "filters to run: ${FilterKind.entries.joinToString(", ") { it.label }}; averaging,bounded unless " +
+            "given, averaging alone with --sensor: what is corrected has no lag for the others to undo",
     ).someOf(FilterKind.entries.associateBy { it.label })
     private val cell by option("--cell", metavar = "METRES", help = "side of a cell; chosen from the log without it")
         .number("a length in metres above 0, and at most 1000000000") { it > 0 && it <= LARGEST_CELL }
@@ -103,7 +106,7 @@ class MapCommand : WorkCommand("map") {
             "stillwater map survey.csv --value odo_percent_sat --unit %sat --out map",
             "stillwater map platypus_20160519.txt --value ATLAS_DO --cell 2",
             "stillwater map profiles.csv --x pres_dbar --value doxy_umol",
-            "stillwater map survey.csv --value odo --sensor sensor.json --filter averaging",
+            "stillwater map survey.csv --value odo --sensor sensor.json",
             "stillwater map survey.csv --value temp_c --filter bounded --calibrate 0:120",
         ),
     )
@@ -118,7 +121,11 @@ class MapCommand : WorkCommand("map") {
         val opened = SurveyLog.open(file, logOptions.choice().copy(conditions = conditions.toMap()))
         // Opened first: where results cannot be written, nobody wants to wait for them.
         requireNoMission(Path.of(out))
-        OutputDirectory(Path.of(out), listOfNotNull(file, sensor?.let(Path::of))).use { directory ->
+        OutputDirectory(
+            Path.of(out),
+            listOfNotNull(file, sensor?.let(Path::of)),
+            EarlierResults(commandName),
+        ).use { directory ->
             val map = read(opened, file, spec?.let { correction(opened, it) })
             val summary = MapSummary(map)
             val drawing = MapFiles(map, summary, commandLine()).write(directory)
@@ -135,7 +142,8 @@ class MapCommand : WorkCommand("map") {
         }
     }
 
-    private val usedFilters get() = filters ?: listOf(FilterKind.AVERAGING, FilterKind.BOUNDED)
+    private val usedFilters
+        get() = filters ?: listOfNotNull(FilterKind.AVERAGING, FilterKind.BOUNDED.takeIf { sensor == null })
 
     /** The number that was given; null where the log is to show it. */
     private val wantedEpsilon get() = epsilon?.takeIf { !it.isNaN() }
@@ -163,7 +171,13 @@ class MapCommand : WorkCommand("map") {
     private fun correction(opened: SurveyLog, spec: SensorSpec): GivenCorrection = try {
         val corrected = CorrectedLog.of(opened, spec, hasReference = false, conditions.toMap())
         val cautions = CorrectCautions(corrected, unit?.let { " $it" }.orEmpty())
-        GivenCorrection(spec.name, corrected.track.values, cautions.lines)
+        GivenCorrection(
+            spec,
+            SensorStages.words(spec),
+            corrected.track,
+            corrected.told,
+            cautions.ofSensor + cautions.lines,
+        )
     } catch (wrong: IllegalArgumentException) {
         throw SensorFile.unfit(sensor, wrong)
     }

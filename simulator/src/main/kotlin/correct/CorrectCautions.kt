@@ -1,7 +1,10 @@
 package stillwater.correct
 
 import stillwater.estimate.UndoableSensor
+import stillwater.survey.LagShift
 import stillwater.survey.Wording.Companion.digits
+import stillwater.survey.Wording.Companion.duration
+import stillwater.survey.Wording.Companion.percent
 
 /**
  * Which rows of a [CorrectedLog] are less certain than the others, and why, in words.
@@ -9,10 +12,46 @@ import stillwater.survey.Wording.Companion.digits
  * @param result what it is about. @param unitAfter the readings' unit with a blank before it, or nothing.
  */
 internal class CorrectCautions(private val result: CorrectedLog, private val unitAfter: String) {
+    /** Whether the sensor can be this log's, one sentence each. */
+    val ofSensor: List<String> get() = listOfNotNull(slowest(), worse())
+
+    /** Whether undoing the response sets passes farther apart than they were. */
+    val isWorse: Boolean get() = worse() != null
+
     /** One sentence each. */
     val lines: List<String>
         get() = result.bridged +
             listOfNotNull(outlying(), atEnd(1, "upper", "upward"), atEnd(-1, "lower", "downward"), play())
+
+    /** What to say of a given sensor that is slower than the log is long; null for others. */
+    private fun slowest(): String? {
+        if (result.origin != SensorOrigin.GIVEN) return null
+        val slowest = UndoableSensor.of(result.spec).response.lags.maxOfOrNull { maxOf(it.rising, it.falling) } ?: 0.0
+        if (!(slowest > result.statistics.duration)) return null
+        return "the sensor's time constant (${duration(slowest)}) is longer than the log " +
+            "(${duration(result.statistics.duration)}): what it shows of the water is mostly from before it"
+    }
+
+    /** What to say where undoing the response sets passes farther apart than they were; null where it does not. */
+    private fun worse(): String? {
+        val before = result.before?.opposite?.mean ?: return null
+        val found = result.after ?: return null
+        val after = found.opposite.mean
+        // Nothing was undone, or of nothing there is no share.
+        if (result.origin == SensorOrigin.NOTHING || !(before > 0)) return null
+        // The water itself differs from side to side, and more so when what the sensor smoothed is undone.
+        if (result.before?.isAside == true) return null
+        // Of few legs a little more is chance, as the line about them says.
+        val much = if (found.scores.size < LagShift.FEWEST_LEGS) WORSE_OF_FEW else WORSE
+        if (!(after > much * before)) return null
+        val legs = "opposite legs differ by ${percent(after / before - 1)} more than as measured"
+        return when (result.origin) {
+            SensorOrigin.GIVEN -> "$legs: the sensor given is not this one's"
+            else ->
+                "$legs: none of the responses that were tried is this sensor's. Do not use the corrected values " +
+                    "without another look; diagnose knows more kinds of response, and --sensor takes what it finds"
+        }
+    }
 
     private fun outlying(): String? {
         val outlying = result.track.outlying.count { it }
@@ -48,5 +87,11 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
         if (play == 0.0) return null
         return "hysteresis in the sensor hides changes within ${digits(play)}$unitAfter: that cannot be undone, and " +
             "the intervals were widened by half of it either way"
+    }
+
+    private companion object {
+        /** Legs that differ by a few percent more may do so by chance. */
+        const val WORSE = 1.1
+        const val WORSE_OF_FEW = 2.0
     }
 }

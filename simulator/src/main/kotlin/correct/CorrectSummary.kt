@@ -1,15 +1,8 @@
 package stillwater.correct
 
-import kotlinx.serialization.json.Json
-import kotlinx.serialization.json.JsonPrimitive
-import kotlinx.serialization.json.doubleOrNull
-import kotlinx.serialization.json.jsonArray
-import kotlinx.serialization.json.jsonObject
-import kotlinx.serialization.json.jsonPrimitive
 import stillwater.estimate.CandidateResponse
 import stillwater.estimate.CorrectedTrack
 import stillwater.estimate.ResponseKind
-import stillwater.estimate.UndoableSensor
 import stillwater.report.counted
 import stillwater.sensor.SensorStage
 import stillwater.survey.LagShift
@@ -32,6 +25,7 @@ internal class CorrectSummary(
     val unitAfter: String = unit?.let { " $it" }.orEmpty()
 
     private val trust = CorrectTrust(result, unitAfter)
+    private val cautions = CorrectCautions(result, unitAfter)
 
     /** The quantity with its unit. */
     val quantity: String = unit?.let { "${result.log.quantity} ($it)" } ?: result.log.quantity
@@ -43,7 +37,7 @@ internal class CorrectSummary(
             return when {
                 result.origin == SensorOrigin.NOTHING ->
                     "not learned: nothing in the log shows it; taken as without lag"
-                choice == null -> stages().ifEmpty { "without lag" }
+                choice == null -> SensorStages.words(result.spec).ifEmpty { "without lag" }
                 result.origin == SensorOrigin.RATE -> "${limit()}; before it: $open"
                 else -> open
             }
@@ -65,18 +59,6 @@ internal class CorrectSummary(
         open.filterNot { one -> one.kind.parameters.indices.any { isNone(one, it) } }.ifEmpty { open.take(1) }
     }
 
-    /** The stages as in sensor.json, with their numbers. */
-    private fun stages(): String {
-        val stages = Json.parseToJsonElement(result.spec.toJson()).jsonObject.getValue("stages").jsonArray
-        return stages.map { it.jsonObject }.joinToString(", then ") { stage ->
-            val numbers = stage.filterKeys { it != "type" }.map { (name, value) ->
-                val number = (value as? JsonPrimitive)?.doubleOrNull
-                "${parameterName(name)} ${number?.let { digits(it, 3) } ?: value}"
-            }
-            "${stage.getValue("type").jsonPrimitive.content}: ${numbers.joinToString(", ")}"
-        }
-    }
-
     /** [candidate] with its parameters and their 95 % intervals. */
     fun words(candidate: CandidateResponse): String {
         if (candidate.kind == ResponseKind.NONE) return "no lag"
@@ -85,13 +67,13 @@ internal class CorrectSummary(
             if (isNone(candidate, i)) {
                 // Its own interval is of a logarithm, which goes on and on towards none.
                 val least = digits(maxOf(interval.endInclusive, result.series.medianStep / STEP_PARTS), 2)
-                val name = parameterName(candidate.kind.parameters[i]).removeSuffix(" in s")
+                val name = SensorStages.parameter(candidate.kind.parameters[i]).removeSuffix(" in s")
                 return@joinToString "$name none found, under $least s"
             }
             // Of a narrow interval the ends would be written alike.
             val count = (3..MOST_DIGITS).firstOrNull { least(candidate, i, it) != most(candidate, i, it) } ?: 3
             val value = digits(candidate.parameter(i), count)
-            "${parameterName(candidate.kind.parameters[i])} $value" +
+            "${SensorStages.parameter(candidate.kind.parameters[i])} $value" +
                 " (${least(candidate, i, count)} to ${most(candidate, i, count)})"
         }
         val at = if (candidate.kind == ResponseKind.FLOW) " (at ${digits(result.series.referenceSpeed, 2)} m/s)" else ""
@@ -99,7 +81,7 @@ internal class CorrectSummary(
     }
 
     private fun isTime(candidate: CandidateResponse, i: Int) =
-        candidate.kind.parameters[i].let { it.endsWith("_s") && it != RATE }
+        candidate.kind.parameters[i].let { it.endsWith("_s") && it != SensorStages.RATE }
 
     /** Of a time far below the distance of rows all digits are chance. */
     private fun least(candidate: CandidateResponse, i: Int, count: Int): String {
@@ -118,12 +100,6 @@ internal class CorrectSummary(
     /** Whether the time that parameter [i] is is too short to be seen in rows so far apart. */
     private fun isNone(candidate: CandidateResponse, i: Int) = isTime(candidate, i) &&
         candidate.interval(i).endInclusive < result.series.medianStep / 2
-
-    private fun parameterName(name: String) = when (name) {
-        RATE -> "rate per s"
-        REFERENCE_SPEED -> "reference speed in m/s"
-        else -> name.removeSuffix("_s").replace('_', ' ') + if (name.endsWith("_s")) " in s" else ""
-    }
 
     /** Mean half width of the intervals, sensor units. */
     val halfWidth: Double get() = halfWidth(result.track)
@@ -148,7 +124,7 @@ internal class CorrectSummary(
     private val holdsHint: Boolean get() = result.track === result.hinted
 
     /** What was found and done, in a sentence or three for somebody who knows no responses. */
-    val inShort: String get() = CorrectInShort(result, different, unitAfter, halfWidth, isWorse = worse() != null).text
+    val inShort: String get() = CorrectInShort(result, different, unitAfter, halfWidth, isWorse = cautions.isWorse).text
 
     /** Names and values, in order; the first six go to the terminal. */
     val facts: List<Pair<String, String>>
@@ -242,36 +218,6 @@ internal class CorrectSummary(
         return "${result.series.size} corrected$skipped"
     }
 
-    /** What to say of a given sensor that is slower than the log is long; null for others. */
-    private fun slowest(): String? {
-        if (result.origin != SensorOrigin.GIVEN) return null
-        val slowest = UndoableSensor.of(result.spec).response.lags.maxOfOrNull { maxOf(it.rising, it.falling) } ?: 0.0
-        if (!(slowest > result.statistics.duration)) return null
-        return "the sensor's time constant (${duration(slowest)}) is longer than the log " +
-            "(${duration(result.statistics.duration)}): what it shows of the water is mostly from before it"
-    }
-
-    /** What to say where undoing the response sets passes farther apart than they were; null where it does not. */
-    private fun worse(): String? {
-        val before = result.before?.opposite?.mean ?: return null
-        val found = result.after ?: return null
-        val after = found.opposite.mean
-        // Nothing was undone, or of nothing there is no share.
-        if (result.origin == SensorOrigin.NOTHING || !(before > 0)) return null
-        // The water itself differs from side to side, and more so when what the sensor smoothed is undone.
-        if (result.before?.isAside == true) return null
-        // Of few legs a little more is chance, as the line about them says.
-        val much = if (found.scores.size < LagShift.FEWEST_LEGS) WORSE_OF_FEW else WORSE
-        if (!(after > much * before)) return null
-        val legs = "opposite legs differ by ${percent(after / before - 1)} more than as measured"
-        return when (result.origin) {
-            SensorOrigin.GIVEN -> "$legs: the sensor given is not this one's"
-            else ->
-                "$legs: none of the responses that were tried is this sensor's. Do not use the corrected values " +
-                    "without another look; diagnose knows more kinds of response, and --sensor takes what it finds"
-        }
-    }
-
     private fun hint(twoPaths: CandidateResponse): String {
         val share = twoPaths.kind.parameters.lastIndex
         val range = twoPaths.interval(share)
@@ -315,15 +261,14 @@ internal class CorrectSummary(
             if (isFlat(result.series.values)) {
                 add("the readings are all the same, as a stuck sensor's: intervals are half a last digit either way")
             }
-            slowest()?.let(::add)
-            worse()?.let(::add)
+            addAll(cautions.ofSensor)
             addAll(trust.warnings)
             val silent = result.track.silent.count { it }
             if (silent > 0) {
                 val readings = counted(silent, "reading")
                 add("at $readings the sensor ran at its limit and shows the water from one side only")
             }
-            addAll(CorrectCautions(result, unitAfter).lines)
+            addAll(cautions.lines)
             if (result.learned.isPart) {
                 val middle = "on the ${result.learned.readings} readings in the middle of the log"
                 if (result.origin == SensorOrigin.REVISITS) add("the sensor was learned $middle")
@@ -344,8 +289,6 @@ internal class CorrectSummary(
         }
 
     private companion object {
-        const val RATE = "rate_per_s"
-        const val REFERENCE_SPEED = "reference_speed_m_per_s"
 
         /** Times below such a part of the distance of rows are none, however narrow their interval. */
         const val STEP_PARTS = 10
@@ -355,9 +298,5 @@ internal class CorrectSummary(
 
         /** Times the value, or the distance of rows. */
         const val OPEN = 100
-
-        /** Legs that differ by a few percent more may do so by chance. */
-        const val WORSE = 1.1
-        const val WORSE_OF_FEW = 2.0
     }
 }

@@ -27,6 +27,7 @@ import stillwater.survey.SurveyScan
 import stillwater.survey.SurveyStatistics
 import stillwater.survey.Track
 import stillwater.survey.ValueResolution
+import stillwater.survey.Wording.Companion.digits
 import kotlin.math.abs
 
 /** Where a [CorrectedLog]'s sensor comes from. */
@@ -130,6 +131,14 @@ class CorrectedLog internal constructor(
         }.scores()
     }
 
+    /** The sensor's dead time, s, where it was given; else 0: what is learned is of a log that shows it. */
+    private val deadTime: Double
+        get() = if (origin == SensorOrigin.GIVEN) UndoableSensor.of(spec).response.deadTime else 0.0
+
+    /** Rows of whose water the log says something: of the last ones a given sensor shows it after the log's end. */
+    internal val told: Int
+        get() = series.times.count { it + deadTime <= series.times.last() }
+
     companion object {
         /** Name of the condition that holds the reference. */
         const val REFERENCE = "reference"
@@ -169,7 +178,7 @@ class CorrectedLog internal constructor(
             val rows = Rows(names.size)
             val scan = SurveyScan()
             val pass = read(log, names, rows, scan, progress)
-            val plain = rows.series()
+            val plain = rows.series().also { series -> undone?.let { requireSeen(it, series) } }
             val measured = names.mapIndexed { i, name -> name to rows.condition(i) }.toMap()
             val bridged = ConditionColumns(log, conditions, plain.times, measured::getValue).bridged(BRIDGED_FAR)
             val others = withSpeed(plain, measured)
@@ -272,6 +281,14 @@ class CorrectedLog internal constructor(
             val missing = sensor.needs - told
             require(missing.isEmpty()) {
                 "undoing it takes ${missing.joinToString(" and ") { "--condition $it=COLUMN" }}"
+            }
+        }
+
+        /** Refuses [sensor] whose dead time no reading of [series] ends: none is of water within the log. */
+        private fun requireSeen(sensor: UndoableSensor, series: TrackSeries) {
+            val duration = series.times.last() - series.times.first()
+            require(sensor.response.deadTime < duration) {
+                "a dead time of ${digits(sensor.response.deadTime)} s in a log of ${digits(duration)} s"
             }
         }
 

@@ -372,7 +372,7 @@ internal class CsvSurvey internal constructor(
             if (rows == 0L) throw problem(null, null, "rows after the header", "none", null)
             inTime.end()
             far.end()
-            repeat(far.count.toInt()) { skips.count("single fixes far off") }
+            repeat(far.count.toInt()) { skips.count("fixes far off") }
             val notes = inTime.notes + listOfNotNull(nights.note, far.note, jumps.note) + codes.notes()
             return LogPass(readings, skips.toMap(), notes, jumps.count)
         }

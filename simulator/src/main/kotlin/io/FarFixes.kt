@@ -3,16 +3,23 @@ package stillwater.io
 import kotlin.math.hypot
 
 /**
- * Leaves out rows with a fix far off from which the next row is back where the one before was: one wild fix would set
- * the size of the whole map.
+ * Leaves out fixes far off, farther than any boat goes between rows: such from which the log is back where it was after
+ * [MOST] rows at the most, and as few at its beginning or end beside [SETTLED] others. One wild fix would set the size of the
+ * whole map. A log that goes on elsewhere stays as it is.
  *
- * @param use takes the other rows, in the order in which they come, each once the next one is known.
+ * @param use takes the other rows, in the order in which they come, each once it is known that it stays.
  */
 internal class FarFixes(private val use: (TimedRow) -> Unit) {
+    /** The log's first rows, as long as they may be wild; null once they are not. */
+    private var start: ArrayList<TimedRow>? = ArrayList()
+
+    /** The last row that stays, and how many have come since the last jump. */
     private var before: TimedRow? = null
-    private var latest: TimedRow? = null
-    private var first: TimedRow? = null
-    private var firstMetres = 0.0
+    private var settled = 0
+
+    /** Rows after a jump of which it is not known whether they stay. */
+    private val pending = ArrayList<TimedRow>()
+    private var first: String? = null
 
     /** Rows left out so far. */
     var count = 0L
@@ -20,33 +27,80 @@ internal class FarFixes(private val use: (TimedRow) -> Unit) {
 
     /** What to say of them; null where there are none. */
     val note: String?
-        get() = first?.let {
-            val km = "%.0f".format(java.util.Locale.ROOT, firstMetres / KILOMETRE)
-            val more = if (count > 1) ", the first of $count such rows" else ""
-            "line ${it.line}: a single fix $km km off the rows before and after it$more: left out"
-        }
+        get() = first?.let { it + (if (count > firstCount) ", the first of $count such rows" else "") + ": left out" }
+    private var firstCount = 0L
 
     /** Takes the next row, which has a fix. */
     fun take(row: TimedRow) {
-        val held = latest
-        latest = row
-        if (held == null) return
         val last = before
-        if (last != null && isFar(last, held) && isFar(held, row) && apart(last, row) < apart(last, held) / BACK) {
-            if (count++ == 0L) {
-                first = held
-                firstMetres = apart(last, held)
-            }
+        if (pending.isEmpty()) {
+            if (last == null || !isFar(last, row)) accept(row) else pending += row
             return
         }
-        use(held)
-        before = held
+        if (!isFar(pending.last(), row)) {
+            pending += row
+            val isStartWild = start != null && pending.size >= SETTLED
+            if (isStartWild) leaveOutStart()
+            if (isStartWild || (start == null && pending.size > MOST)) release()
+        } else if (pending.size <= MOST && apart(checkNotNull(last), row) < apart(last, pending[0]) / BACK) {
+            leaveOut(pending, last, if (pending.size == 1) "the rows before and after it" else "the rows beside them")
+            pending.clear()
+            accept(row)
+        } else {
+            release()
+            pending += row
+        }
     }
 
     /** No row follows. */
     fun end() {
-        latest?.let(use)
-        latest = null
+        val last = before
+        if (pending.isNotEmpty() && pending.size <= MOST && settled >= SETTLED && last != null) {
+            leaveOut(pending, last, "the rows before")
+            pending.clear()
+        }
+        release()
+    }
+
+    private fun accept(row: TimedRow) {
+        before = row
+        settled++
+        val held = start
+        if (held == null) {
+            use(row)
+        } else {
+            held += row
+            if (held.size > MOST) keepStart()
+        }
+    }
+
+    /** The log goes on where it jumped to: all rows stay. */
+    private fun release() {
+        keepStart()
+        if (pending.isEmpty()) return
+        pending.forEach(use)
+        before = pending.last()
+        settled = pending.size
+        pending.clear()
+    }
+
+    private fun keepStart() {
+        start?.forEach(use)
+        start = null
+    }
+
+    private fun leaveOutStart() {
+        start?.let { leaveOut(it, pending[0], "the rows after") }
+        start = null
+    }
+
+    private fun leaveOut(rows: List<TimedRow>, near: TimedRow, beside: String) {
+        count += rows.size
+        if (first != null) return
+        val km = "%.0f".format(java.util.Locale.ROOT, apart(rows[0], near) / KILOMETRE)
+        val what = if (rows.size == 1) "a single fix" else "${rows.size} fixes"
+        first = "line ${rows[0].line}: $what $km km off $beside"
+        firstCount = count
     }
 
     private fun apart(one: TimedRow, other: TimedRow) = hypot(other.x - one.x, other.y - one.y)
@@ -61,5 +115,11 @@ internal class FarFixes(private val use: (TimedRow) -> Unit) {
         /** Metres per second: no boat. */
         const val FAR_SPEED = 100.0
         const val BACK = 10
+
+        /** Rows in a row that may be wild. */
+        const val MOST = 3
+
+        /** Rows beside them that are where the log is. */
+        const val SETTLED = 10
     }
 }

@@ -30,10 +30,15 @@ public class OutputException(message: String, cause: Throwable? = null) : Runtim
  *
  * @property directory where the results go; it and its parents are created on commit if missing.
  * @param inputs files that were read and are not to be replaced. Retained.
- * @throws OutputException if [directory] is a file or cannot be written.
+ * @param earlier whose results these are: files of the same names that are not of such are somebody's own, and stay. Null for
+ *   a command that sees to that itself.
+ * @throws OutputException if [directory] is a file, cannot be written, or has the report of another command.
  */
-public class OutputDirectory(public val directory: Path, private val inputs: List<Path> = emptyList()) :
-    AutoCloseable {
+public class OutputDirectory(
+    public val directory: Path,
+    private val inputs: List<Path> = emptyList(),
+    private val earlier: EarlierResults? = null,
+) : AutoCloseable {
     private val target = directory.toAbsolutePath().normalize()
     private val createdParents = ArrayList<Path>()
     private val staging: Path
@@ -42,6 +47,7 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
     private val removal = Thread({ discard() }, "remove unfinished output")
     private val lock = Any()
     private var isOpen = true
+    private val isOwn = earlier == null || earlier.areIn(target)
 
     init {
         if (target.exists() && !target.isDirectory()) {
@@ -52,6 +58,7 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
         ) {
             throw OutputException("output directory $directory is not writable")
         }
+        requireOwn(EarlierResults.REPORT)
         staging = guarded("create") { createStaging() }
         Runtime.getRuntime().addShutdownHook(removal)
     }
@@ -75,6 +82,7 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
         require(file.startsWith(staging) && file != staging) {
             "name ($name) must be a path inside the output directory"
         }
+        requireOwn(name)
         return guarded("write $name in") {
             Files.createDirectories(file.parent)
             val written = Files.newOutputStream(file).buffered().use(block)
@@ -89,7 +97,17 @@ public class OutputDirectory(public val directory: Path, private val inputs: Lis
      * are removed on [commit].
      */
     public fun retire(names: Collection<String>) {
+        names.forEach(::requireOwn)
         retired += names
+    }
+
+    private fun requireOwn(name: String) {
+        if (isOwn || !target.resolve(name).exists()) return
+        throw OutputException(
+            "output ${directory.resolve(
+                name,
+            )} is not of an earlier stillwater ${earlier?.command}; name another directory",
+        )
     }
 
     private fun isInput(name: String): Boolean {

@@ -50,6 +50,15 @@ enum class FilterKind(
     BAYESIAN("bayesian", givesBounds = true, seesUnvisited = true),
     ;
 
+    /** Whether its bounds hold the truth with a probability of 95 %, and not for certain. */
+    val areBoundsCredible: Boolean get() = givesBounds && !valueIsMidpoint
+
+    /** Whether it reckons with a lag of the sensor, which readings must still have. */
+    val undoesLag: Boolean get() = givesBounds
+
+    /** Whether its bounds hold only where the water of a cell is the same all over; the others look for that themselves. */
+    val needsEvenCells: Boolean get() = valueIsMidpoint || this == BOUNDED_EXTENDED
+
     /** How the maps of several boats become one: by what this filter's bounds mean. */
     val fusion: MapFusion
         get() = when {

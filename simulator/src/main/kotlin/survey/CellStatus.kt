@@ -35,6 +35,9 @@ enum class CellStatus(val label: String) {
     val isMeasured: Boolean get() = this != UNVISITED && this != NONE
 }
 
+/** What the water of a cell lies between, sensor units; [lower] is above [upper] where the evidence contradicts itself. */
+data class CellBounds(val lower: Double, val upper: Double)
+
 /** What the filter [kind] knows about [cell]. */
 internal fun FieldMap.status(kind: FilterKind, cell: Int): CellStatus {
     if (visits(cell) == 0) {

@@ -32,9 +32,10 @@ class MapFigure(val name: String, val figure: Figure, val caption: String)
  */
 class MapFigures(private val map: SurveyMap) {
     private val wording = Wording(map)
-    private val quantity = map.log.quantity
-    private val legend = wording.quantity
-    private val where = map.log.file.fileName.toString()
+    private val quantity = shortened(map.log.quantity)
+    private val legend = shortened(wording.quantity)
+    private val where = map.log.file.fileName.toString() +
+        map.correction?.let { ", corrected for ${shortened(it.sensor.name)}" }.orEmpty()
     private val trackColours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
         .takeIf { it.start < it.endInclusive }
     private val cellColours = map.maps.flatMap { (kind, field) ->
@@ -45,7 +46,7 @@ class MapFigures(private val map: SurveyMap) {
     fun draw(): List<() -> MapFigure> = buildList {
         add { track() }
         map.maps.forEach { (kind, field) -> add { estimate(kind, field) } }
-        map.maps[FilterKind.BOUNDED]?.let { add { width(it) } }
+        map.maps.forEach { (kind, field) -> if (kind.givesBounds || isCorrectedMean(kind)) add { width(kind, field) } }
         map.mismatch?.let { add { shift(it) } }
         if (map.statistics.speeds.count > 1) add { speed() }
     }
@@ -107,7 +108,12 @@ class MapFigures(private val map: SurveyMap) {
                     "for the water, so that its value says as much of the range as of the water. Where they crossed " +
                     "it is the middle between two bounds that contradict each other, and the water need not be " +
                     "there. Of ${counts(field)}."
-            FilterKind.AVERAGING -> "Mean of the readings in each visited cell."
+            FilterKind.AVERAGING ->
+                if (map.correction == null) {
+                    "Mean of the readings in each visited cell."
+                } else {
+                    "Mean of the corrected readings in each visited cell."
+                }
             FilterKind.EXPONENTIAL -> "Exponential average of the readings in each visited cell."
             FilterKind.INTERVAL ->
                 "Midpoint of the bounds that hold for every sensor no slower than was said, in each visited cell."
@@ -133,26 +139,42 @@ class MapFigures(private val map: SurveyMap) {
         return MapFigure("estimate-${kind.label}", figure, caption)
     }
 
-    private fun width(field: FieldMap): MapFigure {
-        val title = "$quantity, width of the bounds"
-        val width: (Int) -> Double = {
-            val status = field.status(FilterKind.BOUNDED, it)
-            val isBounded = status == CellStatus.BOTH || status == CellStatus.ONE_SIDED
-            if (isBounded) field.upper(it) - field.lower(it) else Double.NaN
+    /** Whether the filter [kind] has intervals by how well corrected readings are known. */
+    private fun isCorrectedMean(kind: FilterKind) = kind == FilterKind.AVERAGING && map.correction != null
+
+    private fun width(kind: FilterKind, field: FieldMap): MapFigure {
+        val what = if (kind.areBoundsCredible || isCorrectedMean(kind)) "95 % intervals" else "bounds"
+        val title = "$quantity, width of the $what" + if (kind == FilterKind.BOUNDED) "" else ", ${kind.label} filter"
+        val width: (Int) -> Double = { cell ->
+            map.bounds(kind, cell)?.let { it.upper - it.lower }?.takeIf { it >= 0 } ?: Double.NaN
         }
-        val crossed = BoundCounts.of(field).crossed
+        val crossed = BoundCounts.of(field, kind).crossed
         val below = if (crossed == 0) where else "$where; crossed: $crossed, without width"
         val unit = "width of $legend"
         val figure = if (map.log.oneDimensional) {
             profile(title, below, field, width, unit)
         } else {
-            CellMap(title, below, cells(field, field.visitedCells(), width), unit).draw()
+            CellMap(title, below, cells(field, field.shownCells(kind), width), unit).draw()
         }
-        val caption =
-            "Upper minus lower bound in each visited cell with a bound; where only one was set the other end " +
-                "is that of the range taken for the water, ${digits(map.prior.lower)} to ${digits(map.prior.upper)}. " +
-                "Cells without a bound and those whose bounds crossed have no width. Of ${counts(field)}."
-        return MapFigure("bounds-width", figure, caption)
+        return MapFigure(widthName(kind), figure, widthCaption(kind, field))
+    }
+
+    private fun widthCaption(kind: FilterKind, field: FieldMap): String = when {
+        isCorrectedMean(kind) ->
+            "How well the water where the boat went through each cell is known from the corrected readings there, " +
+                "if the " +
+                "sensor given is the right one."
+        kind.areBoundsCredible ->
+            "Upper minus lower end of each cell's 95 % interval, cut to the range taken for the water, " +
+                "${digits(map.prior.lower)} to ${digits(map.prior.upper)}."
+        else ->
+            "Upper minus lower bound in each visited cell with a bound; where only one was set the other end is " +
+                "that of " +
+                "the range taken for the water, ${digits(
+                    map.prior.lower,
+                )} to ${digits(map.prior.upper)}. Cells without " +
+                "a bound and those whose bounds crossed have no width." +
+                if (kind == FilterKind.BOUNDED) " Of ${counts(field)}." else ""
     }
 
     private fun counts(field: FieldMap) = BoundCounts.of(field).run {
@@ -277,7 +299,21 @@ class MapFigures(private val map: SurveyMap) {
     internal companion object {
         /** Names of the figures' files, without ending, that any run may write. */
         val NAMES: List<String> =
-            listOf("track", "bounds-width", "leg-mismatch", "speed") + FilterKind.entries.map { "estimate-${it.label}" }
+            listOf("track", "leg-mismatch", "speed") +
+                FilterKind.entries.flatMap { listOf("estimate-${it.label}", widthName(it)) }
+
+        private fun widthName(kind: FilterKind) =
+            if (kind == FilterKind.BOUNDED) "bounds-width" else "bounds-width-${kind.label}"
+
+        /** [name] in as many characters as a figure has room for. */
+        private fun shortened(name: String) = if (name.length <=
+            LONGEST_NAME
+        ) {
+            name
+        } else {
+            name.take(LONGEST_NAME - 1) + "…"
+        }
+        private const val LONGEST_NAME = 60
 
         private const val RARE = 0.01
 

@@ -18,9 +18,10 @@ import kotlin.math.abs
  * Writes what a [SurveyMap] gives: cells.csv, cells.geojson, the figures and report.html.
  *
  * cells.csv has every cell of every filter, visited or not, with its status; where nothing was measured the value is
- * empty, and so are the bounds, as they are for filters without bounds. The end of a one-sided cell that no evidence
- * set is that of the range taken for the water. cells.geojson has the visited cells only, and is left out for logs
- * without latitudes, because RFC 7946 knows no other coordinates.
+ * empty, and so are the bounds, as they are for filters without bounds; but the means of corrected readings have those of
+ * [CorrectedCells]. The end of a one-sided cell that no evidence set is that of the range taken for the water.
+ * cells.geojson has the visited cells only, and is left out for logs without latitudes, because RFC 7946 knows no other
+ * coordinates.
  *
  * @param map what to write. @param summary the same in words. @param command the command as typed, for the report.
  */
@@ -76,8 +77,8 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
                 place?.latitudeDeg,
                 place?.longitudeDeg,
                 field.measuredValue(kind, cell),
-                bound(status) { field.lower(cell) },
-                bound(status) { field.upper(cell) },
+                map.bounds(kind, cell)?.lower,
+                map.bounds(kind, cell)?.upper,
                 field.visits(cell),
                 field.readings(cell),
                 field.conflicts(cell),
@@ -103,8 +104,8 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
                 "column" to cell % field.grid.columns,
                 "row" to cell / field.grid.columns,
                 "value" to field.measuredValue(kind, cell),
-                "lower" to bound(status) { field.lower(cell) },
-                "upper" to bound(status) { field.upper(cell) },
+                "lower" to map.bounds(kind, cell)?.lower,
+                "upper" to map.bounds(kind, cell)?.upper,
                 "visits" to field.visits(cell),
                 "readings" to field.readings(cell),
                 "conflicts" to field.conflicts(cell),
@@ -112,9 +113,6 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             ),
         )
     }
-
-    private inline fun bound(status: CellStatus, of: () -> Double): Double? =
-        if (status.isMeasured && status != CellStatus.MEASURED) of() else null
 
     /** A cell on the date line is cut there, or its outline would go around the globe. */
     private fun corner(place: LatLon, center: LatLon): GeoCorner {

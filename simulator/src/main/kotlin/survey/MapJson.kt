@@ -51,6 +51,12 @@ object MapJson {
         put("position_unit", Wording(map).length)
         put("warnings", buildJsonArray { warnings.forEach { add(JsonPrimitive(it)) } })
         put("readings", map.pass.readings)
+        map.correction?.let {
+            putJsonObject("corrected_for") {
+                put("sensor", Json.parseToJsonElement(it.sensor.toJson()))
+                put("readings_left_out", it.untold)
+            }
+        }
         putJsonObject("skipped") { map.pass.skipped.forEach { (reason, count) -> put(reason, count) } }
         statistics(map)
         grid(map)
@@ -73,6 +79,7 @@ object MapJson {
         }
         map.interval?.let { put("interval_assumes", it.json()) }
         map.learned?.let { put("sensor", sensor(it.sensor())) }
+        put("even_cells", map.areCellsEven)
         putJsonObject("filters") {
             map.maps.forEach { (kind, field) ->
                 putJsonObject(kind.label) {
@@ -126,6 +133,7 @@ object MapJson {
         put("gap_limit_s", number(statistics.gapLimit))
         put("longest_step_s", statistics.longestStep)
         put("repeated_fixes_share", statistics.repeatedFixes)
+        put("fix_scatter_m", statistics.fixScatter)
         put("repeated_values_share", statistics.repeatedValues)
         quantiles("speed_mps", statistics.speeds)
         put("way_m", statistics.distance)

@@ -23,7 +23,13 @@ class MapSummary(private val map: SurveyMap) {
         add("log" to "${map.log.file.fileName} (${map.log.format})")
         add("readings" to "${map.pass.readings} of $quantity")
         map.correction?.let {
-            add("corrected for" to "the sensor given (${it.sensor}); maps and figures show the water")
+            add(CORRECTED to "${it.sensor.name} (${it.words}); maps and figures show the water")
+            if (it.untold > 0) {
+                add(
+                    "last readings" to
+                        "${it.untold} left out: their dead time ends after the log, which says nothing of their water",
+                )
+            }
         }
         map.pass.skipped.forEach { (reason, count) -> add(reason to "$count skipped") }
         val outside = map.maps.values.maxOfOrNull { it.outside } ?: 0
@@ -164,6 +170,9 @@ class MapSummary(private val map: SurveyMap) {
     internal companion object {
         /** Name of the fact that has the best shift as a number. */
         const val BEST_SHIFT = "best shift"
+
+        /** Name of the fact that says which sensor was undone. */
+        const val CORRECTED = "corrected for"
         private const val LOW = 0.05
     }
 }

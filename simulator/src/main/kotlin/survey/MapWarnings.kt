@@ -16,8 +16,8 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     /** The sentences, most important first. */
     fun list(): List<String> = map.pass.warnings + map.correction?.cautions.orEmpty() +
-        listOfNotNull(unevenCells(), gap(), outliers(), outsideRange(), skipped()) +
-        epsilon() + listOfNotNull(standing()) + bounds() + listOfNotNull(map.interval?.warning(wording::value)) +
+        listOfNotNull(gap(), outliers(), outsideRange(), skipped(), standing()) +
+        (if (map.correction == null) ofFilters() else listOfNotNull(twice())) +
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
 
     private fun unevenCells(): String? {
@@ -30,6 +30,29 @@ internal class MapWarnings(private val map: SurveyMap) {
         val filter = if (FilterKind.SELF_CALIBRATING in map.maps) "self-calibrating" else "bayesian"
         return "$why, so $filter cannot learn the sensor: its bounds are wide, and its values may be as late as the " +
             "readings; `stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
+    }
+
+    private fun ofFilters(): List<String> = listOfNotNull(unevenCells(), unevenBounds()) + epsilon() + bounds() +
+        listOfNotNull(map.interval?.warning(wording::value))
+
+    /** Filters that undo a lag, of readings of which it is undone already. */
+    private fun twice(): String? {
+        val filters = map.maps.keys.filter { it.undoesLag }.map { it.label }.ifEmpty { return null }
+        val (reckon, their) = if (filters.size == 1) "reckons" to "its" else "reckon" to "their"
+        return "${filters.joinToString(
+            " and ",
+        )} $reckon with a lag that --sensor has undone already: $their bounds and " +
+            "values are not the water's; averaging is for corrected readings"
+    }
+
+    /** Bounds that take the water of a cell for the same all over, where nothing shows that it is. */
+    private fun unevenBounds(): String? {
+        if (map.areCellsEven) return null
+        val filters = map.maps.keys.filter { it.needsEvenCells }.map { it.label }.ifEmpty { return null }
+        val (take, their) = if (filters.size == 1) "takes" to "its" else "take" to "their"
+        return "nothing shows that the water changes at the cells' borders and not within cells, which " +
+            "${filters.joinToString(" and ")} $take for granted: $their bounds may miss the water of a cell; " +
+            "`stillwater correct` needs no cells"
     }
 
     private fun gap(): String? {
@@ -116,16 +139,28 @@ internal class MapWarnings(private val map: SurveyMap) {
         }
         val bothSides = counts.both + counts.crossed
         if (bothSides < FEW_BOUNDED * counts.visited) {
-            val reason = if (counts.none > counts.oneSided) {
-                "few slopes in a cell exceed epsilon"
-            } else {
-                "few were crossed both ways"
-            }
             add(
                 "the bounded filter has bounds from both sides in $bothSides of ${counts.visited} visited cells " +
-                    "only, because $reason; elsewhere it has none, or one, and then its value leans on the range " +
-                    "taken for the water",
+                    "only, because ${few(counts)}; elsewhere it has none, or one, and then its value leans on the " +
+                    "range taken for the water",
             )
+        }
+    }
+
+    /** Why few cells have both bounds. */
+    private fun few(counts: BoundCounts): String {
+        val settings = checkNotNull(map.bounded)
+        val field = map.maps.getValue(FilterKind.BOUNDED)
+        val needed = settings.medianWindow + settings.slopeWindow - 1
+        val short = field.visitedCells().count { field.readings(it) < needed.toLong() * field.visits(it) }
+        return when {
+            2 * short > counts.visited ->
+                "the boat takes fewer than the $needed readings there that a slope needs, on average of its passes " +
+                    "(a " +
+                    "larger --cell, or smaller windows)"
+            counts.none > counts.oneSided && settings.epsilon == 0.0 -> "readings hardly change within cells"
+            counts.none > counts.oneSided -> "few slopes in a cell exceed epsilon"
+            else -> "few were crossed both ways"
         }
     }
 

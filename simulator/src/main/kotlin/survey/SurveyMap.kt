@@ -8,10 +8,8 @@ import kotlinx.coroutines.channels.trySendBlocking
 import kotlinx.coroutines.coroutineScope
 import kotlinx.coroutines.launch
 import kotlinx.coroutines.runBlocking
-import stillwater.estimate.BayesianMap
 import stillwater.estimate.BoundedFilterSettings
 import stillwater.estimate.EpsilonCalibration
-import stillwater.estimate.FieldEstimator
 import stillwater.estimate.SelfCalibratingEstimator
 import stillwater.field.FieldMap
 import stillwater.io.FixReach
@@ -20,7 +18,6 @@ import stillwater.io.LogProblem
 import stillwater.io.ReadingSink
 import stillwater.io.SquareReach
 import stillwater.io.SurveyLog
-import stillwater.model.Conditions
 import stillwater.model.Grid
 import stillwater.model.Interval
 import stillwater.run.FilterKind
@@ -63,9 +60,7 @@ data class MapSettings(
  * @property track its track, thinned. @property grid the grid. @property prior range of the field taken.
  * @property calibration how epsilon was found, or null where it was given or nobody needed it.
  * @property bounded settings of the bounded filter, or null where it did not run.
- * @property maps the filters' maps, in the order asked for.
  * @property gaps silences longer than five median steps. @property passes passes through the same cells compared.
- * @property learned the estimator that learned the time constant, or null where it did not run.
  * @property legs the straight legs. @property mismatch their comparison, or null where there is too little.
  * @property outsideRange readings outside [prior].
  * @property stepSlope slope that one step of the resolution makes in the slope window, sensor units/s; 0 without one.
@@ -81,7 +76,7 @@ class SurveyMap internal constructor(
     val prior: Interval,
     val calibration: Calibration?,
     val bounded: BoundedFilterSettings?,
-    val maps: Map<FilterKind, FieldMap>,
+    private val filters: MapFilters,
     val gaps: Gaps,
     val passes: CellPasses,
     val legs: Legs,
@@ -89,9 +84,23 @@ class SurveyMap internal constructor(
     val outsideRange: Long,
     val stepSlope: Double,
     val settings: MapSettings,
-    val learned: SelfCalibratingEstimator?,
     val interval: IntervalAssumption?,
 ) {
+    /** The filters' maps, in the order asked for. */
+    val maps: Map<FilterKind, FieldMap> = filters.maps
+
+    /** The estimator that learned the time constant, or null where it did not run. */
+    val learned: SelfCalibratingEstimator? get() = filters.learned
+
+    /** How well the corrected readings of each cell are known; null where the readings themselves are mapped. */
+    val corrected: CorrectedCells? get() = filters.corrected
+
+    /**
+     * Whether the readings bear out that the water changes at the cells' borders and not within them, which bounds take for
+     * granted; true where nobody takes that for granted, or it cannot be told.
+     */
+    val areCellsEven: Boolean by lazy { filters.areCellsEven }
+
     /** Whether the user gave [prior]. */
     val rangeGiven: Boolean get() = settings.prior != null
 
@@ -100,6 +109,21 @@ class SurveyMap internal constructor(
 
     /** Unit of the quantity as the user gave it, or null. */
     val unit: String? get() = settings.unit
+
+    /**
+     * What the filter [kind] says that the water of [cell] lies between; null where it says nothing. Crossed bounds have the
+     * lower one above.
+     */
+    fun bounds(kind: FilterKind, cell: Int): CellBounds? {
+        val field = maps.getValue(kind)
+        val status = field.status(kind, cell)
+        return when {
+            !status.isMeasured -> null
+            status != CellStatus.MEASURED -> CellBounds(field.lower(cell), field.upper(cell))
+            kind == FilterKind.AVERAGING -> corrected?.let { CellBounds(it.lower(cell), it.upper(cell)) }
+            else -> null
+        }
+    }
 
     /** What was mapped in place of the readings, or null. */
     val correction: GivenCorrection? get() = settings.correction
@@ -147,15 +171,14 @@ class SurveyMap internal constructor(
             val forBounded = bounded ?: BoundedFilterSettings(epsilon = 0.0)
             val interval = interval(settings, statistics)
             val lag = settings.lagFilters.copy(interval = interval.settings)
-            val estimators = settings.filters.associateWith { it.estimator(grid, prior, forBounded, lag) }
-            val running = estimators.values.toTypedArray()
+            val filters = MapFilters(settings, grid, prior, forBounded, lag, statistics)
             val passes = CellPasses(grid)
             val gaps = Gaps(statistics.gapLimit)
             var outsideRange = 0L
             val takeIn = ReadingSink { time, x, y, value, _ ->
-                for (estimator in running) estimator.update(time, x, y, value, Conditions.NONE)
-                passes.add(x, y, value)
                 gaps.add(time.seconds, x, y)
+                if (!filters.take(time, x, y, value)) return@ReadingSink
+                passes.add(x, y, value)
                 if (value !in prior.lower..prior.upper) outsideRange++
             }
             val kept = look.kept
@@ -171,7 +194,7 @@ class SurveyMap internal constructor(
                 prior,
                 calibration,
                 bounded,
-                estimators.mapValues { it.value.map },
+                filters,
                 gaps,
                 passes,
                 legs,
@@ -179,7 +202,6 @@ class SurveyMap internal constructor(
                 outsideRange,
                 stepSlope,
                 settings,
-                estimators.values.firstNotNullOfOrNull(::learner),
                 interval.takeIf { FilterKind.INTERVAL in settings.filters },
             )
         }
@@ -253,20 +275,3 @@ class SurveyMap internal constructor(
         }
     }
 }
-
-/**
- * Readings as [sensor], a sensor that was given, must have seen the water; [values] in the order of the log's rows.
- * [cautions] say which of them are less certain than the others, one sentence each.
- */
-class GivenCorrection(
-    val sensor: String,
-    private val values: DoubleArray,
-    val cautions: List<String> = emptyList(),
-) {
-    /** The water at reading [row]. */
-    internal fun at(row: Int): Double = values[row]
-}
-
-/** The estimator that learns of the sensor, in [estimator] or itself. */
-private fun learner(estimator: FieldEstimator): SelfCalibratingEstimator? =
-    estimator as? SelfCalibratingEstimator ?: (estimator as? BayesianMap)?.cells as? SelfCalibratingEstimator

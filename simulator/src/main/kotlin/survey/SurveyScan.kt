@@ -14,6 +14,7 @@ class SurveyScan : ReadingSink {
     private val points = ThinnedSamples(width = 4)
     private val steps = ThinnedSamples(width = 1)
     private val speeds = ThinnedSamples(width = 1)
+    private val bends = FixBends()
     private var readings = 0L
     private var first = Double.NaN
     private var last = Double.NaN
@@ -44,6 +45,7 @@ class SurveyScan : ReadingSink {
         } else {
             step(seconds, x, y, value)
         }
+        bends.take(x, y)
         readings++
         last = seconds
         lastX = x
@@ -109,6 +111,7 @@ class SurveyScan : ReadingSink {
             speeds = Quantiles(speeds.column(0)),
             distance = distance + sinceAnchor(),
             repeatedFixes = repeatedFixes / (readings - 1.0),
+            fixScatter = bends.scatter(),
             repeatedValues = repeatedValues / (readings - 1.0),
             west = west,
             east = east,

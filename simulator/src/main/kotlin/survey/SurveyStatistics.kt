@@ -20,6 +20,8 @@ data class Stretch(val from: Double, val to: Double)
  * @property speeds quantiles of the speed over ground, taken over stretches of 5 s or one step, m/s.
  * @property distance length of the track, from fixes at least 5 s or one step apart, m.
  * @property repeatedFixes share of readings at exactly the position of the one before, 0 to 1.
+ * @property fixScatter how far a fix is off along either axis, as those beside it tell: standard deviation, m; what they share
+ *   is not in it. 0 where there are too few.
  * @property repeatedValues share of readings with exactly the value of the one before, 0 to 1.
  * @property west smallest x, m. @property east largest x, m. @property south smallest y, m. @property north largest y, m.
  * @property lowest smallest value, sensor units. @property highest largest value, sensor units.
@@ -35,6 +37,7 @@ class SurveyStatistics internal constructor(
     val speeds: Quantiles,
     val distance: Double,
     val repeatedFixes: Double,
+    val fixScatter: Double,
     val repeatedValues: Double,
     val west: Double,
     val east: Double,

@@ -23,7 +23,7 @@ class JumpWarningTest {
     private fun run(command: String, log: String, vararg more: String): CliktCommandTestResult {
         val file = directory.resolve("log").also { it.writeText(log) }
         return Stillwater().subcommands(MapCommand(), CorrectCommand(), DiagnoseCommand())
-            .test(listOf(command, "$file", "--out", "${directory.out()}") + more)
+            .test(listOf(command, "$file", "--out", "${directory.out().resolve(command)}") + more)
     }
 
     /** Legs of 40 m to and fro, a second a metre, with [place] in the place of that of some rows. */

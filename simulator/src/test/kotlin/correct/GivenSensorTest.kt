@@ -14,6 +14,7 @@ import stillwater.sensor.SensorStage
 import java.nio.file.Path
 import kotlin.io.path.exists
 import kotlin.io.path.readLines
+import kotlin.io.path.readText
 import kotlin.io.path.writeText
 import kotlin.math.PI
 import kotlin.math.abs
@@ -32,7 +33,8 @@ class GivenSensorTest {
     private val out: Path get() = directory.resolve("results")
 
     private fun run(vararg arguments: String): CliktCommandTestResult =
-        Stillwater().subcommands(CorrectCommand(), MapCommand()).test(arguments.toList() + listOf("--out", "$out"))
+        Stillwater().subcommands(CorrectCommand(), MapCommand())
+            .test(arguments.toList() + listOf("--out", "${out.resolve(arguments[0])}"))
 
     private fun file(name: String, text: String) = directory.resolve(name).also { it.writeText(text) }.toString()
 
@@ -57,7 +59,7 @@ class GivenSensorTest {
     }
 
     private fun rows(name: String): List<Map<String, Double>> {
-        val lines = out.resolve(name).readLines()
+        val lines = out.resolve(if (name == "cells.csv") "map" else "correct").resolve(name).readLines()
         val names = lines.first().split(',')
         return lines.drop(1).map { line ->
             names.zip(line.split(',')).associate { (key, cell) -> key to (cell.toDoubleOrNull() ?: Double.NaN) }
@@ -275,5 +277,44 @@ class GivenSensorTest {
         val corrected = mapped("--sensor", spec(stage))
         assertTrue(corrected < 0.5 * measured, "$measured to $corrected")
         assertEquals(2, run("map", log, "--value", "do_mg_l", "--sensor", "none.json").statusCode)
+    }
+
+    @Test
+    fun aCorrectedMapSaysSoAndHowWellTheWaterIsKnown() {
+        val stage = SensorStage.Lag(8.0)
+        val log = file("log.csv", survey(stage))
+        val result = run("map", log, "--value", "do_mg_l", "--cell", "10", "--sensor", spec(stage))
+        assertEquals(0, result.statusCode, result.output)
+        assertContains(result.stdout, "test (first-order-lag: time constant in s 8)")
+        assertEquals(
+            setOf("averaging"),
+            out.resolve("map/cells.csv").readLines().drop(1).map {
+                it.split(',')[0]
+            }.toSet(),
+        )
+        val cells = rows("cells.csv").filter { it.getValue("visits") > 0 }
+        for (cell in cells) {
+            assertTrue(cell.getValue("lower") <= cell.getValue("value"), "$cell")
+            assertTrue(cell.getValue("upper") >= cell.getValue("value"), "$cell")
+        }
+        assertContains(out.resolve("map/estimate-averaging.svg").readText(), "log.csv, corrected for test")
+        assertTrue(out.resolve("map/bounds-width-averaging.svg").exists())
+        val lag = run("map", log, "--value", "do_mg_l", "--filter", "bounded,averaging", "--sensor", spec(stage))
+        assertContains(lag.stderr, "bounded reckons with a lag that --sensor has undone already")
+    }
+
+    @Test
+    fun aSensorThatCannotBeThisLogsIsRefusedOrTold() {
+        val log = file("log.csv", survey(SensorStage.Lag(4.0)))
+        fun told(stage: SensorStage) = run("map", log, "--value", "do_mg_l", "--sensor", spec(stage))
+        val far = told(SensorStage.Delay(600.0))
+        assertEquals(2, far.statusCode)
+        assertContains(far.stderr, "found a dead time of 600 s in a log of 599 s")
+        assertContains(told(SensorStage.Lag(1e6)).stderr, "is longer than the log (599 s")
+        assertContains(told(SensorStage.Lag(60.0)).stderr, "the sensor given is not this one's")
+        val late = told(SensorStage.Delay(25.5))
+        assertContains(late.stdout, Regex("last readings +26 left out"))
+        // 26 of 600 rows, a second apart, come within 25.5 s of the end, that at the end itself among them.
+        assertEquals(574.0, rows("cells.csv").sumOf { it.getValue("readings") })
     }
 }

@@ -23,6 +23,33 @@ class FarFixesTest {
         assertContains(fixes.note.orEmpty(), "line 4: a single fix 189 km off")
     }
 
+    /** The commonest wild fix of all is a receiver's first. */
+    @Test
+    fun wildFixesAtTheEndsAreLeftOutAndNamed() {
+        val way = List(12) { it.toDouble() }
+        take(listOf(80_000.0, 80_001.0) + way + listOf(-7_000.0))
+        assertEquals((4L..15L).toList(), used)
+        assertEquals(3, fixes.count)
+        assertContains(
+            fixes.note.orEmpty(),
+            "line 2: 2 fixes 80 km off the rows after, the first of 3 such rows: left out",
+        )
+    }
+
+    @Test
+    fun threeInARowAreLeftOutAndFourAreAPlace() {
+        val way = List(12) { it.toDouble() }
+        take(way + List(3) { 40_000.0 + it } + way)
+        assertEquals(24, used.size)
+        used.clear()
+        val other = FarFixes { used += it.line }
+        (way + List(4) { 40_000.0 + it } + way).forEachIndexed { i, x ->
+            other.take(TimedRow(i + 2L, i.toDouble(), x, 0.0, 8.0, Conditions.NONE))
+        }
+        other.end()
+        assertEquals((2L..29L).toList(), used)
+    }
+
     /** A log that goes on elsewhere, a boat on a trailer, a receiver that is off by some metres. */
     @Test
     fun whatDoesNotComeBackOrIsNearStays() {

@@ -222,4 +222,28 @@ class OutputDirectoryTest {
         assertEquals(listOf("new.svg", "other.txt"), out.listDirectoryEntries().map { it.name }.sorted())
         assertEquals("now", out.resolve("new.svg").readText())
     }
+
+    @Test
+    fun whatIsNotOfAnEarlierRunOfTheCommandStays() {
+        val out = home.resolve("out").createDirectories()
+        fun write(name: String, command: String) =
+            OutputDirectory(out, earlier = EarlierResults(command)).use {
+                it.write(name, "new")
+                it.write("report.html", "<p>Command: <code>stillwater $command log.csv</code></p>")
+                it.commit()
+            }
+        val own = out.resolve("cells.csv").also { it.writeText("mine") }
+        assertContains(
+            assertFailsWith<OutputException> {
+                write("cells.csv", "map")
+            }.message.orEmpty(),
+            "cells.csv is not of",
+        )
+        assertEquals("mine", own.readText())
+        write("other.csv", "map")
+        write("cells.csv", "map")
+        val refused = assertFailsWith<OutputException> { write("corrected.csv", "correct") }.message.orEmpty()
+        assertContains(refused, "report.html is not of an earlier stillwater correct")
+        assertContains(out.resolve("report.html").readText(), "stillwater map")
+    }
 }

@@ -1,0 +1,68 @@
+package stillwater.survey
+
+import stillwater.estimate.BayesianMap
+import stillwater.estimate.BoundedFilterSettings
+import stillwater.estimate.FieldEstimator
+import stillwater.estimate.SelfCalibratingEstimator
+import stillwater.field.FieldMap
+import stillwater.model.BoatTime
+import stillwater.model.Conditions
+import stillwater.model.Grid
+import stillwater.model.Interval
+import stillwater.run.FilterKind
+import stillwater.run.LagFilterSettings
+
+/**
+ * The filters of a [SurveyMap], which take all readings in turn, and what is asked of these beside.
+ *
+ * Confined to one thread.
+ *
+ * @param bounded settings of the bounded filter. @param lag those of the filters that reckon with a lag.
+ * @param statistics what the readings look like.
+ */
+internal class MapFilters(
+    settings: MapSettings,
+    grid: Grid,
+    prior: Interval,
+    bounded: BoundedFilterSettings,
+    lag: LagFilterSettings,
+    statistics: SurveyStatistics,
+) {
+    private val estimators = settings.filters.associateWith { it.estimator(grid, prior, bounded, lag) }
+
+    /** The estimator that learns of the sensor; null where none was asked for. */
+    val learned: SelfCalibratingEstimator? = estimators.values.firstNotNullOfOrNull(::learner)
+
+    /** What tells whether cells are even, where a filter takes that for granted. */
+    private val judge = learned ?: SelfCalibratingEstimator(grid, prior, lag.selfCalibrating)
+        .takeIf { settings.filters.any { it.needsEvenCells } && statistics.readings <= MOST_JUDGED }
+    private val running = (estimators.values + listOfNotNull(judge.takeIf { it !== learned })).toTypedArray()
+
+    /** How well corrected readings are known; null where the readings themselves are mapped. */
+    val corrected = settings.correction?.let { CorrectedCells(grid, it) }
+
+    /** Without it the time over a border would be taken as spent in the second cell, where it was spent in both. */
+    private val places = Conditions(mapOf(Conditions.POSITION_DEVIATION to statistics.fixScatter))
+
+    /** The filters' maps, in the order asked for. */
+    val maps: Map<FilterKind, FieldMap> get() = estimators.mapValues { it.value.map }
+
+    /** Whether cells are even as far as can be told; true where nobody asked. */
+    val areCellsEven: Boolean get() = judge?.sensor()?.areCellsEven != false
+
+    /** Takes the log's next reading; false where the log says nothing of the water there and then. */
+    fun take(time: BoatTime, x: Double, y: Double, value: Double): Boolean {
+        if (corrected?.take(x, y) == false) return false
+        for (estimator in running) estimator.update(time, x, y, value, places)
+        return true
+    }
+
+    private companion object {
+        /** Readings at most that are asked beside what was asked for: a fraction of a second. */
+        const val MOST_JUDGED = 50_000
+
+        /** The estimator that learns of the sensor, in [estimator] or itself. */
+        fun learner(estimator: FieldEstimator): SelfCalibratingEstimator? =
+            estimator as? SelfCalibratingEstimator ?: (estimator as? BayesianMap)?.cells as? SelfCalibratingEstimator
+    }
+}
