@@ -138,10 +138,10 @@ internal class BlindAnswer(
     /**
      * Whether water that changes in time, worth [changed] beside those [chosen], is named. Beside rounding nothing else can
      * be looked for. Alone it is said and not named: fixes that jitter make passes disagree as well, and real water is
-     * never quite still.
+     * never quite still. Nor is it named where what fixes are off by shows in the readings.
      */
-    private fun isNamedChange(changed: Double, chosen: List<BlindStep>): Boolean =
-        changed > NAMED_CHANGE && chosen.isNotEmpty() && chosen.none { it.trial.term?.cause == Cause.QUANTISATION }
+    private fun isNamedChange(changed: Double, chosen: List<BlindStep>): Boolean = changed > NAMED_CHANGE &&
+        chosen.isNotEmpty() && chosen.none { it.trial.term?.cause == Cause.QUANTISATION } && !search.fixes.isWide(last)
 
     /**
      * Where [left] is the [strongest] of what is left at the [end], which [isOthers] if a lag that may be of either kind is
