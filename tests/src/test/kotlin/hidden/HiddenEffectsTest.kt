@@ -79,6 +79,17 @@ class HiddenEffectsTest {
         assertTrue(cases.all { it.isEmpty && !it.alarmed }, Scores(cases).markdown())
     }
 
+    /** Seeds of the work on it: fixes that wander, which make passes disagree as water that changes does. */
+    @Test
+    @Tag("long")
+    fun fixesThatWanderAreNoChangingWaterBesideACause() {
+        val seeds = listOf(331_516L, 331_627L, 331_656L)
+        val cases = HiddenCampaign.run(seeds, Regime.BLIND_FIELD, directory, withGain = false)
+        val hidden = listOf(HiddenEffect.HYSTERESIS, HiddenEffect.SECOND_ORDER, HiddenEffect.SLEW)
+        assertEquals(hidden, cases.map { it.truth.effects.keys.single() })
+        assertTrue(cases.all { it.correct }, Scores(cases).markdown())
+    }
+
     /**
      * Seeds of the work on it: a jump and water that changes, each held against the other on a base of its own; and two
      * lags that no step led to while a fit did not know how tightly the water is bound.
