@@ -112,7 +112,7 @@ class CorrectCommand : WorkCommand("correct") {
         OutputDirectory(
             Path.of(out),
             listOfNotNull(file, sensor?.let(Path::of)),
-            EarlierResults(commandName),
+            EarlierResults(commandName, mark = "corrected.csv" to "corrected_low"),
         ).use { directory ->
             val places = CorrectFiles.places(logs.map { it.quantity })
             val files = CorrectOutput(

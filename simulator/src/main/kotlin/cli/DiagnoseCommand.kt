@@ -97,7 +97,7 @@ class DiagnoseCommand : WorkCommand("diagnose") {
             throw BadFlag("--reference", "another column than the readings'", "'$reference'")
         }
         requireNoMission(Path.of(out))
-        val earlier = EarlierResults(commandName, mark = "diagnosis.json")
+        val earlier = EarlierResults(commandName, mark = "diagnosis.json" to "verdict")
         OutputDirectory(Path.of(out), listOfNotNull(log, sensor).map { Path.of(it) }, earlier).use { directory ->
             val own = RowsOfTheirOwn.of(opened, choice, DiagnosisLog.REFERENCE)
             val read = DiagnosisLog.of(own, conditions.toMap(), reference, compare.distinct())

@@ -18,6 +18,7 @@ import stillwater.replay.OwnLogReplay
 import stillwater.replay.PlatypusReplay
 import stillwater.replay.ReplayFiles
 import stillwater.replay.Replayed
+import stillwater.report.EarlierResults
 import stillwater.report.OutputDirectory
 import java.nio.file.Path
 
@@ -70,8 +71,9 @@ class ReplayCommand : WorkCommand("replay") {
         if (value != null && (isOwn || spec != null)) {
             throw BadFlag("--value", "it with a Platypus log and without --mission, whose probe counts", "'$value'")
         }
-        requireNoOtherMission(Path.of(out), "replay.json")
-        OutputDirectory(Path.of(out), listOfNotNull(log, mission).map { Path.of(it) }).use { directory ->
+        requireNoOtherMission(Path.of(out), MARK)
+        val earlier = EarlierResults(commandName, mark = MARK to "steps_with_motors_running")
+        OutputDirectory(Path.of(out), listOfNotNull(log, mission).map { Path.of(it) }, earlier).use { directory ->
             LineSpool().use { own ->
                 val replayed = if (isOwn) {
                     OwnLogReplay(content, spec, own).run()
@@ -98,6 +100,9 @@ class ReplayCommand : WorkCommand("replay") {
     }
 
     private companion object {
+        /** File of results that no other command writes. */
+        const val MARK = "replay.json"
+
         /** In the first line of a mission's own log. */
         const val SPEC = "\"spec\":{"
     }

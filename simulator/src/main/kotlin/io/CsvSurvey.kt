@@ -37,7 +37,7 @@ internal class CsvSurvey internal constructor(
     override val hasPlaces = columns.latitude != CsvColumns.NONE || columns.x != CsvColumns.NONE
     override val oneDimensional = columns.x != CsvColumns.NONE && columns.y == CsvColumns.NONE
     override val xName: String = if (columns.x == CsvColumns.NONE) "x_m" else columns.names[columns.x]
-    override var frame: LocalFrame? = null
+    override var frame: LocalFrame? = HeadPlaces.afterWildOnes(layout, columns)
         private set
 
     // Sea-Bird's programs mark scans there, as one in which the instrument was drawn back through its own wake.

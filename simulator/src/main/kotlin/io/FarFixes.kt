@@ -4,8 +4,8 @@ import kotlin.math.hypot
 
 /**
  * Leaves out fixes far off, farther than any boat goes between rows: such from which the log is back where it was after
- * [MOST] rows at the most, and as few at its beginning or end beside [SETTLED] others. One wild fix would set the size of the
- * whole map. A log that goes on elsewhere stays as it is.
+ * [MOST] rows at the most, and as few at its beginning or end beside [SETTLED] others. One wild fix would set the size of
+ * the whole map. A log that goes on elsewhere stays as it is.
  *
  * @param use takes the other rows, in the order in which they come, each once it is known that it stays.
  */
@@ -35,20 +35,37 @@ internal class FarFixes(private val use: (TimedRow) -> Unit) {
         val last = before
         if (pending.isEmpty()) {
             if (last == null || !isFar(last, row)) accept(row) else pending += row
-            return
-        }
-        if (!isFar(pending.last(), row)) {
-            pending += row
-            val isStartWild = start != null && pending.size >= SETTLED
-            if (isStartWild) leaveOutStart()
-            if (isStartWild || (start == null && pending.size > MOST)) release()
-        } else if (pending.size <= MOST && apart(checkNotNull(last), row) < apart(last, pending[0]) / BACK) {
+        } else if (isFar(pending.last(), row) && isBack(checkNotNull(last), row)) {
             leaveOut(pending, last, if (pending.size == 1) "the rows before and after it" else "the rows beside them")
             pending.clear()
             accept(row)
         } else {
-            release()
             pending += row
+            if (start != null) {
+                decideStart()
+            } else if (pending.size > MOST) {
+                release()
+            }
+        }
+    }
+
+    /** Whether [row] is where the log was before what is pending, of which there is no more than was there. */
+    private fun isBack(last: TimedRow, row: TimedRow) =
+        pending.size <= minOf(MOST, settled) && apart(last, row) < apart(last, pending[0]) / BACK
+
+    /** Once enough rows are near each other: whether those before them are wild. */
+    private fun decideStart() {
+        val jump = (1 until pending.size).lastOrNull { isFar(pending[it - 1], pending[it]) } ?: 0
+        if (pending.size - jump >= SETTLED) {
+            val wild = checkNotNull(start) + pending.take(jump)
+            if (wild.size <= MOST) {
+                leaveOut(wild, pending[jump], "the rows after")
+                start = null
+                pending.subList(0, jump).clear()
+            }
+            release()
+        } else if (pending.size > MOST + SETTLED) {
+            release()
         }
     }
 
@@ -89,11 +106,6 @@ internal class FarFixes(private val use: (TimedRow) -> Unit) {
         start = null
     }
 
-    private fun leaveOutStart() {
-        start?.let { leaveOut(it, pending[0], "the rows after") }
-        start = null
-    }
-
     private fun leaveOut(rows: List<TimedRow>, near: TimedRow, beside: String) {
         count += rows.size
         if (first != null) return
@@ -108,13 +120,15 @@ internal class FarFixes(private val use: (TimedRow) -> Unit) {
     private fun isFar(one: TimedRow, other: TimedRow) =
         apart(one, other).let { it > FAR_METRES && it > FAR_SPEED * (other.seconds - one.seconds) }
 
-    private companion object {
-        const val KILOMETRE = 1000.0
+    companion object {
+        private const val KILOMETRE = 1000.0
+
+        /** Metres from row to row from which on a fix may be wild. */
         const val FAR_METRES = 1000.0
 
         /** Metres per second: no boat. */
-        const val FAR_SPEED = 100.0
-        const val BACK = 10
+        private const val FAR_SPEED = 100.0
+        private const val BACK = 10
 
         /** Rows in a row that may be wild. */
         const val MOST = 3

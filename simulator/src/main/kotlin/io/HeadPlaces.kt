@@ -1,5 +1,7 @@
 package stillwater.io
 
+import stillwater.model.LatLon
+import stillwater.model.LocalFrame
 import kotlin.math.cos
 import kotlin.math.hypot
 
@@ -24,7 +26,33 @@ internal class HeadPlaces private constructor(
         return if (inDegrees) METRES_A_DEGREE * hypot(up, right * cos(Math.toRadians(north[a]))) else hypot(up, right)
     }
 
+    /**
+     * The first row with a place that is near those after it, where up to [FarFixes.MOST] rows before it are far from it: a
+     * receiver's first fixes may be wild. Null where none is.
+     */
+    private fun afterWildOnes(): Int? {
+        val rows = north.indices.filter(::isPlace).take(FarFixes.MOST + FarFixes.SETTLED)
+        val jump = (1..FarFixes.MOST).lastOrNull {
+            it < rows.size &&
+                metres(rows[it - 1], rows[it]) > FarFixes.FAR_METRES
+        }
+        val near = rows.drop(jump ?: return null).take(FarFixes.SETTLED)
+        val isSettled =
+            near.size == FarFixes.SETTLED && near.zipWithNext().all { (a, b) -> metres(a, b) < FarFixes.FAR_METRES }
+        return near.firstOrNull()?.takeIf { isSettled }
+    }
+
     companion object {
+        /** Where the places in the head of a log in degrees begin after wild ones; null where the first one is none. */
+        fun afterWildOnes(layout: CsvLayout, columns: CsvColumns): LocalFrame? {
+            val places = of(columns, layout::numbers)?.takeIf { it.inDegrees } ?: return null
+            val row = places.afterWildOnes() ?: return null
+            val latitude = places.north[row]
+            val longitude = places.east[row]
+            val isOnGlobe = latitude in LatLon.LATITUDES_DEG && longitude in LatLon.LONGITUDES_DEG
+            return if (isOnGlobe && LocalFrame.canStartAt(latitude)) LocalFrame(LatLon(latitude, longitude)) else null
+        }
+
         private const val METRES_A_DEGREE = 111_195.0
 
         /** The places of rows whose [numbers] of a column these are; null where [columns] hold none both ways. */

@@ -47,7 +47,9 @@ public class OutputDirectory(
     private val removal = Thread({ discard() }, "remove unfinished output")
     private val lock = Any()
     private var isOpen = true
-    private val isOwn = earlier == null || earlier.areIn(target)
+
+    /** Whether what is in a directory is of an earlier run. */
+    private val own = HashMap<Path, Boolean>()
 
     init {
         if (target.exists() && !target.isDirectory()) {
@@ -102,11 +104,11 @@ public class OutputDirectory(
     }
 
     private fun requireOwn(name: String) {
-        if (isOwn || !target.resolve(name).exists()) return
+        val file = target.resolve(name)
+        if (earlier == null || !file.exists() || own.getOrPut(file.parent) { earlier.areIn(file.parent) }) return
+        val place = directory.resolve(name)
         throw OutputException(
-            "output ${directory.resolve(
-                name,
-            )} is not of an earlier stillwater ${earlier?.command}; name another directory",
+            "output $place is not of an earlier stillwater ${earlier.command}; name another directory",
         )
     }
 

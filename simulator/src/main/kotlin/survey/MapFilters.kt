@@ -42,7 +42,7 @@ internal class MapFilters(
     val corrected = settings.correction?.let { CorrectedCells(grid, it) }
 
     /** Without it the time over a border would be taken as spent in the second cell, where it was spent in both. */
-    private val places = Conditions(mapOf(Conditions.POSITION_DEVIATION to statistics.fixScatter))
+    private val places = Conditions(mapOf(Conditions.POSITION_DEVIATION to statistics.placeDeviation))
 
     /** The filters' maps, in the order asked for. */
     val maps: Map<FilterKind, FieldMap> get() = estimators.mapValues { it.value.map }

@@ -134,6 +134,7 @@ object MapJson {
         put("longest_step_s", statistics.longestStep)
         put("repeated_fixes_share", statistics.repeatedFixes)
         put("fix_scatter_m", statistics.fixScatter)
+        put("place_deviation_m", statistics.placeDeviation)
         put("repeated_values_share", statistics.repeatedValues)
         quantiles("speed_mps", statistics.speeds)
         put("way_m", statistics.distance)

@@ -171,7 +171,7 @@ internal class MapReport(
             "says so " +
             "where that is not borne out. The time over a border counts for neither cell, nor do readings nearer to " +
             "one " +
-            "than fixes scatter (${digits(map.statistics.fixScatter, 2)} ${wording.length})."
+            "than places are known (${digits(map.statistics.placeDeviation, 2)} ${wording.length})."
 
     private fun direction(leg: Leg): String {
         if (map.log.oneDimensional) return if (leg.forward) "rising" else "falling"

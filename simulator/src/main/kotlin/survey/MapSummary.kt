@@ -23,7 +23,10 @@ class MapSummary(private val map: SurveyMap) {
         add("log" to "${map.log.file.fileName} (${map.log.format})")
         add("readings" to "${map.pass.readings} of $quantity")
         map.correction?.let {
-            add(CORRECTED to "${it.sensor.name} (${it.words}); maps and figures show the water")
+            add(
+                CORRECTED to
+                    "${it.sensor.name} (${it.words}); maps and figures show the water, and intervals are those of a sensor known exactly",
+            )
             if (it.untold > 0) {
                 add(
                     "last readings" to

@@ -16,7 +16,7 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     /** The sentences, most important first. */
     fun list(): List<String> = map.pass.warnings + map.correction?.cautions.orEmpty() +
-        listOfNotNull(gap(), outliers(), outsideRange(), skipped(), standing()) +
+        listOfNotNull(untold(), gap(), outliers(), outsideRange(), skipped(), standing()) +
         (if (map.correction == null) ofFilters() else listOfNotNull(twice())) +
         listOfNotNull("the log has no latitudes, so no cells.geojson is written".takeIf { map.log.frame == null })
 
@@ -24,7 +24,9 @@ internal class MapWarnings(private val map: SurveyMap) {
         val belief = map.learned?.sensor() ?: return null
         val why = when {
             !belief.areCellsEven -> "nothing shows that the water changes at the cells' borders and not within cells"
-            !belief.isWaterSteady -> "the water of cells changed between one visit and another"
+            !belief.isWaterSteady ->
+                "the water of cells changed between one visit and another, or fixes are off or late"
+            !belief.isExplained -> "no sensor that is known explains the readings in these cells"
             else -> return null
         }
         val filter = if (FilterKind.SELF_CALIBRATING in map.maps) "self-calibrating" else "bayesian"
@@ -32,8 +34,9 @@ internal class MapWarnings(private val map: SurveyMap) {
             "readings; `stillwater correct` needs no cells and writes a sensor.json, which `map --sensor` undoes"
     }
 
-    private fun ofFilters(): List<String> = listOfNotNull(unevenCells(), unevenBounds()) + epsilon() + bounds() +
-        listOfNotNull(map.interval?.warning(wording::value))
+    private fun ofFilters(): List<String> =
+        listOfNotNull(unevenCells(), slow(), unevenBounds()) + epsilon() + bounds() +
+            listOfNotNull(map.interval?.warning(wording::value))
 
     /** Filters that undo a lag, of readings of which it is undone already. */
     private fun twice(): String? {
@@ -45,6 +48,17 @@ internal class MapWarnings(private val map: SurveyMap) {
             "values are not the water's; averaging is for corrected readings"
     }
 
+    /** A lag so long that readings, and the range that is taken by these, fall far short of the water's. */
+    private fun slow(): String? {
+        val learned = map.learned?.takeIf { it.isExplained && !map.rangeGiven } ?: return null
+        val field = map.maps.entries.first { (kind, _) -> kind in LEARNING }.value
+        val stay = statistics.duration / maxOf(field.visitedCells().sumOf { field.visits(it) }, 1)
+        if (learned.timeConstant < stay) return null
+        return "the time constant found (${digits(learned.timeConstant)} s) is longer than a stay in a cell " +
+            "(${digits(stay)} s), so that readings fall far short of the water's extremes, and so may the range to " +
+            "which values and bounds are cut: give --range, or a larger --cell"
+    }
+
     /** Bounds that take the water of a cell for the same all over, where nothing shows that it is. */
     private fun unevenBounds(): String? {
         if (map.areCellsEven) return null
@@ -53,6 +67,12 @@ internal class MapWarnings(private val map: SurveyMap) {
         return "nothing shows that the water changes at the cells' borders and not within cells, which " +
             "${filters.joinToString(" and ")} $take for granted: $their bounds may miss the water of a cell; " +
             "`stillwater correct` needs no cells"
+    }
+
+    private fun untold(): String? {
+        val untold = map.correction?.untold?.takeIf { it > MANY_UNTOLD * map.pass.readings } ?: return null
+        return "$untold of ${map.pass.readings} readings are left out, for their dead time ends after the log: " +
+            "is the sensor given this log's?"
     }
 
     private fun gap(): String? {
@@ -72,9 +92,10 @@ internal class MapWarnings(private val map: SurveyMap) {
         // A code such as 9999 may be in more rows than one in a hundred; water is that far off in few.
         val (rare, _) = OUTLYING.firstOrNull { (rare, times) -> usual(rare) > 0 && whole > times * usual(rare) }
             ?: return null
+        val isBounded = FilterKind.BOUNDED in map.maps
         val remedies = listOfNotNull(
             "are in the means of their cells".takeIf { FilterKind.AVERAGING in map.maps },
-            "set the range of the bounded filter; give --range".takeUnless { map.rangeGiven },
+            "set the range of the bounded filter; give --range".takeIf { isBounded && !map.rangeGiven },
         )
         val remedy = if (remedies.isEmpty()) "" else remedies.joinToString(" and ", ": those beyond ")
         return "values reach from ${digits(statistics.lowest)} to ${digits(statistics.highest)} but " +
@@ -165,6 +186,7 @@ internal class MapWarnings(private val map: SurveyMap) {
     }
 
     private companion object {
+        val LEARNING = setOf(FilterKind.SELF_CALIBRATING, FilterKind.BAYESIAN)
         val HARMLESS =
             setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines", "lines of units")
         const val LONG_GAP = 60.0
@@ -172,6 +194,7 @@ internal class MapWarnings(private val map: SurveyMap) {
 
         /** Shares of readings, either way, and how many times as far as the others all together lie these are far off. */
         val OUTLYING = listOf(0.01 to 3, 0.05 to 10)
+        const val MANY_UNTOLD = 0.1
         const val MANY_SKIPPED = 0.01
         const val FEW_SLOPES = 20
         const val FEW_BOUNDED = 0.5

@@ -68,7 +68,8 @@ internal class SensorWording(private val belief: SensorBelief) {
         /** Why a sensor cannot be learned from readings in cells that [belief] finds not to be as they should; or null. */
         fun unlikeItsCells(belief: SensorBelief): String? = when {
             !belief.areCellsEven -> "because nothing shows that the water changes at their borders and not within them"
-            !belief.isWaterSteady -> "because their water changed between one visit and another"
+            !belief.isWaterSteady ->
+                "because their water changed between one visit and another, or fixes are off or late"
             else -> null
         }
     }

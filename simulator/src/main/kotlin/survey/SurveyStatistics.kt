@@ -1,5 +1,8 @@
 package stillwater.survey
 
+import kotlin.math.hypot
+import kotlin.math.sqrt
+
 /**
  * A stretch of a log.
  *
@@ -48,10 +51,24 @@ class SurveyStatistics internal constructor(
     val values: Quantiles,
     val resolution: Double,
 ) {
+    /**
+     * How far a reading's place may be off along the way: what fixes scatter, and how far the boat goes while one is repeated,
+     * as root mean square, m.
+     */
+    val placeDeviation: Double
+        get() {
+            val repeats = if (repeatedFixes < 1) repeatedFixes / (1 - repeatedFixes) else 0.0
+            val behind = if (speeds.count > 0) repeats * steps.median * speeds.median / sqrt(THIRD) else 0.0
+            return hypot(fixScatter, behind)
+        }
+
     /** Time above which the silence between two readings is a gap: five median steps, s. */
     val gapLimit: Double get() = GAP_STEPS * steps.median
 
     private companion object {
         const val GAP_STEPS = 5
+
+        /** Of the square of a length, the mean square of what is even from nothing to it, one part in so many. */
+        const val THIRD = 3.0
     }
 }

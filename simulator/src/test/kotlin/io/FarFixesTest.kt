@@ -5,15 +5,18 @@ import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
+import kotlin.test.assertTrue
 
 class FarFixesTest {
     private val used = ArrayList<Long>()
     private val fixes = FarFixes { used += it.line }
 
     private fun take(xs: List<Double>) {
-        xs.forEachIndexed { i, x -> fixes.take(TimedRow(i + 2L, i.toDouble(), x, 0.0, 8.0, Conditions.NONE)) }
+        xs.forEachIndexed { i, x -> fixes.take(row(i, x)) }
         fixes.end()
     }
+
+    private fun row(i: Int, x: Double) = TimedRow(i + 2L, i.toDouble(), x, 0.0, 8.0, Conditions.NONE)
 
     @Test
     fun aFixFarOffAndBackIsLeftOutAndNamed() {
@@ -37,6 +40,26 @@ class FarFixesTest {
     }
 
     @Test
+    fun wildFixesNeedNotBeAtOnePlace() {
+        val way = List(12) { it.toDouble() }
+        take(way + listOf(300_000.0, -300_000.0, 500_000.0) + way)
+        assertEquals((2L..13L) + (17L..28L), used)
+        used.clear()
+        val early = FarFixes { used += it.line }
+        (listOf(500_000.0, 300_000.0, 100_000.0) + way).forEachIndexed { i, x -> early.take(row(i, x)) }
+        early.end()
+        assertEquals((5L..16L).toList(), used)
+    }
+
+    /** Two wild fixes at one place, with two good ones between them, are not the place where the boat is. */
+    @Test
+    fun whereTheLogIsTellMostOfItsRows() {
+        val way = List(12) { it.toDouble() }
+        take(listOf(500_000.0) + way.take(2) + 500_000.0 + way)
+        assertTrue(used.containsAll((3L..4L) + (6L..17L)), "$used")
+    }
+
+    @Test
     fun threeInARowAreLeftOutAndFourAreAPlace() {
         val way = List(12) { it.toDouble() }
         take(way + List(3) { 40_000.0 + it } + way)
@@ -44,7 +67,7 @@ class FarFixesTest {
         used.clear()
         val other = FarFixes { used += it.line }
         (way + List(4) { 40_000.0 + it } + way).forEachIndexed { i, x ->
-            other.take(TimedRow(i + 2L, i.toDouble(), x, 0.0, 8.0, Conditions.NONE))
+            other.take(row(i, x))
         }
         other.end()
         assertEquals((2L..29L).toList(), used)

@@ -240,10 +240,29 @@ class OutputDirectoryTest {
             "cells.csv is not of",
         )
         assertEquals("mine", own.readText())
+        OutputDirectory(out.resolve("results"), earlier = EarlierResults("map")).use {
+            it.write("report.html", "<p>Command: <code>stillwater map log.csv</code></p>")
+            it.commit()
+        }
+        assertFailsWith<OutputException>("of results beside it") { write("cells.csv", "map") }
         write("other.csv", "map")
         write("cells.csv", "map")
         val refused = assertFailsWith<OutputException> { write("corrected.csv", "correct") }.message.orEmpty()
         assertContains(refused, "report.html is not of an earlier stillwater correct")
         assertContains(out.resolve("report.html").readText(), "stillwater map")
+    }
+
+    @Test
+    fun resultsWithoutAReportAreToldByAWordInAFile() {
+        val out = home.resolve("out").createDirectories()
+        fun write() = OutputDirectory(out, earlier = EarlierResults("diagnose", "diagnosis.json" to "verdict")).use {
+            it.write("diagnosis.json", """{"verdict": "consistent"}""")
+            it.commit()
+        }
+        out.resolve("diagnosis.json").writeText("""{"mine": 1}""")
+        assertFailsWith<OutputException> { write() }
+        out.resolve("diagnosis.json").toFile().delete()
+        write()
+        write()
     }
 }
