@@ -7,7 +7,6 @@ import com.github.ajalt.clikt.parameters.options.convert
 import com.github.ajalt.clikt.parameters.options.default
 import com.github.ajalt.clikt.parameters.options.flag
 import com.github.ajalt.clikt.parameters.options.option
-import stillwater.drive.MapCautions
 import stillwater.io.LogContent
 import stillwater.io.LogProblem
 import stillwater.io.MissionFile
@@ -87,7 +86,7 @@ class ReplayCommand : WorkCommand("replay") {
 
     private fun write(replayed: Replayed, directory: OutputDirectory) {
         val files = ReplayFiles(replayed)
-        val warnings = replayed.warnings + MapCautions.of(replayed.mission) + files.write(directory, !numbersOnly)
+        val warnings = files.warnings + files.write(directory, !numbersOnly)
         val written = directory.commit()
         when {
             json -> echo(files.json().trimEnd())

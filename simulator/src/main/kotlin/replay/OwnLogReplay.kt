@@ -70,7 +70,8 @@ internal class OwnLogReplay(
         )
         val isSameMap = recorded.recovered()?.let { isSame(last.map, it.estimator.map) } ?: false
         val compared = AsRecorded(differing, firstDifference, isSameMap).takeIf { other == null }
-        return Replayed(last.spec, "own log", last, decisions, log, lines, notUnderstood, compared, emptyList())
+        val warnings = listOfNotNull(OTHERWISE.takeIf { compared != null && !(differing == 0L && isSameMap) })
+        return Replayed(last.spec, "own log", last, decisions, log, lines, notUnderstood, compared, warnings)
     }
 
     private fun take(line: String) {
@@ -194,5 +195,8 @@ internal class OwnLogReplay(
 
     private companion object {
         const val TRIPLE = 3
+        const val OTHERWISE =
+            "the log is not what this program makes of what its mission heard: another version wrote it, or it " +
+                "was cut, joined or changed; map and decisions are those of the replay"
     }
 }

@@ -1,12 +1,14 @@
 package stillwater.replay
 
 import kotlinx.serialization.json.Json
+import kotlinx.serialization.json.JsonArray
 import kotlinx.serialization.json.JsonNull
 import kotlinx.serialization.json.JsonObject
 import kotlinx.serialization.json.JsonPrimitive
 import kotlinx.serialization.json.buildJsonObject
 import kotlinx.serialization.json.put
 import kotlinx.serialization.json.putJsonObject
+import stillwater.drive.MapCautions
 import stillwater.drive.MissionMapFiles
 import stillwater.report.CsvTable
 import stillwater.report.OutputDirectory
@@ -36,6 +38,9 @@ internal class ReplayFiles(private val replayed: Replayed) {
         directory.stream("mission.txt") { replayed.log.copyTo(it) }
         return MissionMapFiles.write(directory, replayed.spec, replayed.map, isDrawn)
     }
+
+    /** What a person should know of the replay and its map, one sentence each. */
+    val warnings: List<String> get() = replayed.warnings + MapCautions.of(replayed.mission)
 
     /** The summary for machines. */
     fun json(): String {
@@ -72,6 +77,7 @@ internal class ReplayFiles(private val replayed: Replayed) {
             val compared = replayed.asRecorded
             put("steps_otherwise_than_recorded", compared?.let { JsonPrimitive(it.differingSteps) } ?: JsonNull)
             put("same_map_as_recorded", compared?.let { JsonPrimitive(it.isSameMap) } ?: JsonNull)
+            put("warnings", JsonArray(warnings.map(::JsonPrimitive)))
         }
         return PRETTY.encodeToString(JsonObject.serializer(), json) + "\n"
     }

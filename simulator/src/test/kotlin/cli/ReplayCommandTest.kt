@@ -75,6 +75,21 @@ class ReplayCommandTest {
     }
 
     @Test
+    fun aLogThatIsOtherwiseThanItsReplayIsTold() {
+        val (lines, _) = sailed(41, 120)
+        fun told(name: String, log: List<String>): String {
+            val out = directory.resolve("out-$name").toString()
+            val result = runBoatCommand("replay", "${write("$name.txt", log)}", "--out", out, "--numbers-only")
+            assertEquals(0, result.statusCode, result.output)
+            return result.stderr
+        }
+        val words = "the log is not what this program makes of what its mission heard"
+        assertFalse(words in told("whole", lines))
+        assertContains(told("joined", lines + lines), words)
+        assertContains(directory.resolve("out-joined/replay.json").readText(), words)
+    }
+
+    @Test
     fun aBoatWhoseThrusterSwivelsIsReplayedAsOne() {
         val pond = MissionSpec.fromJson(POND)
         val spec = pond.copy(boat = pond.boat.copy(mixing = Mixing.VECTORED))
