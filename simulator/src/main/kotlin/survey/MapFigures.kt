@@ -162,8 +162,7 @@ class MapFigures(private val map: SurveyMap) {
     private fun widthCaption(kind: FilterKind, field: FieldMap): String = when {
         isCorrectedMean(kind) ->
             "How well the water where the boat went through each cell is known from the corrected readings there, " +
-                "if the " +
-                "sensor given is the right one."
+                "if the sensor given is the right one."
         kind.areBoundsCredible ->
             "Upper minus lower end of each cell's 95 % interval, cut to the range taken for the water, " +
                 "${digits(map.prior.lower)} to ${digits(map.prior.upper)}."
@@ -306,13 +305,9 @@ class MapFigures(private val map: SurveyMap) {
             if (kind == FilterKind.BOUNDED) "bounds-width" else "bounds-width-${kind.label}"
 
         /** [name] in as many characters as a figure has room for. */
-        private fun shortened(name: String) = if (name.length <=
-            LONGEST_NAME
-        ) {
-            name
-        } else {
-            name.take(LONGEST_NAME - 1) + "…"
-        }
+        private fun shortened(name: String) =
+            if (name.length <= LONGEST_NAME) name else name.take(LONGEST_NAME - 1) + "…"
+
         private const val LONGEST_NAME = 60
 
         private const val RARE = 0.01

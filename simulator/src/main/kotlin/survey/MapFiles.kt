@@ -68,6 +68,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
             val center = grid.center(cell)
             val place = map.log.frame?.toLatLon(center)
             val status = field.status(kind, cell)
+            val bounds = map.bounds(kind, cell)
             table.row(
                 kind.label,
                 cell % grid.columns,
@@ -77,8 +78,8 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
                 place?.latitudeDeg,
                 place?.longitudeDeg,
                 field.measuredValue(kind, cell),
-                map.bounds(kind, cell)?.lower,
-                map.bounds(kind, cell)?.upper,
+                bounds?.lower,
+                bounds?.upper,
                 field.visits(cell),
                 field.readings(cell),
                 field.conflicts(cell),
@@ -94,6 +95,7 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
     private fun polygon(frame: LocalFrame, kind: FilterKind, field: FieldMap, cell: Int): GeoPolygon {
         val center = frame.toLatLon(field.grid.center(cell))
         val status = field.status(kind, cell)
+        val bounds = map.bounds(kind, cell)
         val corners = field.grid.corners(cell).map { corner -> corner(frame.toLatLon(corner), center) }
         return GeoPolygon(
             corners,
@@ -104,8 +106,8 @@ class MapFiles(private val map: SurveyMap, private val summary: MapSummary, priv
                 "column" to cell % field.grid.columns,
                 "row" to cell / field.grid.columns,
                 "value" to field.measuredValue(kind, cell),
-                "lower" to map.bounds(kind, cell)?.lower,
-                "upper" to map.bounds(kind, cell)?.upper,
+                "lower" to bounds?.lower,
+                "upper" to bounds?.upper,
                 "visits" to field.visits(cell),
                 "readings" to field.readings(cell),
                 "conflicts" to field.conflicts(cell),

@@ -35,7 +35,8 @@ internal class MapFilters(
 
     /** What tells whether cells are even, where a filter takes that for granted. */
     private val judge = learned ?: SelfCalibratingEstimator(grid, prior, lag.selfCalibrating)
-        .takeIf { settings.filters.any { it.needsEvenCells } && statistics.readings <= MOST_JUDGED }
+        .takeIf { settings.correction == null && statistics.readings <= MOST_JUDGED }
+        .takeIf { settings.filters.any { it.needsEvenCells } }
     private val running = (estimators.values + listOfNotNull(judge.takeIf { it !== learned })).toTypedArray()
 
     /** How well corrected readings are known; null where the readings themselves are mapped. */

@@ -118,22 +118,14 @@ internal class MapReport(
         }
         val corrected = map.correction?.let {
             "The readings were corrected for the sensor given, ${it.sensor.name} (${it.words}), as `stillwater " +
-                "correct` " +
-                "does; a cell's interval is the mean of its readings' 95 % intervals, and holds if that sensor is " +
-                "the right " +
-                "one."
+                "correct` does; a cell's interval is the mean of its readings' 95 % intervals, and holds if that " +
+                "sensor is the right one."
         }
         val wish = map.settings.grid
         val isChosen = wish.cell == null && wish.columns == null
-        return listOf(positions) + listOfNotNull(
-            GRID.takeIf {
-                isChosen
-            },
-            RANGE.takeIf { !map.rangeGiven },
-            corrected,
-        ) +
-            map.maps.keys.map(::how) +
-            listOfNotNull(EPSILON.takeIf { map.bounded != null })
+        val taken = listOfNotNull(GRID.takeIf { isChosen }, RANGE.takeIf { !map.rangeGiven }, corrected)
+        val epsilon = listOfNotNull(EPSILON.takeIf { map.bounded != null })
+        return listOf(positions) + taken + map.maps.keys.map(::how) + epsilon
     }
 
     private fun how(kind: FilterKind): String = when (kind) {
@@ -141,37 +133,28 @@ internal class MapReport(
         FilterKind.EXPONENTIAL -> "The exponential filter gives the exponential average of a cell's readings."
         FilterKind.BOUNDED ->
             "The bounded filter takes a rising sensor's reading as a lower bound and a falling one's as an upper " +
-                "bound, " +
-                "if the slope over a window of medians exceeds epsilon; its value is the midpoint. Its bounds hold " +
-                "for a " +
-                "first-order sensor without noise in water that does not change within a cell; conflicts show where " +
-                "they " +
-                "do not."
+                "bound, if the slope over a window of medians exceeds epsilon; its value is the midpoint. Its bounds " +
+                "hold for a first-order sensor without noise in water that does not change within a cell; conflicts " +
+                "show where they do not."
         FilterKind.INTERVAL ->
             "The interval filter's bounds hold for every first-order sensor no slower, and readings no farther off, " +
-                "than " +
-                "was said, in water that does not change within a cell; its value is the midpoint."
+                "than was said, in water that does not change within a cell; its value is the midpoint."
         FilterKind.SELF_CALIBRATING -> "The self-calibrating filter $learns"
         FilterKind.BOUNDED_EXTENDED ->
             "The bounded-extended filter learns from the readings how noisy they are and how far the water is from " +
-                "them by " +
-                "their slope; its bounds are 95 % intervals, cut to the range taken for the water, and take the " +
-                "water of a " +
-                "cell for the same all over."
+                "them by their slope; its bounds are 95 % intervals, cut to the range taken for the water, and take " +
+                "the water of a cell for the same all over."
         FilterKind.BAYESIAN ->
             "The bayesian filter is a Gaussian process over the cells on top of one that $learns Cells around one " +
-                "tell of " +
-                "it, too."
+                "tell of it, too."
     }
 
     private val learns: String
         get() = "learns the sensor's response from how readings change where the boat enters a cell, and gives the " +
-            "water of " +
-            "each cell with a 95 % interval. It takes a cell's water for the same all over and at all times, and " +
-            "says so " +
-            "where that is not borne out. The time over a border counts for neither cell, nor do readings nearer to " +
-            "one " +
-            "than places are known (${digits(map.statistics.placeDeviation, 2)} ${wording.length})."
+            "water of each cell with a 95 % interval. It takes a cell's water for the same all over and at all " +
+            "times, and says so where that is not borne out. The time over a border counts for neither cell, nor do " +
+            "readings nearer to one than places are known " +
+            "(${digits(map.statistics.placeDeviation, 2)} ${wording.length})."
 
     private fun direction(leg: Leg): String {
         if (map.log.oneDimensional) return if (leg.forward) "rising" else "falling"
@@ -196,17 +179,14 @@ internal class MapReport(
             )
         const val GRID =
             "The side of a cell is 1, 2 or 5 times a power of ten, a little below the larger of the way the boat " +
-                "makes in " +
-                "ten readings and the mean distance between tracks (area by length of track), with 10 to 100 cells " +
-                "along " +
-                "the longer side."
+                "makes in ten readings and the mean distance between tracks (area by length of track), with 10 " +
+                "to 100 cells along the longer side."
         const val RANGE =
             "The range taken for the water is that of the readings and a tenth of it more either way, because a slow " +
                 "sensor falls short of the water's extremes."
         const val EPSILON =
             "Epsilon is the 99 % quantile of how far slopes are from their median over the stretch of the log where " +
-                "that " +
-                "is smallest, unless a stretch or a number was given; but not below the slope that one step of the " +
-                "sensor's resolution makes, unless a number was given."
+                "that is smallest, unless a stretch or a number was given; but not below the slope that one step of " +
+                "the sensor's resolution makes, unless a number was given."
     }
 }

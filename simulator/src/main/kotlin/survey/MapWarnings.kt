@@ -177,8 +177,7 @@ internal class MapWarnings(private val map: SurveyMap) {
         return when {
             2 * short > counts.visited ->
                 "the boat takes fewer than the $needed readings there that a slope needs, on average of its passes " +
-                    "(a " +
-                    "larger --cell, or smaller windows)"
+                    "(a larger --cell, or smaller windows)"
             counts.none > counts.oneSided && settings.epsilon == 0.0 -> "readings hardly change within cells"
             counts.none > counts.oneSided -> "few slopes in a cell exceed epsilon"
             else -> "few were crossed both ways"
