@@ -176,7 +176,7 @@ class MapCommand : WorkCommand("map") {
             SensorStages.words(spec),
             corrected.track,
             corrected.told,
-            cautions.ofSensor + cautions.lines,
+            listOfNotNull(cautions.ofLearning) + cautions.ofSensor + cautions.lines,
         )
     } catch (wrong: IllegalArgumentException) {
         throw SensorFile.unfit(sensor, wrong)

@@ -15,6 +15,15 @@ internal class CorrectCautions(private val result: CorrectedLog, private val uni
     /** Whether the sensor can be this log's, one sentence each. */
     val ofSensor: List<String> get() = listOfNotNull(slowest(), worse())
 
+    /** That a given sensor was itself learned, and that nothing is said of how well; null for others. */
+    val ofLearning: String?
+        get() = if (result.origin == SensorOrigin.GIVEN && result.spec.name.startsWith(CorrectedLog.LEARNED)) {
+            "the sensor given was learned from a log and is not known exactly: intervals know nothing of that; those " +
+                "in the corrected.csv of `stillwater correct` do"
+        } else {
+            null
+        }
+
     /** Whether undoing the response sets passes farther apart than they were. */
     val isWorse: Boolean get() = worse() != null
 

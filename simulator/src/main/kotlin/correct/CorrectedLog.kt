@@ -143,6 +143,9 @@ class CorrectedLog internal constructor(
         /** Name of the condition that holds the reference. */
         const val REFERENCE = "reference"
 
+        /** How the names of sensors begin that were learned from a log. */
+        const val LEARNED = "learned from"
+
         private const val FEWEST = 30
 
         /** Why what a reference seemed to show is not undone. */
@@ -206,7 +209,7 @@ class CorrectedLog internal constructor(
             val other = if (isLost) SensorLearning.byRevisits(series, unusable, log.frame != null) else null
             val learned = other?.copy(fault = LOST) ?: tried
             val narrow = if (isLost) corrected(learned) else first
-            val spec = given ?: SensorSpec("learned from ${log.file.fileName}", learned.stages + quantum(resolution))
+            val spec = given ?: SensorSpec("$LEARNED ${log.file.fileName}", learned.stages + quantum(resolution))
             val agreement = TrackAgreement.of(series, narrow)
             val agreed = learned.agreed(narrow, agreement)
             // A given sensor's intervals are the giver's. All others must hold a reference that is there, learned from or not.

@@ -35,7 +35,7 @@ class MapFigures(private val map: SurveyMap) {
     private val quantity = shortened(map.log.quantity)
     private val legend = shortened(wording.quantity)
     private val where = map.log.file.fileName.toString() +
-        map.correction?.let { ", corrected for ${shortened(it.sensor.name)}" }.orEmpty()
+        map.correction?.let { ", corrected (sensor: ${shortened(it.sensor.name)})" }.orEmpty()
     private val trackColours = (map.statistics.values[RARE]..map.statistics.values[1 - RARE])
         .takeIf { it.start < it.endInclusive }
     private val cellColours = map.maps.flatMap { (kind, field) ->
@@ -165,7 +165,7 @@ class MapFigures(private val map: SurveyMap) {
                 "if the sensor given is the right one."
         kind.areBoundsCredible ->
             "Upper minus lower end of each cell's 95 % interval, cut to the range taken for the water, " +
-                "${digits(map.prior.lower)} to ${digits(map.prior.upper)}."
+                "${digits(map.prior.lower)} to ${digits(map.prior.upper)}; of a cell that may be anywhere in it none."
         else ->
             "Upper minus lower bound in each visited cell with a bound; where only one was set the other end is " +
                 "that of " +

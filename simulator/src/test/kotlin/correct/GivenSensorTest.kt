@@ -297,7 +297,7 @@ class GivenSensorTest {
             assertTrue(cell.getValue("lower") <= cell.getValue("value"), "$cell")
             assertTrue(cell.getValue("upper") >= cell.getValue("value"), "$cell")
         }
-        assertContains(out.resolve("map/estimate-averaging.svg").readText(), "log.csv, corrected for test")
+        assertContains(out.resolve("map/estimate-averaging.svg").readText(), "log.csv, corrected (sensor: test)")
         assertTrue(out.resolve("map/bounds-width-averaging.svg").exists())
         val lag = run("map", log, "--value", "do_mg_l", "--filter", "bounded,averaging", "--sensor", spec(stage))
         assertContains(lag.stderr, "bounded reckons with a lag that --sensor has undone already")
@@ -316,5 +316,15 @@ class GivenSensorTest {
         assertContains(late.stdout, Regex("last readings +26 left out"))
         // 26 of 600 rows, a second apart, come within 25.5 s of the end, that at the end itself among them.
         assertEquals(574.0, rows("cells.csv").sumOf { it.getValue("readings") })
+    }
+
+    @Test
+    fun thatALearnedSensorIsNotKnownExactlyIsSaid() {
+        val log = file("log.csv", survey(SensorStage.Lag(8.0)))
+        val words = "intervals know nothing of that"
+        assertFalse(words in run("map", log, "--value", "do_mg_l", "--sensor", spec(SensorStage.Lag(8.0))).stderr)
+        assertEquals(0, run("correct", log, "--value", "do_mg_l").statusCode)
+        val learned = "${out.resolve("correct/sensor.json")}"
+        assertContains(run("map", log, "--value", "do_mg_l", "--sensor", learned).stderr, words)
     }
 }
