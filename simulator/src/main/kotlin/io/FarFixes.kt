@@ -71,9 +71,8 @@ internal class FarFixes(private val use: (TimedRow) -> Unit) {
 
     /** No row follows. */
     fun end() {
-        val last = before
-        if (pending.isNotEmpty() && pending.size <= MOST && settled >= SETTLED && last != null) {
-            leaveOut(pending, last, "the rows before")
+        if (pending.isNotEmpty() && pending.size <= MOST && settled >= SETTLED) {
+            leaveOut(pending, checkNotNull(before), "the rows before")
             pending.clear()
         }
         release()

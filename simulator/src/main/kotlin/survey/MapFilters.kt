@@ -34,10 +34,16 @@ internal class MapFilters(
     val learned: SelfCalibratingEstimator? = estimators.values.firstNotNullOfOrNull(::learner)
 
     /** What tells whether cells are even, where a filter takes that for granted. */
-    private val judge = learned ?: SelfCalibratingEstimator(grid, prior, lag.selfCalibrating)
-        .takeIf { settings.correction == null && statistics.readings <= MOST_JUDGED }
-        .takeIf { settings.filters.any { it.needsEvenCells } }
-    private val running = (estimators.values + listOfNotNull(judge.takeIf { it !== learned })).toTypedArray()
+    private val judge: SelfCalibratingEstimator?
+    private val running: Array<FieldEstimator>
+
+    init {
+        val isAsked = settings.correction == null && settings.filters.any { it.needsEvenCells }
+        val needsOwn = learned == null && isAsked && statistics.readings <= MOST_JUDGED
+        val own = if (needsOwn) SelfCalibratingEstimator(grid, prior, lag.selfCalibrating) else null
+        judge = learned ?: own
+        running = (estimators.values + listOfNotNull(own)).toTypedArray()
+    }
 
     /** How well corrected readings are known; null where the readings themselves are mapped. */
     val corrected = settings.correction?.let { CorrectedCells(grid, it) }

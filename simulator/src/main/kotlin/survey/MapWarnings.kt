@@ -38,20 +38,32 @@ internal class MapWarnings(private val map: SurveyMap) {
         listOfNotNull(unevenCells(), slow(), unevenBounds()) + epsilon() + bounds() +
             listOfNotNull(map.interval?.warning(wording::value))
 
+    /** [filters] as the subject of a sentence, with what goes with one of them or with several. */
+    private class Subject(filters: List<FilterKind>) {
+        private val areSeveral = filters.size > 1
+        private val names = filters.joinToString(" and ") { it.label }
+        val their = if (areSeveral) "their" else "its"
+
+        fun does(verb: String) = if (areSeveral) "$names $verb" else "$names ${verb}s"
+    }
+
+    /** The filters that ran of which [which] is so; null for none. */
+    private fun subject(which: (FilterKind) -> Boolean): Subject? {
+        val filters = map.maps.keys.filter(which)
+        return if (filters.isEmpty()) null else Subject(filters)
+    }
+
     /** Filters that undo a lag, of readings of which it is undone already. */
     private fun twice(): String? {
-        val filters = map.maps.keys.filter { it.undoesLag }.map { it.label }.ifEmpty { return null }
-        val (reckon, their) = if (filters.size == 1) "reckons" to "its" else "reckon" to "their"
-        return "${filters.joinToString(
-            " and ",
-        )} $reckon with a lag that --sensor has undone already: $their bounds and " +
-            "values are not the water's; averaging is for corrected readings"
+        val filters = subject { it.undoesLag } ?: return null
+        return "${filters.does("reckon")} with a lag that --sensor has undone already: " +
+            "${filters.their} bounds and values are not the water's; averaging is for corrected readings"
     }
 
     /** A lag so long that readings, and the range that is taken by these, fall far short of the water's. */
     private fun slow(): String? {
         val learned = map.learned?.takeIf { it.isExplained && !map.rangeGiven } ?: return null
-        val field = map.maps.entries.first { (kind, _) -> kind in LEARNING }.value
+        val field = learned.map
         val stay = statistics.duration / maxOf(field.visitedCells().sumOf { field.visits(it) }, 1)
         if (learned.timeConstant < stay) return null
         return "the time constant found (${digits(learned.timeConstant)} s) is longer than a stay in a cell " +
@@ -62,10 +74,9 @@ internal class MapWarnings(private val map: SurveyMap) {
     /** Bounds that take the water of a cell for the same all over, where nothing shows that it is. */
     private fun unevenBounds(): String? {
         if (map.areCellsEven) return null
-        val filters = map.maps.keys.filter { it.needsEvenCells }.map { it.label }.ifEmpty { return null }
-        val (take, their) = if (filters.size == 1) "takes" to "its" else "take" to "their"
+        val filters = subject { it.needsEvenCells } ?: return null
         return "nothing shows that the water changes at the cells' borders and not within cells, which " +
-            "${filters.joinToString(" and ")} $take for granted: $their bounds may miss the water of a cell; " +
+            "${filters.does("take")} for granted: ${filters.their} bounds may miss the water of a cell; " +
             "`stillwater correct` needs no cells"
     }
 
@@ -185,7 +196,6 @@ internal class MapWarnings(private val map: SurveyMap) {
     }
 
     private companion object {
-        val LEARNING = setOf(FilterKind.SELF_CALIBRATING, FilterKind.BAYESIAN)
         val HARMLESS =
             setOf("poses before the first fix", "positions without a fix (0, 0)", "blank lines", "lines of units")
         const val LONG_GAP = 60.0
