@@ -159,6 +159,11 @@ def alternatives():
     ] + [("launcher `stillwater`", [LAUNCHER])]
 
 
+def into(scratch, name):
+    """Arguments for output in a directory of its own: no command writes over what another one wrote."""
+    return ["--quiet", "--out", os.path.join(scratch, name)]
+
+
 def programs():
     scratch = tempfile.mkdtemp(prefix="stillwater-")
     os.environ["XDG_CACHE_HOME"] = os.path.join(scratch, "cache")
@@ -174,10 +179,9 @@ def programs():
     subprocess.run([sys.executable, os.path.join(ROOT, "benchmarks/long_survey.py"), "1000000", log], check=True)
     rows = []
     for name, command in alternatives():
-        out = ["--quiet", "--out", os.path.join(scratch, "out")]
         help_time = best(command + ["--help"], 5)
-        benchmark = best(command + ["benchmark"] + out, 3)
-        mapped = best(command + ["map", log, "--value", "do_mg_l"] + out, 3)
+        benchmark = best(command + ["benchmark"] + into(scratch, "experiment"), 3)
+        mapped = best(command + ["map", log, "--value", "do_mg_l"] + into(scratch, "map"), 3)
         rows.append([name] + ["%.2f s (%.2f s)" % (part[0], part[1]) for part in (help_time, benchmark, mapped)] +
                     ["%.0f MB" % mapped[2]])
     rows.append(["bar", "0.35 s", "2.5 s", "3 s", "300 MB"])
@@ -197,12 +201,12 @@ def scaling():
     write("decisions", table(["cells", "moves", "readings", "first, ms", "mean, ms", "99 %, ms", "longest, ms", "memory, kB"],
                              [row[:7] + [kilobytes(int(row[7]))] for row in rows]))
     scratch = tempfile.mkdtemp(prefix="stillwater-")
-    out = ["--quiet", "--out", os.path.join(scratch, "out")]
+    out = into(scratch, "experiment")
     rows = []
     for readings in (100_000, 1_000_000, 3_000_000):
         log = os.path.join(scratch, "long.csv")
         subprocess.run([sys.executable, os.path.join(ROOT, "benchmarks/long_survey.py"), str(readings), log], check=True)
-        rows.append(["`map`, %d rows" % readings] + best([LAUNCHER, "map", log, "--value", "do_mg_l"] + out, 1))
+        rows.append(["`map`, %d rows" % readings] + best([LAUNCHER, "map", log, "--value", "do_mg_l"] + into(scratch, "map"), 1))
     for environments in (50, 100, 200, 400):
         rows.append(["`benchmark`, %d environments a field" % environments] +
                     best([LAUNCHER, "benchmark", "--environments", str(environments)] + out, 1))
