@@ -128,8 +128,11 @@ public abstract class CellEstimator(grid: Grid, prior: Interval) : FieldEstimato
         if (size > largest) largest = minOf(2 * size, Double.MAX_VALUE)
     }
 
-    /** How far the place of the reading that is being taken is from its cell's border, m. */
-    protected fun distanceToBorder(): Double = grid.distanceToBorder(placeX, placeY)
+    /** Where the reading that is being taken is along the grid's first axis, m from its origin. */
+    protected fun alongColumns(): Double = grid.alongColumns(placeX, placeY)
+
+    /** Where it is along the second axis, m. */
+    protected fun alongRows(): Double = grid.alongRows(placeX, placeY)
 
     final override fun updateAll(times: DoubleArray, x: Double, y: Double, values: DoubleArray, count: Int) {
         val cell = if (x.isFinite() && y.isFinite()) grid.cellAt(x, y) else Grid.OUTSIDE

@@ -46,7 +46,7 @@ internal class EvenCells(private val tape: Recording) {
     /** Plays all readings with [middle], slower or faster by [stretch] on a logarithm's scale. */
     private suspend fun play(middle: Middle, stretch: Double, isMoved: Boolean) {
         bank.resetMiddle(middle.kind, middle.first + stretch, middle.second, middle.noise)
-        play(isMoved)
+        if (isMoved) playMoved() else tape.play(bank, isWorse)
     }
 
     /**
@@ -128,8 +128,8 @@ internal class EvenCells(private val tape: Recording) {
         return true
     }
 
-    /** Goes through the tape as [Recording.play] does; if [isMoved], each stay's first half is of the cell before. */
-    private suspend fun play(isMoved: Boolean) {
+    /** Goes through the tape as [Recording.play] does, with each stay's first half of the cell before. */
+    private suspend fun playMoved() {
         var from = 0
         var before = LagBank.NONE
         while (from < tape.size) {
@@ -137,7 +137,7 @@ internal class EvenCells(private val tape: Recording) {
             var to = from + 1
             while (to < tape.size && tape.slot(to) == slot) to++
             if (!isWorse()) {
-                val border = if (isMoved && before != LagBank.NONE) from + (to - from + 1) / 2 else from
+                val border = if (before != LagBank.NONE) from + (to - from + 1) / 2 else from
                 if (slot == LagBank.NONE) bank.leave() else take(from, border, to, before)
             }
             tape.spend((to - from) * bank.filters)

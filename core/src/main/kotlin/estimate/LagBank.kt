@@ -79,6 +79,18 @@ internal class LagBank : ReadingPlayer {
         current = NONE
     }
 
+    override fun enter(slot: Int, from: Double, until: Double) {
+        val elapsed = until - lastSeconds
+        keepFor(elapsed)
+        for (i in 0 until NODES) predict(i * STRIDE, keeps[i])
+        lastSeconds = until
+        if (until > from) {
+            keepFor(until - from)
+            for (i in 0 until NODES) blur(i * STRIDE, 1 - keeps[i])
+        }
+        goTo(slot)
+    }
+
     /** Equal slots in a row are one visit. */
     override fun take(slot: Int, seconds: Double, value: Double) {
         if (current == NONE) {
@@ -86,19 +98,26 @@ internal class LagBank : ReadingPlayer {
             lastSeconds = seconds
             current = slot
         } else if (slot != current) {
-            pool(previous, Q, QQ)
-            enter()
-            previous = current
-            current = slot
+            goTo(slot)
         }
-        val elapsed = seconds - lastSeconds
+        keepFor(seconds - lastSeconds)
         lastSeconds = seconds
-        if (elapsed != keepsFor) {
-            for (i in 0 until NODES) keeps[i] = exp(-elapsed * exp(-(node + (i - 1) * step)))
-            keepsFor = elapsed
-        }
         for (i in 0 until NODES) predictAndCorrect(i * STRIDE, keeps[i], value)
         freedom++
+    }
+
+    private fun goTo(slot: Int) {
+        pool(previous, Q, QQ)
+        enter()
+        previous = current
+        current = slot
+    }
+
+    /** What is left after [elapsed] s at each node. */
+    private fun keepFor(elapsed: Double) {
+        if (elapsed == keepsFor) return
+        for (i in 0 until NODES) keeps[i] = exp(-elapsed * exp(-(node + (i - 1) * step)))
+        keepsFor = elapsed
     }
 
     /** Sum of squared innovations over their variances at node [i] of 0, 1, 2. */
@@ -199,8 +218,21 @@ internal class LagBank : ReadingPlayer {
         freedom--
     }
 
+    /** Water of the prior's variance, unknown, has brought the sensor on by [gain] at the node whose state starts at [at]. */
+    private fun blur(at: Int, gain: Double) {
+        val more = gain * gain * priorVariance
+        states[at + SS] += more
+        // As much of a reading as it takes to find out.
+        if (at == STRIDE) freedom -= more / (states[at + SS] + 1)
+    }
+
     /** Eqs. (3) to (5) at one node, whose state starts at [at] and of which [keep] is left after the elapsed time. */
     private fun predictAndCorrect(at: Int, keep: Double, value: Double) {
+        predict(at, keep)
+        correct(at, value)
+    }
+
+    private fun predict(at: Int, keep: Double) {
         val f = states
         val gain = 1 - keep
         // s ← s + g (ψ − s)
@@ -208,6 +240,10 @@ internal class LagBank : ReadingPlayer {
         f[at + SQ] = keep * f[at + SQ] + gain * f[at + PQ]
         f[at + SS] = keep * keep * f[at + SS] + 2 * gain * keep * f[at + SP] + gain * gain * f[at + PP]
         f[at + SP] = keep * f[at + SP] + gain * f[at + PP]
+    }
+
+    private fun correct(at: Int, value: Double) {
+        val f = states
         val innovation = value - f[at + S]
         // S = P_ss + 1, K = P_·s / S; one division instead of four.
         val variance = f[at + SS] + 1

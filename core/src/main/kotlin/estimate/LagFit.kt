@@ -56,10 +56,20 @@ internal class LagFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
         judgeAs(other)
     }
 
+    override fun enter(slot: Int, from: Double, until: Double) {
+        moveNodes(slot)
+        bank.enter(slot, from, until)
+    }
+
     override fun add(slot: Int, seconds: Double, value: Double) {
+        moveNodes(slot)
+        bank.take(slot, seconds, value)
+    }
+
+    /** The nodes follow the time constant, on entering the cell with [slot]. */
+    private fun moveNodes(slot: Int) {
         val moves = follows && slot != bank.current && abs(offset) > bank.step / 2
         if (moves) bank.move(offset.coerceIn(-bank.step, bank.step))
-        bank.take(slot, seconds, value)
     }
 
     override fun end() = bank.leave()

@@ -5,6 +5,13 @@ internal interface ReadingPlayer {
     /** Filters that take a step with a reading: what it costs. */
     val filters: Int
 
+    /**
+     * The boat, of which a reading was taken before, came into the cell with [slot] at some time between [from] and
+     * [until], s, neither before that reading nor after the next, which is of that cell. Where it is not known to have
+     * come there at another time it did so right after the last reading.
+     */
+    fun enter(slot: Int, from: Double, until: Double)
+
     /** Takes the scaled reading [value] in the cell with [slot], or under water that is no cell's; see [Crossings]. */
     fun take(slot: Int, seconds: Double, value: Double)
 
@@ -15,13 +22,18 @@ internal interface ReadingPlayer {
 /**
  * The first readings of a survey, kept to be gone through again.
  *
- * @param capacity readings and interruptions it holds.
+ * @param capacity readings and interruptions it holds. @param width size of a cell along the grid's first axis, m.
+ * @param height along its second one, m.
  */
-internal class ReadingTape(capacity: Int) {
+internal class ReadingTape(capacity: Int, private val width: Double = 1.0, private val height: Double = 1.0) {
     private val slots = IntArray(capacity)
     private val times = DoubleArray(capacity)
     private val values = DoubleArray(capacity)
-    private val places = ByteArray(capacity)
+
+    /** Where readings were taken, see [Place], from the first on that says how well that is known. */
+    private var along = DoubleArray(0)
+    private var across = DoubleArray(0)
+    private var deviations = DoubleArray(0)
 
     /** Whether a reading on the tape says how well its place is known. */
     var tellsOfPlaces: Boolean = false
@@ -44,8 +56,13 @@ internal class ReadingTape(capacity: Int) {
     /** What reading [i] said, scaled. */
     fun value(i: Int): Double = values[i]
 
-    /** How well the place of reading [i] is known, as [Crossings] has it. */
-    fun place(i: Int): Byte = places[i]
+    /** A place for [bring]. */
+    fun newPlace(): Place = Place(width, height)
+
+    /** Sets [place] to where reading [i] was taken. */
+    fun bring(i: Int, place: Place) {
+        if (tellsOfPlaces) place.set(along[i], across[i], deviations[i]) else place.forget()
+    }
 
     /** Mean time spent in a cell at a stretch among the first [count], s; 0 for none. */
     fun meanStay(count: Int = size): Double {
@@ -68,30 +85,44 @@ internal class ReadingTape(capacity: Int) {
         var sure = 0
         var stays = 0
         var enough = 0
+        val place = newPlace()
         for (i in 0 until among) {
             if (slots[i] == LagBank.NONE) continue
             if (i == 0 || slots[i] != slots[i - 1]) {
                 stays++
                 sure = 0
             }
-            if (places[i] != Crossings.NEAR && ++sure == count) enough++
+            bring(i, place)
+            if (!place.isNearBorder && ++sure == count) enough++
         }
         return if (stays == 0) 0.0 else enough.toDouble() / stays
     }
 
     /**
-     * Keeps a reading, where there is room; [slot] may be [LagBank.NONE] for an interruption. [place] is how well its place
-     * is known, as [Crossings] has it.
+     * Keeps a reading, where there is room; [slot] may be [LagBank.NONE] for an interruption. [place] is where it was taken,
+     * null where nothing is to be said of that.
      */
-    fun add(slot: Int, seconds: Double, value: Double, place: Byte = Crossings.EXACT) {
+    fun add(slot: Int, seconds: Double, value: Double, place: Place? = null) {
         if (!hasRoom) {
             isComplete = false
             return
         }
         slots[size] = slot
         times[size] = seconds
-        places[size] = place
-        if (place != Crossings.EXACT) tellsOfPlaces = true
+        if (place?.isKnown == true && !tellsOfPlaces) beginPlaces()
+        if (tellsOfPlaces) {
+            along[size] = place?.along ?: Double.NaN
+            across[size] = place?.across ?: Double.NaN
+            deviations[size] = place?.deviation ?: Double.NaN
+        }
         values[size++] = value
+    }
+
+    private fun beginPlaces() {
+        tellsOfPlaces = true
+        along = DoubleArray(slots.size)
+        across = DoubleArray(slots.size)
+        deviations = DoubleArray(slots.size)
+        deviations.fill(Double.NaN, 0, size)
     }
 }

@@ -10,6 +10,7 @@ package stillwater.estimate
 internal class Recording(private val tape: ReadingTape, private val parts: Parts, heedsBorders: Boolean) {
     /** What readings near borders count for, as after the last reading that was gone through. */
     val crossings = Crossings().also { it.areHeeded = heedsBorders }
+    private val place = tape.newPlace()
 
     /** Readings and interruptions to be fitted to. */
     var size: Int = 0
@@ -75,8 +76,11 @@ internal class Recording(private val tape: ReadingTape, private val parts: Parts
                 player.leave()
                 continue
             }
-            val slot = crossings.slot(tape.slot(i), tape.place(i))
-            if (slot != Crossings.PASSED_OVER) player.take(slot, tape.time(i), tape.value(i))
+            tape.bring(i, place)
+            val slot = crossings.slot(tape.slot(i), tape.time(i), place)
+            if (slot == Crossings.PASSED_OVER) continue
+            if (crossings.isTimed) player.enter(slot, crossings.from, crossings.until)
+            player.take(slot, tape.time(i), tape.value(i))
         }
     }
 

@@ -17,6 +17,9 @@ internal class ResponseBank : ReadingPlayer {
 
     /** Entries into cells that the delayed water has not reached yet: when, and where to. */
     private val entryTimes = DoubleArray(PENDING)
+
+    /** When the boat was there at the latest. */
+    private val entryEnds = DoubleArray(PENDING)
     private val entrySlots = IntArray(PENDING)
     private val entryBranches = IntArray(PENDING)
     private var entries = 0
@@ -144,9 +147,9 @@ internal class ResponseBank : ReadingPlayer {
             }
             stateBefore = value
             freedom -= kind.lags
-            push(slot, seconds)
+            push(slot, seconds, seconds)
         } else if (slot != lastSlot) {
-            push(slot, lastSeconds)
+            push(slot, lastSeconds, lastSeconds)
         }
         lastSlot = slot
         lastSeconds = seconds
@@ -154,8 +157,12 @@ internal class ResponseBank : ReadingPlayer {
             while (reached[i] < entries) {
                 val entry = reached[i] % PENDING
                 val at = entryTimes[entry] + delays[i]
-                if (at >= seconds && entries - reached[i] < PENDING) break
+                val end = entryEnds[entry] + delays[i]
+                val isFull = entries - reached[i] == PENDING
+                if (at >= seconds && !isFull) break
                 advance(i, minOf(at, seconds))
+                advance(i, minOf(end, seconds), isBlurred = true)
+                if (end >= seconds && !isFull) break
                 enter(i, entry)
             }
             advance(i, seconds)
@@ -164,17 +171,27 @@ internal class ResponseBank : ReadingPlayer {
         freedom++
     }
 
-    private fun push(slot: Int, time: Double) {
-        entryTimes[entries % PENDING] = time
+    override fun enter(slot: Int, from: Double, until: Double) {
+        push(slot, from, until)
+        lastSlot = slot
+    }
+
+    private fun push(slot: Int, from: Double, until: Double) {
+        entryTimes[entries % PENDING] = from
+        entryEnds[entries % PENDING] = until
         entrySlots[entries % PENDING] = slot
         entries++
     }
 
-    private fun advance(i: Int, time: Double) {
+    /** Brings filter [i] on to [time], the water seen being the present cell's or, [isBlurred], that or the next one's. */
+    private fun advance(i: Int, time: Double, isBlurred: Boolean = false) {
         val elapsed = time - clocks[i]
         if (!(elapsed > 0)) return
         clocks[i] = time
         for (branch in 0 until kind.branches) bank.predict(i, branch, elapsed)
+        if (!isBlurred) return
+        for (branch in 0 until kind.branches) bank.blur(i, branch, priorVariance)
+        if (i == 0) freedom -= bank.blurred
     }
 
     private fun enter(i: Int, entry: Int) {

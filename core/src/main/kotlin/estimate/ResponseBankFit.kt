@@ -103,6 +103,8 @@ internal class ResponseBankFit(belief: SelfCalibratingSettings) : SensorFit(beli
     override val here: Int get() = bank.here
     override val before: Int get() = bank.before
 
+    override fun enter(slot: Int, from: Double, until: Double) = bank.enter(slot, from, until)
+
     override fun add(slot: Int, seconds: Double, value: Double) = bank.take(slot, seconds, value)
 
     override fun end() = bank.leave()

@@ -94,6 +94,26 @@ internal class ResponseFilter {
         if (isSingle) predictSingle(at, keeps[2 * number]) else predict(at, keeps[2 * number], keeps[2 * number + 1])
     }
 
+    /** As much of a reading as it takes to find out what the last [blur] of the first filter left open. */
+    var blurred = 0.0
+        private set
+
+    /** What the water was during the last [predict] is off the cell's by something unknown, of [variance]. */
+    fun blur(i: Int, branch: Int, variance: Double) {
+        val number = 2 * i + branch
+        val at = at(i, branch)
+        val f = states
+        val gain = 1 - keeps[2 * number]
+        val shown = if (isSingle) gain else gain * (1 - keeps[2 * number + 1])
+        if (!isSingle) {
+            f[at + AA] += gain * gain * variance
+            f[at + AS] += gain * shown * variance
+        }
+        val more = shown * shown * variance
+        f[at + SS] += more
+        blurred = more / (f[at + SS] + 1)
+    }
+
     private fun predictSingle(at: Int, keep: Double) {
         val f = states
         val gain = 1 - keep

@@ -60,13 +60,14 @@ public class SelfCalibratingEstimator(
     private var lastCell = Grid.OUTSIDE
     private var lastSlot = LagBank.NONE
     private val fallback = Fallback(grid, prior)
+    private val place = Place(grid.cellWidth, grid.cellHeight)
 
     /** Whether the boat's cell and the one before are to be written as the last reading left them. */
     private var isDue = false
 
     init {
         require(work > 0) { "work ($work filters' steps a reading) must be above 0" }
-        learner = SensorLearner(settings, work)
+        learner = SensorLearner(settings, work, grid)
     }
 
     /**
@@ -102,6 +103,33 @@ public class SelfCalibratingEstimator(
     /** Which sensor models the readings leave possible, and with what parameters. Allocates. */
     public fun sensor(): SensorBelief = choice.belief(scale)
 
+    /**
+     * Learns the sensor from all readings so far, not only from those there were when their number had last grown by half:
+     * for the end of a survey. Nothing is done where there were more than are kept.
+     */
+    public fun learnFromAll() {
+        if (learner.learnFromAll()) writeAll()
+    }
+
+    /**
+     * From the lowest to the highest value of the cells that are known well, their intervals no wider than a quarter of the
+     * prior, sensor units. Unlike the map's values these are not cut to the prior: a lag may show the water's range where
+     * the readings' own falls short of it. Null where [isExplained] is false or no cell is known so well. Allocates.
+     */
+    public fun knownRange(): Interval? {
+        if (!isExplained) return null
+        var lowest = Double.POSITIVE_INFINITY
+        var highest = Double.NEGATIVE_INFINITY
+        for (slot in 0 until visitedCount) {
+            val truth = choice.active.truth(slot)
+            val reach = quantile(choice.active) * sqrt(choice.active.variance())
+            if (!(reach <= WELL_KNOWN)) continue
+            lowest = minOf(lowest, truth)
+            highest = maxOf(highest, truth)
+        }
+        return if (lowest <= highest) Interval(middle + scale * lowest, middle + scale * highest) else null
+    }
+
     override val map: FieldMap get() {
         writeDue()
         return written
@@ -117,9 +145,9 @@ public class SelfCalibratingEstimator(
             return
         }
         if (cell != lastCell) enter(cell)
-        val place = placeOf(conditions)
+        noticePlace(conditions)
         if (learner.add(slots[cell], seconds, scaled, place)) writeAll()
-        val slot = choice.crossings.slot(slots[cell], place)
+        val slot = choice.crossings.slot(slots[cell], seconds, place)
         if (slot < 0) unplaced++
         val movesOn = slot != lastSlot
         if (movesOn) {
@@ -136,7 +164,10 @@ public class SelfCalibratingEstimator(
         }
         if (!learner.isComplete) choice.follow()
         val before = choice.active.before
-        if (slot != Crossings.PASSED_OVER) choice.take(slot, seconds, scaled)
+        if (slot != Crossings.PASSED_OVER) {
+            if (choice.crossings.isTimed) choice.enter(slot, choice.crossings.from, choice.crossings.until)
+            choice.take(slot, seconds, scaled)
+        }
         if (isExplained != wasExplained) {
             // Bounds that no longer hold, or hold again, do so in all cells.
             writeAll()
@@ -174,15 +205,11 @@ public class SelfCalibratingEstimator(
         if (choice.active.before != LagBank.NONE) write(choice.active.before)
     }
 
-    /** How well the place of the reading with [conditions] is known. */
-    private fun placeOf(conditions: Conditions): Byte {
-        if (conditions === Conditions.NONE) return Crossings.EXACT
+    /** Where the reading with [conditions] was taken, and how well that is known. */
+    private fun noticePlace(conditions: Conditions) {
+        if (conditions === Conditions.NONE) return place.forget()
         val deviation = conditions[Conditions.POSITION_DEVIATION]
-        return when {
-            !(deviation >= 0) -> Crossings.EXACT
-            distanceToBorder() < deviation -> Crossings.NEAR
-            else -> Crossings.SURE
-        }
+        if (deviation >= 0) place.set(alongColumns(), alongRows(), deviation) else place.forget()
     }
 
     private fun writeAll() {
@@ -287,6 +314,9 @@ public class SelfCalibratingEstimator(
         /** [work] of some 0.4 ms on a desk's core. */
         public const val AFLOAT: Double = 16_000.0
         private const val FIRST_CELLS = 128
+
+        /** Half the widest interval of a cell that is known well, widths of the prior. */
+        private const val WELL_KNOWN = 0.125
 
         /** Standard deviations of a cell's readings that the bounds reach where cells are not even or their water changes. */
         private const val SPREAD = 2.0

@@ -73,6 +73,13 @@ internal class SensorChoice(settings: SelfCalibratingSettings, private val tape:
 
     override val filters: Int get() = MOST_FILTERS
 
+    override fun enter(slot: Int, from: Double, until: Double) {
+        settle()
+        lastSlot = slot
+        active.enter(slot, from, until)
+        rival?.enter(slot, from, until)
+    }
+
     override fun take(slot: Int, seconds: Double, value: Double) {
         if (slot != lastSlot || ++unsettled > LONGEST_UNSETTLED) settle()
         lastSlot = slot

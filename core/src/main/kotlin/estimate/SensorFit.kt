@@ -58,6 +58,9 @@ internal abstract class SensorFit(protected val belief: SelfCalibratingSettings)
         isBehind = true
     }
 
+    /** The boat came into the cell with [slot], see [ReadingPlayer.enter]. [settle] comes before. */
+    abstract fun enter(slot: Int, from: Double, until: Double)
+
     /** The boat left without a reading of where it went. */
     fun leave() {
         end()

@@ -1,5 +1,7 @@
 package stillwater.estimate
 
+import stillwater.model.Grid
+
 /**
  * What a [SelfCalibratingEstimator] has learned of its sensor: keeps the first readings and fits the models to all of
  * them each time their number has grown by half, at once or a part with each reading.
@@ -9,16 +11,19 @@ package stillwater.estimate
  * is no room for another reading: what is left then is done at once. Parts are counted in steps, not in time, so that
  * the same readings give the same results again.
  *
- * @param work most filters' steps to be taken for a reading, without end for a fit at once.
+ * @param work most filters' steps to be taken for a reading, without end for a fit at once. @param grid the cells.
  */
-internal class SensorLearner(settings: SelfCalibratingSettings, private val work: Double) {
-    private val tape = ReadingTape(settings.recalled)
+internal class SensorLearner(settings: SelfCalibratingSettings, private val work: Double, grid: Grid) {
+    private val tape = ReadingTape(settings.recalled, grid.cellWidth, grid.cellHeight)
     private val parts = Parts()
     private val plain = Pair(settings, heedsBorders = false)
 
     /** The same with borders heeded: each has its own history, since a fit begins where its last one ended. */
     private val heeding by lazy(LazyThreadSafetyMode.NONE) { Pair(settings, heedsBorders = true) }
     private var nextFit = FIRST_FIT
+
+    /** How many readings and interruptions the last fit was of. */
+    private var fitted = 0
 
     /** What holds. */
     var choice: SensorChoice = plain.latest
@@ -31,7 +36,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
     fun meanStay(): Double = tape.meanStay()
 
     /** Keeps a reading or interruption, see [ReadingTape.add]. Answers whether another fit holds from now on. */
-    fun add(slot: Int, seconds: Double, value: Double, place: Byte = Crossings.EXACT): Boolean {
+    fun add(slot: Int, seconds: Double, value: Double, place: Place? = null): Boolean {
         val isLast = parts.isBusy && !tape.hasRoom
         if (isLast) {
             parts.go(Double.POSITIVE_INFINITY)
@@ -44,6 +49,15 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
 
     /** Fits what is due, or a part of it. Answers whether another fit, of all readings, holds from now on. */
     fun learn(): Boolean = learn(work)
+
+    /** Fits to all there are, where all are kept and some came since the last fit. Answers whether that holds from now on. */
+    fun learnFromAll(): Boolean {
+        if (parts.isBusy) parts.go(Double.POSITIVE_INFINITY)
+        if (!tape.isComplete || tape.size == fitted) return false
+        parts.begin { decide() }
+        parts.go(Double.POSITIVE_INFINITY)
+        return true
+    }
 
     private fun learn(most: Double): Boolean {
         if (!parts.isBusy) {
@@ -63,6 +77,7 @@ internal class SensorLearner(settings: SelfCalibratingSettings, private val work
      */
     private suspend fun decide() {
         val size = tape.size
+        fitted = size
         val without = plain.begin()
         without.decide(size)
         var chosen = without

@@ -22,6 +22,9 @@ internal class SlewFilter : ReadingPlayer {
     private var lastSeconds = Double.NaN
     private var lastElapsed = 0.0
 
+    /** Time since the last reading at which the boat came into the present cell, s; 0 from its first reading on. */
+    private var unread = 0.0
+
     /** Mean of the logarithm of the time between two readings, s, and of how many. */
     private var usualInterval = 0.0
     private var intervals = 0
@@ -78,6 +81,7 @@ internal class SlewFilter : ReadingPlayer {
         agreements = 0
         usualInterval = 0.0
         intervals = 0
+        unread = 0.0
     }
 
     override fun leave() {
@@ -86,6 +90,23 @@ internal class SlewFilter : ReadingPlayer {
         if (before != LagBank.NONE) pool(before)
         before = LagBank.NONE
         here = LagBank.NONE
+    }
+
+    override fun enter(slot: Int, from: Double, until: Double) {
+        val middle = (from + until) / 2
+        val elapsed = middle - lastSeconds
+        move(UP * STRIDE, elapsed)
+        move(DOWN * STRIDE, -elapsed)
+        for (way in 0 until WAYS) {
+            // Up to the crossing it may have gone the other way.
+            val off = ways[way * STRIDE + R] * (until - from)
+            ways[way * STRIDE + SS] += off * off / 3
+        }
+        lastSeconds = middle
+        lastElapsed += elapsed
+        unread = elapsed
+        settle()
+        begin(slot)
     }
 
     /** Equal slots in a row are one visit. */
@@ -113,7 +134,9 @@ internal class SlewFilter : ReadingPlayer {
         }
         lastSeconds = seconds
         lastElapsed = elapsed
-        if (elapsed > 0) usualInterval += (ln(elapsed) - usualInterval) / ++intervals
+        val interval = elapsed + unread
+        unread = 0.0
+        if (interval > 0) usualInterval += (ln(interval) - usualInterval) / ++intervals
         // Level ways first: they start where the moving ones were.
         for (way in 0..1) rest(LEVEL + way, way, elapsed, value)
         for (way in 0..1) {

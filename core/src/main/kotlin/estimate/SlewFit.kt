@@ -30,6 +30,8 @@ internal class SlewFit(belief: SelfCalibratingSettings) : SensorFit(belief) {
     /** Step to which readings are rounded, 0 if they are not. */
     private var resolution = 0.0
 
+    override fun enter(slot: Int, from: Double, until: Double) = filter.enter(slot, from, until)
+
     override fun add(slot: Int, seconds: Double, value: Double) = filter.take(slot, seconds, value)
 
     override fun end() = filter.leave()

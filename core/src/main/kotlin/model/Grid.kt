@@ -75,6 +75,12 @@ public data class Grid(
         return if (inside) row.toInt() * columns + column.toInt() else OUTSIDE
     }
 
+    /** How far along the first axis the point ([x], [y]), local frame, m, is from the grid's origin, m. */
+    public fun alongColumns(x: Double, y: Double): Double = cosine * (x - origin.x) + sine * (y - origin.y)
+
+    /** How far along the second axis the point ([x], [y]), local frame, m, is from the grid's origin, m. */
+    public fun alongRows(x: Double, y: Double): Double = cosine * (y - origin.y) - sine * (x - origin.x)
+
     /**
      * How far the point ([x], [y]), local frame, m, is from the nearest line between two rows or columns, m: from the
      * border of its cell. NaN where a coordinate is. O(1), no allocation.

@@ -14,6 +14,8 @@ class RecordingTest {
         override val filters = 3
         var taken = 0
 
+        override fun enter(slot: Int, from: Double, until: Double) = Unit
+
         override fun take(slot: Int, seconds: Double, value: Double) {
             taken++
         }

@@ -70,7 +70,8 @@ class MapCommand : WorkCommand("map") {
     private val range by option(
         "--range",
         metavar = "LOW:HIGH",
-        help = "range of the water's values; without it the readings' range and a tenth more either way",
+        help = "range of the water's values; without it the readings' range and a tenth more either way, or what a " +
+            "lag that was learned shows",
     ).numberPair(':', "LOW:HIGH, two numbers, the first below the second") { low, high -> low < high }
     private val epsilon by option(
         "--epsilon",

@@ -28,21 +28,29 @@ internal class MapFilters(
     lag: LagFilterSettings,
     statistics: SurveyStatistics,
 ) {
-    private val estimators = settings.filters.associateWith { it.estimator(grid, prior, bounded, lag) }
+    private val learnsFromAll = statistics.readings <= MOST_RECALLED
+    private val learning = lag.selfCalibrating.copy(recalled = recalled(lag, statistics))
+    private val estimators: Map<FilterKind, FieldEstimator>
 
     /** The estimator that learns of the sensor; null where none was asked for. */
-    val learned: SelfCalibratingEstimator? = estimators.values.firstNotNullOfOrNull(::learner)
+    val learned: SelfCalibratingEstimator?
 
     /** What tells whether cells are even, where a filter takes that for granted. */
     private val judge: SelfCalibratingEstimator?
     private val running: Array<FieldEstimator>
 
     init {
+        val assumed = lag.copy(selfCalibrating = learning)
+        val made = settings.filters.associateWith { it.estimator(grid, prior, bounded, assumed) }
+        // What a Bayesian map reads its cells with is the self-calibrating filter: learning once is enough.
+        val shared = (made[FilterKind.BAYESIAN] as? BayesianMap)?.cells
+        estimators = made.mapValues { (kind, own) -> shared?.takeIf { kind == FilterKind.SELF_CALIBRATING } ?: own }
+        learned = estimators.values.firstNotNullOfOrNull(::learner)
         val isAsked = settings.correction == null && settings.filters.any { it.needsEvenCells }
         val needsOwn = learned == null && isAsked && statistics.readings <= MOST_JUDGED
-        val own = if (needsOwn) SelfCalibratingEstimator(grid, prior, lag.selfCalibrating) else null
+        val own = if (needsOwn) SelfCalibratingEstimator(grid, prior, learning) else null
         judge = learned ?: own
-        running = (estimators.values + listOfNotNull(own)).toTypedArray()
+        running = (estimators.values - setOfNotNull(shared) + listOfNotNull(own)).toTypedArray()
     }
 
     /** How well corrected readings are known; null where the readings themselves are mapped. */
@@ -64,7 +72,24 @@ internal class MapFilters(
         return true
     }
 
+    /** There are no more readings: what is learned of the sensor is learned from all of them. */
+    fun finish() {
+        for (estimator in running) learner(estimator)?.learnFromAll()
+    }
+
+    /** What of the water's range was learned from all readings; null where that cannot be told. */
+    val knownRange: Interval? get() = learned?.takeIf { learnsFromAll }?.knownRange()
+
     private companion object {
+        /** Readings at most that are gone through again each time the sensor is learned: a fraction of a second. */
+        const val MOST_RECALLED = 10_000
+
+        /** As many as there are: each reading may come after an interruption. */
+        fun recalled(lag: LagFilterSettings, statistics: SurveyStatistics): Int {
+            val all = 2 * minOf(statistics.readings, MOST_RECALLED.toLong()).toInt()
+            return maxOf(all, lag.selfCalibrating.recalled)
+        }
+
         /** Readings at most that are asked beside what was asked for: a fraction of a second. */
         const val MOST_JUDGED = 50_000
 

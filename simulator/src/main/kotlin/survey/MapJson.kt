@@ -65,6 +65,7 @@ object MapJson {
             put("lower", map.prior.lower)
             put("upper", map.prior.upper)
             put("given", map.rangeGiven)
+            put("widened_for_lag", map.isRangeWidened)
             put("readings_outside", map.outsideRange)
         }
         map.bounded?.let { put("epsilon_per_s", it.epsilon) }

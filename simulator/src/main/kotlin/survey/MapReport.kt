@@ -183,7 +183,8 @@ internal class MapReport(
                 "to 100 cells along the longer side."
         const val RANGE =
             "The range taken for the water is that of the readings and a tenth of it more either way, because a slow " +
-                "sensor falls short of the water's extremes."
+                "sensor falls short of the water's extremes; where a lag was learned from all readings, the range of " +
+                "the cells that it shows well and a tenth more, if that is wider."
         const val EPSILON =
             "Epsilon is the 99 % quantile of how far slopes are from their median over the stretch of the log where " +
                 "that is smallest, unless a stretch or a number was given; but not below the slope that one step of " +

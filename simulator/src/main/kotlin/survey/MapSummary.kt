@@ -90,7 +90,8 @@ class MapSummary(private val map: SurveyMap) {
 
     private fun range(): String {
         val outside = if (map.outsideRange == 0L) "" else "; ${map.outsideRange} readings lie outside"
-        return "${digits(map.prior.lower)} to ${wording.value(map.prior.upper)}$outside"
+        val widened = if (map.isRangeWidened) ", beyond the readings for the lag that was learned" else ""
+        return "${digits(map.prior.lower)} to ${wording.value(map.prior.upper)}$widened$outside"
     }
 
     private fun epsilon(value: Double): String {

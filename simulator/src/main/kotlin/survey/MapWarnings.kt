@@ -62,7 +62,7 @@ internal class MapWarnings(private val map: SurveyMap) {
 
     /** A lag so long that readings, and the range that is taken by these, fall far short of the water's. */
     private fun slow(): String? {
-        val learned = map.learned?.takeIf { it.isExplained && !map.rangeGiven } ?: return null
+        val learned = map.learned?.takeIf { it.isExplained && !map.rangeGiven && !map.isRangeLearned } ?: return null
         val field = learned.map
         val stay = statistics.duration / maxOf(field.visitedCells().sumOf { field.visits(it) }, 1)
         if (learned.timeConstant < stay) return null

@@ -104,6 +104,12 @@ class SurveyMap internal constructor(
     /** Whether the user gave [prior]. */
     val rangeGiven: Boolean get() = settings.prior != null
 
+    /** Whether [prior] holds what the filter that learned the sensor knows of the water's range: only of short logs. */
+    val isRangeLearned: Boolean get() = !rangeGiven && filters.knownRange != null
+
+    /** Whether it is wider for that than the readings and a tenth more. */
+    val isRangeWidened: Boolean get() = isRangeLearned && prior != WaterRange.ofReadings(statistics)
+
     /** Whether the user gave the bounded filter's epsilon. */
     val epsilonGiven: Boolean get() = settings.epsilon != null
 
@@ -129,7 +135,6 @@ class SurveyMap internal constructor(
     val correction: GivenCorrection? get() = settings.correction
 
     companion object {
-        private const val PRIOR_MARGIN = 0.1
         private const val METRES_A_KILOMETRE = 1000
 
         /** So many blocks of readings may wait for the first look. */
@@ -166,12 +171,12 @@ class SurveyMap internal constructor(
             val calibration = look.epsilon.calibration(log)?.atLeast(stepSlope)
             requireOnGlobe(log, settings.grid)
             val grid = GridChoice(statistics, track).grid(settings.grid)
-            val prior = settings.prior ?: prior(statistics)
+            var prior = settings.prior ?: WaterRange.ofReadings(statistics)
             val bounded = boundedSettings(settings, calibration)
             val forBounded = bounded ?: BoundedFilterSettings(epsilon = 0.0)
             val interval = interval(settings, statistics)
             val lag = settings.lagFilters.copy(interval = interval.settings)
-            val filters = MapFilters(settings, grid, prior, forBounded, lag, statistics)
+            var filters = MapFilters(settings, grid, prior, forBounded, lag, statistics)
             val passes = CellPasses(grid)
             val gaps = Gaps(statistics.gapLimit)
             var outsideRange = 0L
@@ -184,6 +189,14 @@ class SurveyMap internal constructor(
             val kept = look.kept
             if (kept.holds(first.readings)) kept.read(takeIn) else log.read(settings, { progress(bytes + it) }, takeIn)
             progress(2 * bytes)
+            filters.finish()
+            val wider = WaterRange.wider(prior, filters.knownRange).takeIf { settings.prior == null }
+            if (wider != null && kept.holds(first.readings)) {
+                prior = wider
+                filters = MapFilters(settings, grid, prior, forBounded, lag, statistics)
+                kept.read { time, x, y, value, _ -> filters.take(time, x, y, value) }
+                filters.finish()
+            }
             passes.finish()
             SurveyMap(
                 log,
@@ -267,11 +280,5 @@ class SurveyMap internal constructor(
             .copy(epsilon = settings.epsilon ?: calibration?.epsilon ?: 0.0)
             .takeIf { FilterKind.BOUNDED in settings.filters }
 
-        /** The readings' range and a tenth of it more either way: a slow sensor falls short of the water's extremes. */
-        private fun prior(statistics: SurveyStatistics): Interval {
-            val span = statistics.highest - statistics.lowest
-            val margin = if (span > 0) PRIOR_MARGIN * span else 0.5
-            return Interval(statistics.lowest - margin, statistics.highest + margin)
-        }
     }
 }
